@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The one place where errors become exit codes.
+#include "engine/cli/exit_code.h"
+
+#include <cstdio>
+#include <new>
+#include <stdexcept>
+
+#include "engine/cli/interrupt.h"
+
+namespace mw::cli {
+namespace {
+
+/// stdio, since it needs no memory when there is none left.
+int fail(int code, const char* what, const char* message) {
+  std::fprintf(stderr, "mwmesh: error: %s%s\n", what, message);
+  return code;
+}
+
+}  // namespace
+
+int exit_code(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::kInternal:
+      return kExitInternal;
+    case ErrorKind::kUsage:
+      return kExitUsage;
+    case ErrorKind::kInput:
+      return kExitInput;
+    case ErrorKind::kResource:
+      return kExitResource;
+    case ErrorKind::kCheckFailed:
+      return kExitCheckFailed;
+  }
+  return kExitInternal;
+}
+
+int guarded(const std::function<int()>& action) noexcept {
+  try {
+    return action();
+  } catch (const Error& error) {
+    return fail(exit_code(error.kind()), "", error.what());
+  } catch (const Interrupted&) {
+    return fail(kExitInterrupted, "", "interrupted; nothing was written");
+  } catch (const std::bad_alloc&) {
+    return fail(kExitResource, "", "out of memory; try a smaller volume or a larger machine");
+  } catch (const std::length_error& error) {
+    return fail(kExitResource, "more data than memory can hold: ", error.what());
+  } catch (const std::exception& error) {
+    return fail(kExitInternal, "internal: ", error.what());
+  } catch (...) {
+    return fail(kExitInternal, "internal: ", "unknown exception");
+  }
+}
+
+}  // namespace mw::cli

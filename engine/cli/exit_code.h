@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The one place where errors become exit codes.
+#pragma once
+
+#include <functional>
+
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitInternal = 1;
+inline constexpr int kExitUsage = 2;
+inline constexpr int kExitInput = 3;
+inline constexpr int kExitResource = 4;
+inline constexpr int kExitCheckFailed = 5;
+inline constexpr int kExitInterrupted = 130;
+
+[[nodiscard]] int exit_code(ErrorKind kind);
+
+/// Runs action; any exception becomes "mwmesh: error: ..." on stderr and its exit code.
+[[nodiscard]] int guarded(const std::function<int()>& action) noexcept;
+
+}  // namespace mw::cli

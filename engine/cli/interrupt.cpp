@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C and SIGTERM end a run between two steps.
+#include "engine/cli/interrupt.h"
+
+#include <signal.h>
+
+#include <atomic>
+
+namespace mw::cli {
+namespace {
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+
+void note_signal(int /*signal*/) {
+  interrupted = true;
+}
+
+}  // namespace
+
+void watch_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = note_signal;
+    action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+void stop_if_interrupted() {
+  if (interrupted) throw Interrupted{};
+}
+
+}  // namespace mw::cli

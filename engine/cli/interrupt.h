@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C and SIGTERM end a run between two steps, so that partial files are removed.
+#pragma once
+
+#include "io/volume/label_volume.h"
+
+namespace mw::cli {
+
+/// Thrown by stop_if_interrupted().
+struct Interrupted {};
+
+/// From now on the first SIGINT, SIGTERM or SIGHUP is only noted; a second one kills.  A signal
+/// that was ignored at the start (nohup) stays ignored.
+void watch_interrupts();
+
+/// ERRORS: Interrupted when a signal has been noted.  Thread-safe.
+void stop_if_interrupted();
+
+/// A volume whose reading can be interrupted.
+class InterruptibleVolume : public io::LabelVolume {
+ public:
+  explicit InterruptibleVolume(const io::LabelVolume& volume) : volume_(&volume) {}
+  [[nodiscard]] const io::VolumeInfo& info() const override { return volume_->info(); }
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    stop_if_interrupted();
+    volume_->read(box, out);
+  }
+
+ private:
+  const io::LabelVolume* volume_;
+};
+
+}  // namespace mw::cli

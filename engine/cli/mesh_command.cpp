@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// mwmesh mesh: a labelled volume to a mesh.
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "engine/cli/commands.h"
+#include "engine/cli/exit_code.h"
+#include "engine/cli/interrupt.h"
+#include "engine/cli/log.h"
+#include "engine/cli/mesh_facts.h"
+#include "engine/cli/mesh_request.h"
+#include "engine/cli/run_report.h"
+#include "engine/cli/selecting_sink.h"
+#include "engine/cli/values.h"
+#include "io/mesh/open_mesh.h"
+
+namespace mw::cli {
+namespace {
+
+struct MeshJob {
+  OptionSet options;
+  MeshRequest request;
+  std::string config;
+  bool print_config = false;
+};
+
+/// The files of a run, created before any work so that a bad path fails at once.
+struct MeshFiles {
+  explicit MeshFiles(const MeshRequest& request) : sink(io::open_mesh_sink(request.output)) {
+    if (!request.report.empty()) report.emplace(request.report);
+  }
+
+  std::unique_ptr<io::MeshSink> sink;
+  std::optional<io::AtomicFile> report;
+};
+
+void require_label(RawLabel label, const io::LabelTable& table, const char* option) {
+  if (table.contains(label)) return;
+  throw Error(ErrorKind::kUsage, std::string(option) + ": the volume has no label " +
+                                     format_label(label, table.is_signed()));
+}
+
+/// What --labels and --background leave to write.
+SelectingSink::Wanted wanted_labels(const MeshRequest& request, const io::LabelTable& table) {
+  if (request.background) {
+    require_label(*request.background, table, "--background");
+    if (table.size() == 1) throw Error(ErrorKind::kUsage, "--background: it is the only label");
+    return [left_out = *request.background](RawLabel label) { return label != left_out; };
+  }
+  for (const RawLabel label : *request.labels) require_label(label, table, "--labels");
+  const io::LabelTable kept(*request.labels, table.is_signed());
+  return [kept](RawLabel label) { return kept.contains(label); };
+}
+
+/// Vertices and tets of the result are those written.
+engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
+                            io::MeshSink& sink) {
+  Progress progress(request.progress);
+  const engine::RunHooks hooks{.progress = [&](std::uint64_t done, std::uint64_t total) {
+    stop_if_interrupted();
+    progress.show(done, total);
+  }};
+  if (!request.labels && !request.background) {
+    return engine::mesh_volume(volume, request.settings, sink, hooks);
+  }
+  SelectingSink selection(sink, wanted_labels(request, volume.table()));
+  engine::RunReport run = engine::mesh_volume(volume, request.settings, selection, hooks);
+  run.vertices = selection.mesh().vertices.size();
+  run.tets = selection.mesh().tets.size();
+  return run;
+}
+
+void print_summary(const FinishedRun& run, const MeshRequest& request) {
+  const double seconds = run.resources.wall_seconds;
+  const Index3 shape = run.volume.shape;
+  const double share = 100 * vertex_fraction(run.engine.vertices, shape);
+  std::cout << "vertices    " << run.engine.vertices << " (" << format_fixed(share, 2)
+            << " % of the voxel corners)\n"
+            << "tets        " << run.engine.tets << "\n"
+            << "seconds     " << format_fixed(seconds, 2) << "\n"
+            << "voxels/s    " << format_fixed(static_cast<double>(shape.product()) / seconds, 0)
+            << "\n"
+            << "peak memory " << format_bytes(run.resources.peak_rss_bytes) << "\n"
+            << "file        " << request.output.string() << std::endl;
+}
+
+int mesh(const MeshRequest& request, const OptionSet& options) {
+  watch_interrupts();
+  const ResourceMeter meter;
+  MeshFiles files(request);
+  spdlog::info("reading {}", request.volume.path.string());
+  const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
+  const InterruptibleVolume volume(*opened);
+  const io::LabelTable table = io::collect_labels(volume);
+  FinishedRun run{.volume = volume.info(), .labels = table.size()};
+  run.labels_seconds = meter.read().wall_seconds;
+  spdlog::info("meshing {} labels", table.size());
+  run.engine = mesh_into(request, io::DenseVolume(volume, table), *files.sink);
+  run.resources = meter.read();
+  print_summary(run, request);
+  if (files.report) {
+    spdlog::info("reading the mesh back for the report");
+    write_json(*files.report, run_report(run, request.output, options.json()));
+  }
+  return kExitDone;
+}
+
+int run_mesh(MeshJob& job) {
+  std::optional<std::filesystem::path> config;
+  if (!job.config.empty()) config = job.config;
+  job.options.resolve(config);
+  if (job.print_config) {
+    std::cout << job.options.toml();
+    return kExitDone;
+  }
+  check_mesh_request(job.request);
+  start_log(job.request.log_level);
+  return mesh(job.request, job.options);
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& program, Action& chosen) {
+  CLI::App* command = program.add_subcommand("mesh", "meshes a labelled volume");
+  const auto job = std::make_shared<MeshJob>();
+  add_mesh_options(job->options, job->request);
+  job->options.add_flags(*command);
+  command->add_option("--config", job->config, "TOML file with a key for each option, '-' as '_'")
+      ->type_name("FILE.toml");
+  command->add_flag("--print-config", job->print_config, "prints the effective config and exits");
+  command->footer(
+      "Every option may also come from the config file or from the environment as MW_NAME;\n"
+      "defaults < config < environment < flags.");
+  command->callback([job, &chosen] { chosen = [job] { return run_mesh(*job); }; });
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The options of `mwmesh mesh`.
+#include "engine/cli/mesh_request.h"
+
+#include <limits>
+
+#include "engine/cli/values.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+constexpr const char* kNone = "none";
+
+std::optional<double> parse_bound(const std::string& text) {
+  if (text == kNone) return std::nullopt;
+  const double bound = parse_number(text);
+  if (bound > 0) return bound;
+  throw Error(ErrorKind::kUsage, "must be positive, or none");
+}
+
+std::string bound_text(const std::optional<double>& bound) {
+  return bound ? format_number(*bound) : kNone;
+}
+
+int parse_window(const std::string& text) {
+  const std::int64_t edge = parse_integer(text);
+  if (edge > 0 && edge <= std::numeric_limits<int>::max()) return static_cast<int>(edge);
+  throw Error(ErrorKind::kUsage, "out of range");
+}
+
+void add_output_option(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "output",
+               .value = "OUTPUT",
+               .help = "mesh to write: .vtu or .mesh",
+               .flags = "-o,--output",
+               .assign = [&](const std::string& text) { request.output = text; }});
+}
+
+/// Options of the engine; each is checked as soon as it is set, so that errors name its place.
+void add_setting(OptionSet& options, MeshRequest& request, Option option,
+                 std::function<void(engine::MeshSettings&, const std::string&)> set) {
+  option.assign = [&request, set = std::move(set)](const std::string& text) {
+    set(request.settings, text);
+    engine::check(request.settings);
+  };
+  options.add(std::move(option));
+}
+
+void add_window_option(OptionSet& options, MeshRequest& request) {
+  add_setting(options, request,
+              {.name = "window",
+               .value = "N",
+               .help = "window edge in voxels, even",
+               .kind = ValueKind::kInteger,
+               .fallback = std::to_string(engine::MeshSettings{}.window)},
+              [](engine::MeshSettings& s, const std::string& t) { s.window = parse_window(t); });
+}
+
+void add_bound_options(OptionSet& options, MeshRequest& request) {
+  const engine::MeshSettings defaults;
+  add_setting(
+      options, request,
+      {.name = "edge-variance",
+       .value = "T|none",
+       .help = "bound on the variance of edge lengths, Eq (3)",
+       .kind = ValueKind::kNumberOrNone,
+       .fallback = bound_text(defaults.edge_variance)},
+      [](engine::MeshSettings& s, const std::string& t) { s.edge_variance = parse_bound(t); });
+  add_setting(
+      options, request,
+      {.name = "quality-floor",
+       .value = "R",
+       .help = "no tet below this radius ratio",
+       .kind = ValueKind::kNumber,
+       .fallback = format_number(defaults.quality_floor)},
+      [](engine::MeshSettings& s, const std::string& t) { s.quality_floor = parse_number(t); });
+  add_setting(
+      options, request,
+      {.name = "max-distance",
+       .value = "D|none",
+       .help = "bound in voxels, two-sided, between input and output interfaces",
+       .kind = ValueKind::kNumberOrNone,
+       .fallback = bound_text(defaults.max_distance)},
+      [](engine::MeshSettings& s, const std::string& t) { s.max_distance = parse_bound(t); });
+}
+
+void add_method_options(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "target-reduction",
+               .value = "F|none",
+               .help = "stop collapsing at this fraction of the voxel corners",
+               .kind = ValueKind::kNumberOrNone,
+               .fallback = kNone,
+               .today = kNone});
+  options.add({.name = "topology",
+               .value = "WHAT",
+               .help = "what is kept: labels, or interfaces as well",
+               .fallback = "labels",
+               .choices = {"labels", "interfaces"},
+               .today = "labels"});
+  add_setting(options, request,
+              {.name = "optimizer",
+               .value = "WHICH",
+               .help = "what improves tets after collapse: local, none; tetgen comes later",
+               .fallback = engine::MeshSettings{}.optimise ? "local" : kNone,
+               .choices = {"local", "tetgen", kNone}},
+              [](engine::MeshSettings& s, const std::string& t) {
+                if (t == "tetgen") {
+                  throw Error(ErrorKind::kUsage, "not available in this version; local is");
+                }
+                s.optimise = t == "local";
+              });
+  options.add({.name = "start",
+               .value = "MESH",
+               .help = "start mesh: dense, coarse, octree",
+               .fallback = "dense",
+               .choices = {"coarse", "octree", "dense"},
+               .today = "dense"});
+}
+
+void parse_threads(const std::string& text) {
+  if (parse_integer(text) < 1) throw Error(ErrorKind::kUsage, "must be at least 1");
+}
+
+void add_resource_options(OptionSet& options) {
+  options.add({.name = "threads",
+               .value = "N",
+               .help = "worker threads",
+               .kind = ValueKind::kInteger,
+               .fallback = "1",
+               .today = "1",
+               .assign = parse_threads});
+  options.add({.name = "memory",
+               .value = "SIZE",
+               .help = "hard budget for the process, e.g. 512MiB",
+               .kind = ValueKind::kSize,
+               .today = ""});
+  options.add({.name = "workdir",
+               .value = "DIR",
+               .help = "folder of the block store and journal",
+               .today = ""});
+  options.add({.name = "resume",
+               .help = "go on after a kill",
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .today = "false"});
+  options.add({.name = "order",
+               .value = "ORDER",
+               .help = "march order: raster, colour",
+               .fallback = "raster",
+               .choices = {"raster", "colour"},
+               .today = "raster"});
+}
+
+void add_selection_options(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "labels",
+               .value = "LIST",
+               .help = "labels to write, e.g. 1,2,5; others are meshed but left out of OUTPUT",
+               .kind = ValueKind::kLabels,
+               .assign = [&](const std::string& text) { request.labels = parse_labels(text); }});
+  options.add({.name = "background",
+               .value = "L",
+               .help = "label that is meshed but left out of OUTPUT",
+               .kind = ValueKind::kLabels,
+               .assign = [&](const std::string& text) { request.background = parse_label(text); }});
+}
+
+void add_output_options(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "report",
+               .value = "FILE.json",
+               .help = "writes a report of the run, read back from the finished mesh",
+               .assign = [&](const std::string& text) { request.report = text; }});
+  options.add(
+      {.name = "progress",
+       .value = "HOW",
+       .help = "auto (a bar on a terminal), none, jsonl (lines on stderr)",
+       .fallback = "auto",
+       .choices = {"auto", "none", "jsonl"},
+       .assign = [&](const std::string& text) { request.progress = parse_progress(text); }});
+  options.add({.name = "log-level",
+               .value = "LEVEL",
+               .help = "debug, info, warn, error, off",
+               .fallback = "warn",
+               .choices = {"debug", "info", "warn", "error", "off"},
+               .assign = [&](const std::string& text) { request.log_level = text; }});
+}
+
+}  // namespace
+
+void add_mesh_options(OptionSet& options, MeshRequest& request) {
+  add_input_option(options, request.volume.path);
+  add_output_option(options, request);
+  add_volume_options(options, request.volume);
+  add_window_option(options, request);
+  add_bound_options(options, request);
+  add_method_options(options, request);
+  add_resource_options(options);
+  add_selection_options(options, request);
+  add_output_options(options, request);
+}
+
+void check_mesh_request(const MeshRequest& request) {
+  require_path(request.output, "-o OUTPUT");
+  (void)open_options(request.volume);
+  if (request.labels && request.background) {
+    throw Error(ErrorKind::kUsage, "--labels and --background: give one of them, not both");
+  }
+  std::error_code ignored;
+  if (std::filesystem::equivalent(request.volume.path, request.output, ignored)) {
+    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is the input");
+  }
+  for (const auto& path : {request.volume.path, request.output}) {
+    const bool same =
+        !request.report.empty() && (std::filesystem::equivalent(path, request.report, ignored) ||
+                                    path.lexically_normal() == request.report.lexically_normal());
+    if (same) throw Error(ErrorKind::kUsage, "--report " + path.string() + ": name used twice");
+  }
+}
+
+}  // namespace mw::cli

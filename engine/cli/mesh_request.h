@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh mesh` is asked to do.
+#pragma once
+
+#include "engine/cli/progress.h"
+#include "engine/cli/volume_options.h"
+#include "engine/settings.h"
+
+namespace mw::cli {
+
+struct MeshRequest {
+  VolumeRequest volume;
+  std::filesystem::path output;
+  std::filesystem::path report;  ///< empty: none
+  engine::MeshSettings settings;
+  std::optional<std::vector<RawLabel>> labels;  ///< the only ones to write
+  std::optional<RawLabel> background;           ///< the one not to write
+  ProgressKind progress = ProgressKind::kNone;
+  std::string log_level;
+};
+
+/// Every option of the subcommand, in the order of the documentation.
+/// REQUIRES: request outlives options.
+void add_mesh_options(OptionSet& options, MeshRequest& request);
+
+/// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other.
+void check_mesh_request(const MeshRequest& request);
+
+}  // namespace mw::cli

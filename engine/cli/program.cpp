@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The whole command line: subcommands, messages, exit codes.
+#include "engine/cli/program.h"
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+
+#include "engine/cli/commands.h"
+#include "engine/cli/exit_code.h"
+
+namespace mw::cli {
+namespace {
+
+constexpr const char* kAbout =
+    "From a labelled voxel volume to a verified tetrahedral mesh.\n"
+    "Exit codes: 0 done, 1 internal error, 2 usage or config, 3 bad input, 4 out of a resource,\n"
+    "5 a check failed, 130 interrupted.";
+
+void add_commands(CLI::App& app, Action& chosen) {
+  add_mesh_command(app, chosen);
+  add_verify_command(app, chosen);
+  add_digest_command(app, chosen);
+  add_info_command(app, chosen);
+  add_convert_command(app, chosen);
+  add_synth_command(app, chosen);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "mwmesh " MW_VERSION);
+  for (CLI::App* command : app.get_subcommands({})) {
+    command->set_version_flag("--version", "mwmesh " MW_VERSION);
+  }
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app(kAbout, "mwmesh");
+  Action chosen;
+  add_commands(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // --help and --version
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorKind::kUsage, std::string(error.what()) + "; see mwmesh --help");
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) noexcept {
+  // A file size limit is then a failed write with a message instead of a silent death.
+  (void)std::signal(SIGXFSZ, SIG_IGN);
+  return guarded([&] { return parse_and_run(argc, argv); });
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The report of a run of `mwmesh mesh`.
+#include "engine/cli/run_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/cli/mesh_facts.h"
+#include "io/mesh/digest.h"
+#include "io/mesh/open_mesh.h"
+
+namespace mw::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json input_json(const FinishedRun& run) {
+  const io::VolumeInfo& info = run.volume;
+  return {{"format", info.format},
+          {"type", io::name(info.type)},
+          {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
+          {"spacing_xyz", info.spacing},
+          {"origin_xyz", info.origin},
+          {"labels", run.labels},
+          {"voxels", info.shape.product()}};
+}
+
+ordered_json output_json(const FinishedRun& run, const io::MeshData& mesh,
+                         const std::filesystem::path& path) {
+  return {{"file", path.string()},
+          {"vertices", mesh.vertices.size()},
+          {"tets", mesh.tets.size()},
+          {"vertex_fraction", vertex_fraction(mesh.vertices.size(), run.volume.shape)}};
+}
+
+ordered_json performance_json(const FinishedRun& run) {
+  const auto voxels = static_cast<double>(run.volume.shape.product());
+  const double rate = voxels / run.resources.wall_seconds;
+  const engine::RunReport& engine = run.engine;
+  return {{"wall_s", run.resources.wall_seconds},
+          {"cpu_s", run.resources.cpu_seconds},
+          {"voxels_per_s", rate},
+          {"voxels_per_s_per_core", rate},  // one thread
+          {"peak_rss_bytes", run.resources.peak_rss_bytes},
+          {"stages",
+           {{"labels_s", run.labels_seconds},
+            {"start_s", engine.start_seconds},
+            {"simplify_s", engine.simplify_seconds},
+            {"optimise_s", engine.optimise_seconds},
+            {"exchange_s", engine.exchange_seconds},
+            {"output_s", engine.output_seconds}}}};
+}
+
+ordered_json engine_json(const FinishedRun& run) {
+  return {{"windows", run.engine.windows},  {"threads", 1},
+          {"memory_budget_bytes", nullptr}, {"peak_accounted_bytes", nullptr},
+          {"blocks_spilled", nullptr},      {"bytes_written", nullptr},
+          {"bytes_read", nullptr}};
+}
+
+}  // namespace
+
+double vertex_fraction(std::uint64_t vertices, Index3 shape) {
+  const Index3 corners = shape + Index3{1, 1, 1};
+  return static_cast<double>(vertices) / static_cast<double>(corners.product());
+}
+
+ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
+                        ordered_json settings) {
+  const io::MeshData data = io::read_mesh(mesh);
+  return {{"version", MW_VERSION},
+          {"settings", std::move(settings)},
+          {"input", input_json(run)},
+          {"output", output_json(run, data, mesh)},
+          {"quality", quality_json(audit::measure_quality(audit_view(data, {})))},
+          {"distance", {{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}}},
+          {"topology", {{"checked", false}, {"labels_changed", nullptr}}},
+          {"performance", performance_json(run)},
+          {"engine", engine_json(run)},
+          {"digest", io::mesh_digest(data)}};
+}
+
+}  // namespace mw::cli

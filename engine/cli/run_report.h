@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The report of a run of `mwmesh mesh` (--report); its keys are fixed by the documentation.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/cli/resource_meter.h"
+#include "engine/run.h"
+
+namespace mw::cli {
+
+/// What a run knows when its mesh has been written.
+struct FinishedRun {
+  const io::VolumeInfo& volume;
+  std::size_t labels = 0;
+  engine::RunReport engine;
+  double labels_seconds = 0;  ///< reading the volume once for its labels
+  Resources resources;        ///< until the mesh was written
+};
+
+/// Vertices of a mesh per corner of the volume's voxels.
+[[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
+
+/// Reads the finished mesh back for quality and digest.  What nobody measured is null.
+[[nodiscard]] nlohmann::ordered_json run_report(const FinishedRun& run,
+                                                const std::filesystem::path& mesh,
+                                                nlohmann::ordered_json settings);
+
+}  // namespace mw::cli

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Values of options from text and back.
+#include "engine/cli/values.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+[[noreturn]] void fail_expected(std::string_view expected, std::string_view text) {
+  throw Error(ErrorKind::kUsage,
+              "expected " + std::string(expected) + ", got '" + std::string(text) + "'");
+}
+
+/// Reads all of text as a T; false when that fails.
+template <class T>
+bool read_all(std::string_view text, T& value) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && !text.empty();
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t comma = text.find(','); comma != text.npos; comma = text.find(',')) {
+    parts.push_back(text.substr(0, comma));
+    text.remove_prefix(comma + 1);
+  }
+  parts.push_back(text);
+  return parts;
+}
+
+}  // namespace
+
+std::int64_t parse_integer(std::string_view text) {
+  std::int64_t value = 0;
+  if (!read_all(text, value)) fail_expected("an integer", text);
+  return value;
+}
+
+double parse_number(std::string_view text) {
+  double value = 0;
+  if (!read_all(text, value) || !std::isfinite(value)) fail_expected("a finite number", text);
+  return value;
+}
+
+std::array<double, 3> parse_numbers(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text);
+  if (parts.size() != 3) fail_expected("three numbers X,Y,Z", text);
+  std::array<double, 3> out{};
+  for (std::size_t i = 0; i < 3; ++i) out[i] = parse_number(parts[i]);
+  return out;
+}
+
+Index3 parse_shape(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text);
+  std::array<std::int64_t, 3> out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (parts.size() != 3 || !read_all(parts[i], out[i]) || out[i] < 1) {
+      fail_expected("three positive integers X,Y,Z", text);
+    }
+  }
+  return {out[0], out[1], out[2]};
+}
+
+RawLabel parse_label(std::string_view text) {
+  RawLabel label = 0;
+  if (read_all(text, label)) return label;
+  std::int64_t negative = 0;
+  if (!read_all(text, negative)) fail_expected("a label of at most 64 bits", text);
+  return static_cast<RawLabel>(negative);
+}
+
+std::vector<RawLabel> parse_labels(std::string_view text) {
+  std::vector<RawLabel> labels;
+  for (const std::string_view part : split(text)) labels.push_back(parse_label(part));
+  return labels;
+}
+
+bool parse_switch(std::string_view text) {
+  if (text == "true" || text == "1") return true;
+  if (text == "false" || text == "0") return false;
+  fail_expected("true or false", text);
+}
+
+std::uint64_t parse_size(std::string_view text) {
+  constexpr std::array<std::string_view, 5> kUnits{"", "KiB", "MiB", "GiB", "TiB"};
+  std::uint64_t count = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, count);
+  const std::string_view unit(stop, static_cast<std::size_t>(end - stop));
+  for (std::size_t i = 0; error == std::errc() && i < kUnits.size(); ++i) {
+    const bool fits = count <= (std::numeric_limits<std::uint64_t>::max() >> (10 * i));
+    if (unit == kUnits[i] && fits && count > 0) return count << (10 * i);
+  }
+  fail_expected("a size such as 512MiB or 4GiB", text);
+}
+
+std::string format_number(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return {digits.data(), end};
+}
+
+std::string format_label(RawLabel label, bool is_signed) {
+  return is_signed ? std::to_string(static_cast<std::int64_t>(label)) : std::to_string(label);
+}
+
+std::string format_bytes(std::uint64_t bytes) {
+  return format_fixed(static_cast<double>(bytes) / (1 << 20), 1) + " MiB";
+}
+
+std::string format_fixed(double value, int digits) {
+  std::array<char, 400> text{};  // the longest double has 309 digits before the point
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, digits)
+          .ptr;
+  return {text.data(), end};
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Values of options from text and back.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/core/index.h"
+#include "kernels/core/label.h"
+
+namespace mw::cli {
+
+/// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.
+[[nodiscard]] std::int64_t parse_integer(std::string_view text);
+[[nodiscard]] double parse_number(std::string_view text);                  ///< finite
+[[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z"
+[[nodiscard]] Index3 parse_shape(std::string_view text);                   ///< "X,Y,Z", each >= 1
+[[nodiscard]] RawLabel parse_label(std::string_view text);  ///< negative: two's complement
+[[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
+[[nodiscard]] bool parse_switch(std::string_view text);  ///< "true", "false", "1", "0"
+/// "4096", "64KiB", "512MiB", "4GiB", "1TiB" in bytes.
+[[nodiscard]] std::uint64_t parse_size(std::string_view text);
+
+/// Shortest decimal that reads back as the same double.
+[[nodiscard]] std::string format_number(double value);
+[[nodiscard]] std::string format_label(RawLabel label, bool is_signed);
+/// "12.3 MiB".
+[[nodiscard]] std::string format_bytes(std::uint64_t bytes);
+/// With the given number of digits after the point.
+[[nodiscard]] std::string format_fixed(double value, int digits);
+
+}  // namespace mw::cli

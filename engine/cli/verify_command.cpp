@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// mwmesh verify: promises P1 to P3 of a finished mesh, independently of how it was made.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "engine/cli/commands.h"
+#include "engine/cli/exit_code.h"
+#include "engine/cli/mesh_facts.h"
+#include "engine/cli/resource_meter.h"
+#include "engine/cli/values.h"
+#include "engine/cli/volume_options.h"
+#include "io/mesh/open_mesh.h"
+#include "kernels/audit/audit.h"
+
+namespace mw::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct VerifyJob {
+  OptionSet options;
+  VolumeRequest volume;
+  std::filesystem::path mesh;
+  std::filesystem::path report;
+  audit::AuditOptions audit;
+};
+
+struct Verdict {
+  audit::AuditReport audit;
+  std::vector<std::string> labels_changed;  ///< as the input has them, or "exterior"
+  std::uint64_t labels = 0;
+
+  /// The first check asks whether the file holds a mesh at all.
+  [[nodiscard]] bool looked_at() const { return audit.checks.front().passed; }
+};
+
+void add_verify_options(VerifyJob& job) {
+  OptionSet& options = job.options;
+  add_input_option(options, job.volume.path);
+  options.add({.name = "mesh",
+               .value = "MESH",
+               .help = "mesh to check: .vtu or .mesh",
+               .flags = "MESH,--mesh",
+               .assign = [&](const std::string& text) { job.mesh = text; }});
+  add_volume_options(options, job.volume);
+  options.add({.name = "quality-floor",
+               .value = "R",
+               .help = "P3 fails for a tet below this radius ratio",
+               .kind = ValueKind::kNumber,
+               .fallback = format_number(audit::AuditOptions{}.radius_ratio_floor),
+               .assign = [&](const std::string& text) {
+                 job.audit.radius_ratio_floor = parse_number(text);
+               }});
+  options.add({.name = "report",
+               .value = "FILE.json",
+               .help = "writes the result as JSON",
+               .assign = [&](const std::string& text) { job.report = text; }});
+}
+
+std::vector<std::string> changed_labels(const audit::AuditReport& audit,
+                                        const io::LabelTable& table) {
+  std::vector<std::string> out;
+  for (const Label label : audit.labels_changed) {
+    out.push_back(label == kExterior ? "exterior"
+                                     : format_label(table.raw(label), table.is_signed()));
+  }
+  return out;
+}
+
+Verdict judge(const VerifyJob& job) {
+  const std::unique_ptr<io::LabelVolume> volume = open(job.volume);
+  const io::LabelTable table = io::collect_labels(*volume);
+  const io::VolumeInfo& info = volume->info();
+  std::vector<Label> voxels(static_cast<std::size_t>(info.shape.product()));
+  io::DenseVolume(*volume, table).read({{0, 0, 0}, info.shape}, voxels);
+  const io::MeshData mesh = io::read_mesh(job.mesh);
+  const std::vector<Label> labels = dense_labels(mesh, table);
+  Verdict verdict;
+  verdict.audit =
+      audit::audit({.shape = info.shape, .labels = voxels}, table.size(), audit_view(mesh, labels),
+                   {.spacing = info.spacing, .origin = info.origin}, job.audit);
+  verdict.labels_changed = changed_labels(verdict.audit, table);
+  verdict.labels = table.size();
+  return verdict;
+}
+
+void print_verdict(const Verdict& verdict) {
+  const auto& checks = verdict.audit.checks;
+  for (const audit::Check& check : checks) {
+    std::string name = check.name;
+    name.resize(std::max<std::size_t>(name.size(), 16), ' ');
+    std::cout << (check.passed ? "ok    " : "FAIL  ") << name << " " << check.detail << "\n";
+  }
+  if (!verdict.labels_changed.empty()) {
+    std::cout << "labels whose topology changed:";
+    for (const std::string& label : verdict.labels_changed) std::cout << " " << label;
+    std::cout << "\n";
+  }
+  if (verdict.looked_at()) print_quality(verdict.audit.quality);
+  const auto failed = std::count_if(checks.begin(), checks.end(),
+                                    [](const audit::Check& check) { return !check.passed; });
+  std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail") << "\n";
+}
+
+ordered_json checks_json(const audit::AuditReport& audit) {
+  ordered_json out = ordered_json::array();
+  for (const audit::Check& check : audit.checks) {
+    out.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
+  }
+  return out;
+}
+
+ordered_json topology_json(const Verdict& verdict) {
+  if (!verdict.looked_at()) return {{"checked", false}, {"labels_changed", nullptr}};
+  return {{"checked", true},
+          {"labels_changed", verdict.labels_changed.size()},
+          {"changed", verdict.labels_changed},
+          {"indicative_only", verdict.audit.topology_is_indicative}};
+}
+
+ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
+                           const Resources& resources) {
+  const bool measured = verdict.looked_at();
+  return {{"version", MW_VERSION},
+          {"settings", job.options.json()},
+          {"labels", verdict.labels},
+          {"passed", verdict.audit.passed()},
+          {"checks", checks_json(verdict.audit)},
+          {"quality", measured ? quality_json(verdict.audit.quality) : ordered_json(nullptr)},
+          {"topology", topology_json(verdict)},
+          {"performance",
+           {{"wall_s", resources.wall_seconds},
+            {"cpu_s", resources.cpu_seconds},
+            {"peak_rss_bytes", resources.peak_rss_bytes}}}};
+}
+
+int run_verify(VerifyJob& job) {
+  job.options.resolve();
+  require_path(job.mesh, "MESH");
+  const ResourceMeter meter;
+  std::optional<io::AtomicFile> report;
+  if (!job.report.empty()) report.emplace(job.report);
+  const Verdict verdict = judge(job);
+  print_verdict(verdict);
+  if (report) write_json(*report, verify_report(job, verdict, meter.read()));
+  return verdict.audit.passed() ? kExitDone : kExitCheckFailed;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& program, Action& chosen) {
+  CLI::App* command = program.add_subcommand("verify", "checks a mesh against its volume");
+  const auto job = std::make_shared<VerifyJob>();
+  add_verify_options(*job);
+  job->options.add_flags(*command);
+  command->callback([job, &chosen] { chosen = [job] { return run_verify(*job); }; });
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a user can choose about a run; the result is a function of the volume and of these.
+#pragma once
+
+#include <optional>
+
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+
+struct MeshSettings {
+  int window = 32;                      ///< window edge in voxels, even
+  std::optional<double> edge_variance;  ///< bound on Eq (3), none: unbounded
+  double quality_floor = 0.1;           ///< no tet below this radius ratio
+  std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
+  bool optimise = true;                 ///< local optimisation after each simplification
+};
+
+/// ERRORS: mw::Error(kUsage) naming the setting, its value and what is allowed.
+void check(const MeshSettings& settings);
+
+}  // namespace mw::engine

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Gather and scatter between blocks and the mesh of a window.
+#include "engine/window.h"
+
+#include <algorithm>
+
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+namespace {
+
+std::vector<BlockVertex> merged_vertices(std::span<const BlockMesh> blocks) {
+  std::vector<BlockVertex> all;
+  for (const BlockMesh& b : blocks) all.insert(all.end(), b.vertices.begin(), b.vertices.end());
+  std::sort(all.begin(), all.end(),
+            [](const BlockVertex& a, const BlockVertex& b) { return a.id < b.id; });
+  const auto same_id = [](const BlockVertex& a, const BlockVertex& b) {
+    MW_ASSERT(a.id != b.id || a == b);
+    return a.id == b.id;
+  };
+  all.erase(std::unique(all.begin(), all.end(), same_id), all.end());
+  return all;
+}
+
+/// The window's row of each vertex of a block; both lists ascend by id.
+std::vector<LocalVertex> window_rows(const BlockMesh& block,
+                                     std::span<const BlockVertex> vertices) {
+  std::vector<LocalVertex> row(block.vertices.size());
+  LocalVertex next = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    while (vertices[next].id != block.vertices[i].id) ++next;
+    row[i] = next;
+  }
+  return row;
+}
+
+void check_extent(const BlockTet& t, std::span<const BlockVertex> vertices) {
+  const auto spread = [&](auto coordinate) {
+    std::int64_t lo = coordinate(vertices[t.vertices[0]].position), hi = lo;
+    for (std::uint32_t v : t.vertices) {
+      lo = std::min<std::int64_t>(lo, coordinate(vertices[v].position));
+      hi = std::max<std::int64_t>(hi, coordinate(vertices[v].position));
+    }
+    return hi - lo;
+  };
+  if (spread([](Point p) { return p.x; }) > kMaxTetExtent ||
+      spread([](Point p) { return p.y; }) > kMaxTetExtent ||
+      spread([](Point p) { return p.z; }) > kMaxTetExtent) {
+    throw Error(ErrorKind::kInternal, "a tetrahedron outgrew the range of exact arithmetic");
+  }
+}
+
+std::int32_t lattice(std::int64_t voxels) {
+  return static_cast<std::int32_t>(voxels * kUnitsPerVoxel);
+}
+
+/// Tets and samples of one block to be, still with rows of the window.
+struct Share {
+  std::vector<BlockTet> tets;
+  std::vector<BlockSample> samples;
+};
+
+BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row) {
+  BlockMesh out;
+  std::vector<LocalVertex> used;
+  for (const BlockTet& t : share.tets) {
+    used.insert(used.end(), t.vertices.begin(), t.vertices.end());
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    row[used[i]] = static_cast<std::uint32_t>(i);
+    out.vertices.push_back(mesh.vertex(used[i]));
+  }
+  for (BlockTet& t : share.tets) {
+    for (std::uint32_t& v : t.vertices) v = row[v];
+  }
+  for (BlockSample& s : share.samples) {
+    for (std::uint32_t& v : s.triangle) v = row[v];
+  }
+  std::sort(share.tets.begin(), share.tets.end());
+  std::sort(share.samples.begin(), share.samples.end());
+  out.tets = std::move(share.tets);
+  out.samples = std::move(share.samples);
+  return out;
+}
+
+/// Takes along the samples on the faces of a tet that is on their side.
+void take_samples(const WindowContent& content, const BlockTet& tet, Share& share) {
+  if (content.samples.empty()) return;
+  const auto& v = tet.vertices;
+  const std::array<TriangleKey, 4> faces{{{v[1], v[2], v[3]},
+                                          {v[0], v[2], v[3]},
+                                          {v[0], v[1], v[3]},
+                                          {v[0], v[1], v[2]}}};
+  const auto may_carry = [&](LocalVertex w) {
+    return !content.mesh.is_free(w) || content.mesh.on_interface(w);
+  };
+  for (const TriangleKey& face : faces) {
+    if (!may_carry(face[0]) || !may_carry(face[1]) || !may_carry(face[2])) continue;
+    const CarriedSamples::List* list = content.samples.find(face);
+    if (list == nullptr || list->side != tet.label) continue;
+    for (FaceSample s : list->samples) share.samples.push_back({face, list->side, s});
+  }
+}
+
+}  // namespace
+
+WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume) {
+  std::vector<BlockVertex> vertices = merged_vertices(blocks);
+  std::vector<BlockTet> tets;
+  CarriedSamples samples;
+  for (const BlockMesh& b : blocks) {
+    const std::vector<LocalVertex> row = window_rows(b, vertices);
+    for (BlockTet t : b.tets) {
+      for (std::uint32_t& v : t.vertices) v = row[v];
+      tets.push_back(t);
+    }
+    for (const BlockSample& s : b.samples) {
+      samples.add({row[s.triangle[0]], row[s.triangle[1]], row[s.triangle[2]]}, s.side, s.sample);
+    }
+  }
+  std::sort(tets.begin(), tets.end());
+  for (const BlockTet& t : tets) check_extent(t, vertices);
+  const Point box{lattice(volume.x), lattice(volume.y), lattice(volume.z)};
+  return {TetMesh(std::move(vertices), tets, box), std::move(samples)};
+}
+
+std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,
+                               Index3 window) {
+  const TetMesh& mesh = content.mesh;
+  const std::vector<Index3> blocks = grid.blocks_of(window);
+  std::vector<Share> shares(blocks.size());
+  for (const LocalTet& t : mesh.tets()) {
+    std::array<std::int64_t, 3> sum{};
+    for (LocalVertex v : t.vertices) {
+      const Point p = mesh.position(v);
+      sum[0] += p.x;
+      sum[1] += p.y;
+      sum[2] += p.z;
+    }
+    const Index3 owner = grid.owner(window, sum);
+    const auto place = std::find(blocks.begin(), blocks.end(), owner) - blocks.begin();
+    Share& share = shares[static_cast<std::size_t>(place)];
+    BlockTet out{t.vertices, t.label};
+    std::sort(out.vertices.begin(), out.vertices.end());
+    share.tets.push_back(out);
+    take_samples(content, out, share);
+  }
+  std::vector<std::uint32_t> row(mesh.vertex_count());
+  std::vector<BlockMesh> out;
+  for (Share& share : shares) out.push_back(pack(mesh, std::move(share), row));
+  return out;
+}
+
+Box3 voxels_around(const TetMesh& mesh, std::int64_t halo) {
+  Point lo = mesh.position(0), hi = lo;
+  for (LocalVertex v = 1; v < mesh.vertex_count(); ++v) {
+    const Point p = mesh.position(v);
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+  }
+  const auto floor_voxel = [](std::int32_t u) { return std::int64_t{u} / kUnitsPerVoxel; };
+  const Index3 around{halo, halo, halo};
+  return {Index3{floor_voxel(lo.x), floor_voxel(lo.y), floor_voxel(lo.z)} - around,
+          Index3{floor_voxel(hi.x) + 1, floor_voxel(hi.y) + 1, floor_voxel(hi.z) + 1} + around};
+}
+
+}  // namespace mw::engine

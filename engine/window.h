@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// One window: blocks in, kernels, blocks out.
+#pragma once
+
+#include <span>
+
+#include "engine/window_grid.h"
+#include "kernels/distance/carried_samples.h"
+#include "kernels/mesh/tet_mesh.h"
+
+namespace mw::engine {
+
+/// What a window works on.
+struct WindowContent {
+  TetMesh mesh;
+  CarriedSamples samples;
+};
+
+/// Merges blocks into the content of a window.
+/// REQUIRES: canonical blocks; copies of a vertex are equal.
+/// ENSURES: a function of the content alone, not of the order of the blocks.
+[[nodiscard]] WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume);
+
+/// Deals the tets of a window to the owner blocks of their barycentres, canonically; samples go
+/// with the tet on the side of their triangle's smaller label.
+/// Result in the order of grid.blocks_of(window).
+[[nodiscard]] std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,
+                                             Index3 window);
+
+/// The voxels that the content of a window reaches into, and `halo` around them.
+[[nodiscard]] Box3 voxels_around(const TetMesh& mesh, std::int64_t halo);
+
+}  // namespace mw::engine

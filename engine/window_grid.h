@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Blocks, windows and the marching order (Sec 4.1): who covers what, and who comes before whom.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernels/core/index.h"
+#include "kernels/core/lattice.h"
+
+namespace mw::engine {
+
+/// Cuts a volume into cubic blocks and covers it by windows of 2 x 2 x 2 blocks, one block apart.
+///
+/// Blocks at the far sides may be short.  An axis of a single block has a single window.  Windows
+/// march x fastest, then y, then z.
+class WindowGrid {
+ public:
+  /// REQUIRES: every axis of volume >= 1; window even and >= 2.
+  WindowGrid(Index3 volume, int window);
+
+  [[nodiscard]] Index3 volume() const { return volume_; }
+  [[nodiscard]] Index3 blocks() const { return blocks_; }
+  [[nodiscard]] Index3 windows() const { return windows_; }
+
+  /// Voxels of a block, cut off at the volume.
+  [[nodiscard]] Box3 block_box(Index3 block) const;
+
+  /// The blocks of a window, ascending in raster order: 8, fewer along axes of a single block.
+  [[nodiscard]] std::vector<Index3> blocks_of(Index3 window) const;
+
+  /// The block of a window that holds a position, clamped into the window: a tet is owned by the
+  /// block of its barycentre, or by the nearest block of the window that wrote it.
+  /// `sum` is the sum of the positions of a tet's four vertices, exact.
+  [[nodiscard]] Index3 owner(Index3 window, const std::array<std::int64_t, 3>& sum) const;
+
+  /// The windows that must be finished before this one: the transitive reduction of its 13
+  /// neighbours earlier in march order, which is (-1,0,0), (+1,-1,0), (+1,+1,-1), clamped where a
+  /// +1 leaves the grid.
+  [[nodiscard]] std::vector<Index3> predecessors(Index3 window) const;
+
+ private:
+  Index3 volume_;
+  std::int64_t block_edge_;
+  Index3 blocks_;
+  Index3 windows_;
+};
+
+/// Position of i in an x-fastest array of shape s.
+[[nodiscard]] inline std::size_t raster(Index3 i, Index3 s) {
+  return static_cast<std::size_t>((i.z * s.y + i.y) * s.x + i.x);
+}
+
+}  // namespace mw::engine

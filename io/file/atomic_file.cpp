@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// An output file that appears under its name only when it is whole.
+#include "io/file/atomic_file.h"
+
+#include <fcntl.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <string>
+
+#include "io/file/errors.h"
+#include "kernels/core/assert.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kBufferBytes = 1 << 20;
+
+/// A link is followed, so that the file it names is replaced and not the link; anything that
+/// exists and is no plain file (a folder, a device) is refused.
+std::filesystem::path resolve(const std::filesystem::path& target) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(target, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw Error(ErrorKind::kUsage,
+                target.string() +
+                    ": cannot create: exists and is not a regular file; give the "
+                    "path of a file");
+  }
+  if (!std::filesystem::is_symlink(target, ignored)) return target;
+  return std::filesystem::weakly_canonical(target, ignored);
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& target) {
+  return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
+}
+
+std::filesystem::path partial_name(const std::filesystem::path& target) {
+  static std::atomic<unsigned> counter{0};
+  return folder_of(target) /
+         text(".", target.filename().string(), ".partial-", ::getpid(), "-", counter++);
+}
+
+/// The rename itself is safe only once the folder is on the disk; file systems that cannot sync a
+/// folder say so, and that is not the user's problem.
+void sync_folder(const std::filesystem::path& folder) {
+  const FileDescriptor handle(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (handle.valid()) ::fsync(handle.get());
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolve(target)) {
+  if (!target_.has_filename()) {
+    throw Error(ErrorKind::kUsage, target.string() + ": cannot create: no file name in the path");
+  }
+  // Not mkostemp: its mode 0600 would survive the rename; here the user's umask holds.
+  do {
+    partial_ = partial_name(target_);
+    file_ = FileDescriptor(::open(partial_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  } while (!file_.valid() && errno == EEXIST);
+  if (!file_.valid()) fail_output(target.string(), "create", errno);
+  buffer_.reserve(kBufferBytes);
+}
+
+AtomicFile::~AtomicFile() {
+  if (!committed_) ::unlink(partial_.c_str());
+}
+
+void AtomicFile::append(std::span<const std::byte> bytes) {
+  if (buffer_.size() + bytes.size() > kBufferBytes) flush();
+  if (bytes.size() >= kBufferBytes) {
+    write_at(flushed_, bytes);
+    flushed_ += bytes.size();
+  } else {
+    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  }
+}
+
+void AtomicFile::append(std::string_view text) {
+  append(std::as_bytes(std::span(text)));
+}
+
+void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  MW_ASSERT(!committed_);
+  while (!bytes.empty()) {
+    const ssize_t wrote =
+        ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (wrote < 0 && errno == EINTR) continue;
+    if (wrote < 0) fail_output(target_.string(), "write", errno);
+    offset += static_cast<std::uint64_t>(wrote);
+    bytes = bytes.subspan(static_cast<std::size_t>(wrote));
+  }
+}
+
+void AtomicFile::flush() {
+  write_at(flushed_, buffer_);
+  flushed_ += buffer_.size();
+  buffer_.clear();
+}
+
+void AtomicFile::commit() {
+  flush();
+  if (::fsync(file_.get()) != 0) fail_output(target_.string(), "sync", errno);
+  if (std::rename(partial_.c_str(), target_.c_str()) != 0) {
+    fail_output(target_.string(), "rename to", errno);
+  }
+  committed_ = true;
+  sync_folder(folder_of(target_));
+}
+
+}  // namespace mw::io

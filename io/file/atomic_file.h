@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// An output file that appears under its name only when it is whole.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "io/file/file_descriptor.h"
+
+namespace mw::io {
+
+/// Writes to ".<name>.partial-<n>" beside the target; commit() gives it its name in one step.
+/// The destructor of a file that was not committed removes the partial one.
+/// ERRORS (all members): mw::Error(kResource) when the disk is full; kUsage when the path cannot
+/// be written.  Thread safety: none.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& target);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Adds bytes at the end of what was appended before; buffered.
+  void append(std::span<const std::byte> bytes);
+  void append(std::string_view text);
+  /// Writes bytes at offset, unbuffered; does not move the place where append() writes.
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+  /// Number of bytes appended so far.
+  [[nodiscard]] std::uint64_t appended() const { return flushed_ + buffer_.size(); }
+  /// Flushes, syncs and renames.  REQUIRES: called once; nothing is written afterwards.
+  void commit();
+
+ private:
+  void flush();
+
+  std::filesystem::path target_;
+  std::filesystem::path partial_;
+  FileDescriptor file_;
+  std::vector<std::byte> buffer_;
+  std::uint64_t flushed_ = 0;
+  bool committed_ = false;
+};
+
+}  // namespace mw::io

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How this library words its errors: file, field, reason, way out.
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <string_view>
+
+#include "kernels/core/error.h"
+
+namespace mw::io {
+
+inline void append_piece(std::string& out, std::string_view piece) {
+  out.append(piece);
+}
+template <class T>
+requires std::integral<T> || std::floating_point<T>
+void append_piece(std::string& out, T number) {
+  out.append(std::to_string(number));
+}
+
+/// The pieces (strings and numbers) one after the other.
+template <class... Pieces>
+[[nodiscard]] std::string text(const Pieces&... pieces) {
+  std::string out;
+  (append_piece(out, pieces), ...);
+  return out;
+}
+
+/// Throws mw::Error(kInput): "FILE: FIELD: REASON; WAY_OUT".  FIELD and WAY_OUT may be empty.
+[[noreturn]] void fail_input(std::string_view file, std::string_view field, std::string_view reason,
+                             std::string_view way_out = {});
+
+/// Throws for a failed system call on an output: kResource when the disk is full or broken, kUsage
+/// when the path cannot be written (permissions, missing folder).
+[[noreturn]] void fail_output(std::string_view path, std::string_view action, int error_number);
+
+}  // namespace mw::io

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A file as a ByteSource, read with pread.
+#include "io/file/file_source.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "io/file/errors.h"
+
+namespace mw::io {
+namespace {
+
+std::string describe(int error_number) {
+  return std::generic_category().message(error_number);
+}
+
+[[noreturn]] void fail_short(const FileSource& source, std::uint64_t offset, std::size_t length) {
+  fail_input(source.name(), {},
+             "expected " + std::to_string(length) + " bytes at offset " + std::to_string(offset) +
+                 ", but the file ends at " + std::to_string(source.size()),
+             "the file is truncated: get a whole copy");
+}
+
+}  // namespace
+
+FileSource::FileSource(const std::filesystem::path& path)
+    : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)), name_(path.string()) {
+  if (!file_.valid()) fail_input(name_, {}, "cannot open: " + describe(errno), "check the path");
+  struct stat facts {};
+  if (::fstat(file_.get(), &facts) != 0) fail_input(name_, {}, "cannot stat: " + describe(errno));
+  if (S_ISDIR(facts.st_mode)) fail_input(name_, {}, "is a folder", "give a file");
+  if (!S_ISREG(facts.st_mode)) {
+    fail_input(name_, {}, "is not a regular file", "copy its content to a file first");
+  }
+  size_ = static_cast<std::uint64_t>(facts.st_size);
+}
+
+void FileSource::read_at(std::uint64_t offset, std::span<std::byte> out) const {
+  if (offset > size_ || out.size() > size_ - offset) fail_short(*this, offset, out.size());
+  std::size_t done = 0;
+  while (done < out.size()) {
+    const ssize_t got = ::pread(file_.get(), out.data() + done, out.size() - done,
+                                static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) {
+      fail_input(name_, {},
+                 "cannot read " + std::to_string(out.size()) + " bytes at offset " +
+                     std::to_string(offset) + ": " + describe(errno),
+                 "check the disk");
+    }
+    // The file was cut after it was opened.
+    if (got == 0) fail_short(*this, offset, out.size());
+    done += static_cast<std::size_t>(got);
+  }
+}
+
+std::vector<std::byte> read_prefix(const ByteSource& source, std::size_t length) {
+  std::vector<std::byte> bytes(std::min<std::uint64_t>(length, source.size()));
+  source.read_at(0, bytes);
+  return bytes;
+}
+
+}  // namespace mw::io

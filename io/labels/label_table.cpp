@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sparse 64-bit labels to dense ones and back.
+#include "io/labels/label_table.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "io/labels/label_set.h"
+#include "io/labels/slabs.h"
+#include "kernels/core/assert.h"
+#include "kernels/core/error.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::uint64_t kDirectRange = 1 << 16;
+/// 512 KiB of raw labels: stays in a second-level cache.
+constexpr std::int64_t kSlabVoxels = 1 << 16;
+
+}  // namespace
+
+LabelTable::LabelTable(std::vector<RawLabel> labels, bool is_signed)
+    : labels_(std::move(labels)), is_signed_(is_signed) {
+  // Flipping the top bit turns the order of unsigned numbers into that of signed ones.
+  const RawLabel flip = is_signed ? RawLabel{1} << 63 : 0;
+  std::sort(labels_.begin(), labels_.end(),
+            [flip](RawLabel a, RawLabel b) { return (a ^ flip) < (b ^ flip); });
+  labels_.erase(std::unique(labels_.begin(), labels_.end()), labels_.end());
+  if (labels_.size() >= kExterior) {
+    throw Error(ErrorKind::kInput, "the volume has more different labels than 32 bits can number");
+  }
+  fill_slots();
+}
+
+void LabelTable::fill_slots() {
+  if (labels_.empty()) return;
+  // Wraps around correctly for signed labels too.
+  const std::uint64_t range = labels_.back() - labels_.front();
+  hashed_ = range >= kDirectRange;
+  slots_.assign(hashed_ ? std::bit_ceil(labels_.size() * 2) : range + 1, kExterior);
+  for (std::size_t rank = 0; rank < labels_.size(); ++rank) {
+    slots_[slot(labels_[rank])] = static_cast<Label>(rank);
+  }
+}
+
+std::size_t LabelTable::slot(RawLabel raw) const {
+  if (!hashed_) return raw - labels_.front();
+  const std::size_t mask = slots_.size() - 1;
+  auto at = static_cast<std::size_t>(spread_bits(raw) >> (64 - std::popcount(mask)));
+  while (slots_[at] != kExterior && labels_[slots_[at]] != raw) at = (at + 1) & mask;
+  return at;
+}
+
+bool LabelTable::contains(RawLabel raw) const {
+  if (labels_.empty()) return false;
+  const std::size_t at = slot(raw);
+  return at < slots_.size() && slots_[at] != kExterior;
+}
+
+LabelTable collect_labels(const LabelVolume& volume) {
+  const VolumeInfo& info = volume.info();
+  LabelSet set;
+  std::vector<RawLabel> buffer;
+  const auto visit = [&](const Box3& slab) {
+    buffer.resize(static_cast<std::size_t>(slab.voxels()));
+    volume.read(slab, buffer);
+    set.insert(buffer);
+  };
+  const Box3 all{{0, 0, 0}, info.shape};
+  if (info.z_fastest) {
+    for_each_x_slab(all, kSlabVoxels, visit);
+  } else {
+    for_each_z_slab(all, kSlabVoxels, visit);
+  }
+  return {set.values(), mw::io::is_signed(info.type)};
+}
+
+void DenseVolume::read(const Box3& box, std::span<Label> out) const {
+  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+  if (out.empty()) return;
+  std::vector<RawLabel> buffer;
+  Label* next = out.data();
+  for_each_z_slab(box, kSlabVoxels, [&](const Box3& slab) {
+    buffer.resize(static_cast<std::size_t>(slab.voxels()));
+    volume_->read(slab, buffer);
+    RawLabel last = buffer[0];
+    Label dense = table_->dense(last);
+    for (const RawLabel raw : buffer) {
+      if (raw != last) {
+        last = raw;
+        dense = table_->dense(raw);
+      }
+      *next++ = dense;
+    }
+  });
+}
+
+}  // namespace mw::io

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sparse 64-bit labels to dense ones and back.
+#pragma once
+
+#include <vector>
+
+#include "io/volume/label_volume.h"
+#include "kernels/core/label.h"
+
+namespace mw::io {
+
+/// The labels of one volume in ascending order; the dense label is the rank.
+class LabelTable {
+ public:
+  LabelTable() = default;
+  /// REQUIRES: nothing; duplicates are removed.  Signed labels are ordered as signed numbers.
+  LabelTable(std::vector<RawLabel> labels, bool is_signed);
+
+  [[nodiscard]] std::size_t size() const { return labels_.size(); }
+  [[nodiscard]] bool is_signed() const { return is_signed_; }
+  [[nodiscard]] RawLabel raw(Label dense) const { return labels_[dense]; }
+  /// REQUIRES: raw is in the table.
+  [[nodiscard]] Label dense(RawLabel raw) const { return slots_[slot(raw)]; }
+  [[nodiscard]] bool contains(RawLabel raw) const;
+
+ private:
+  /// Where raw is or would be in slots_.
+  [[nodiscard]] std::size_t slot(RawLabel raw) const;
+  void fill_slots();
+
+  std::vector<RawLabel> labels_;
+  // Raw label -> rank: one slot for each number from labels_[0] on when their range is small
+  // (hashed_ false), else a hash table with linear probing.  Free slots hold kExterior.
+  std::vector<Label> slots_;
+  bool hashed_ = false;
+  bool is_signed_ = false;
+};
+
+/// One pass over the volume in slabs of bounded memory.
+[[nodiscard]] LabelTable collect_labels(const LabelVolume& volume);
+
+/// A volume seen through its table.  Thread safety: as LabelVolume.
+class DenseVolume {
+ public:
+  DenseVolume(const LabelVolume& volume, const LabelTable& table)
+      : volume_(&volume), table_(&table) {}
+
+  [[nodiscard]] const VolumeInfo& info() const { return volume_->info(); }
+  [[nodiscard]] const LabelTable& table() const { return *table_; }
+  /// As LabelVolume::read, with dense labels.
+  void read(const Box3& box, std::span<Label> out) const;
+
+ private:
+  const LabelVolume* volume_;
+  const LabelTable* table_;
+};
+
+}  // namespace mw::io

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The one interface through which a finished mesh leaves the program, in bounded memory.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "kernels/core/label.h"
+
+namespace mw::io {
+
+using Position = std::array<double, 3>;        ///< physical units
+using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive orientation
+
+struct MeshHeader {
+  std::uint64_t vertices = 0;
+  std::uint64_t tets = 0;
+  bool labels_signed = false;  ///< labels are two's complement int64 and are written as such
+};
+
+/// Receives a mesh: begin, all vertices in row order, all tets, finish.
+/// Nothing appears under the final name before finish() returns; a sink destroyed earlier leaves
+/// no file behind.  ERRORS: mw::Error(kResource) on a full disk, kInput when the path cannot be
+/// written.
+class MeshSink {
+ public:
+  virtual ~MeshSink() = default;
+  virtual void begin(const MeshHeader& header) = 0;
+  virtual void write_vertices(std::span<const Position> positions) = 0;
+  /// REQUIRES: tets.size() == labels.size(); all vertices have been written.
+  virtual void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) = 0;
+  virtual void finish() = 0;
+};
+
+}  // namespace mw::io

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The numbers of one VTK DataArray from its bytes or text.
+#include "io/mesh/vtu/data_array.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "io/file/errors.h"
+
+namespace mw::io {
+namespace {
+
+/// zlib cannot pack tighter than this.
+constexpr std::uint64_t kMaxZlibRatio = 1040;
+
+[[noreturn]] void fail(const ArrayName& name, std::string_view reason) {
+  fail_input(name.file, text("array '", name.array, "'"), reason, "the file is damaged");
+}
+
+std::uint64_t read_word(ByteStream& stream, const VtkEncoding& encoding) {
+  std::array<std::byte, 8> bytes{};
+  const std::size_t size = encoding.header_bytes == 4 ? 4 : 8;
+  stream.read(std::span(bytes).first(size));
+  return size == 4 ? load<std::uint32_t>(bytes.data(), encoding.order)
+                   : load<std::uint64_t>(bytes.data(), encoding.order);
+}
+
+void check_length(std::uint64_t found, std::uint64_t expected, const ArrayName& name) {
+  if (found == expected) return;
+  fail(name, text("holds ", found, " bytes, the counts of the piece need ", expected));
+}
+
+void inflate_block(const std::vector<std::byte>& packed, std::span<std::byte> out,
+                   const ArrayName& name) {
+  auto length = static_cast<uLongf>(out.size());
+  const int verdict =
+      uncompress(reinterpret_cast<Bytef*>(out.data()), &length,
+                 reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size()));
+  if (verdict != Z_OK || length != out.size()) fail(name, "corrupt zlib data");
+}
+
+/// [blocks][bytes of a block][bytes of the last, 0 when whole][packed bytes of each] and then the
+/// packed blocks.
+std::vector<std::byte> read_compressed(ByteStream& stream, const VtkEncoding& encoding,
+                                       std::uint64_t expected, const ArrayName& name) {
+  const std::uint64_t blocks = read_word(stream, encoding);
+  const std::uint64_t block_bytes = read_word(stream, encoding);
+  const std::uint64_t last_bytes = read_word(stream, encoding);
+  const std::uint64_t last = blocks == 0 || last_bytes != 0 ? last_bytes : block_bytes;
+  // Divisions, not products: the numbers of a damaged file may be anything.
+  if (blocks > stream.left() || expected / kMaxZlibRatio > stream.left() || last > block_bytes ||
+      (blocks > 1 && (block_bytes == 0 || blocks - 1 > expected / block_bytes))) {
+    fail(name, "block counts are not credible");
+  }
+  check_length(blocks == 0 ? 0 : (blocks - 1) * block_bytes + last, expected, name);
+  std::vector<std::uint64_t> packed_bytes(blocks);
+  for (std::uint64_t& size : packed_bytes) size = read_word(stream, encoding);
+  std::vector<std::byte> out(expected);
+  std::vector<std::byte> packed;
+  for (std::uint64_t i = 0; i < blocks; ++i) {
+    if (packed_bytes[i] > stream.left()) fail(name, "truncated");
+    packed.resize(packed_bytes[i]);
+    stream.read(packed);
+    inflate_block(
+        packed, std::span(out).subspan(i * block_bytes, i + 1 < blocks ? block_bytes : last), name);
+  }
+  return out;
+}
+
+/// Calls use(number) on each number of the bytes.
+template <class T, class Use>
+void visit_as(const std::vector<std::byte>& bytes, ByteOrder order, Use use) {
+  for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
+    use(load<T>(bytes.data() + at, order));
+  }
+}
+
+template <class Use>
+void visit_integers(const std::vector<std::byte>& bytes, NumberType type, ByteOrder order,
+                    Use use) {
+  switch (type.bytes * (type.is_signed ? -1 : 1)) {
+    case 1:
+      return visit_as<std::uint8_t>(bytes, order, use);
+    case 2:
+      return visit_as<std::uint16_t>(bytes, order, use);
+    case 4:
+      return visit_as<std::uint32_t>(bytes, order, use);
+    case 8:
+      return visit_as<std::uint64_t>(bytes, order, use);
+    case -1:
+      return visit_as<std::int8_t>(bytes, order, use);
+    case -2:
+      return visit_as<std::int16_t>(bytes, order, use);
+    case -4:
+      return visit_as<std::int32_t>(bytes, order, use);
+    default:
+      return visit_as<std::int64_t>(bytes, order, use);
+  }
+}
+
+/// Calls use(word) on each word of the text.
+template <class Use>
+void visit_words(std::string_view text, Use use) {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+    use(text.substr(at, end - at));
+    at = text.find_first_not_of(kBlanks, end);
+  }
+}
+
+template <class T>
+T parse_word(std::string_view word, const ArrayName& name) {
+  T number{};
+  const auto [stop, verdict] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (verdict != std::errc{} || stop != word.data() + word.size()) {
+    fail(name, text("'", word.substr(0, 40), "' is no valid number"));
+  }
+  return number;
+}
+
+}  // namespace
+
+std::optional<NumberType> parse_number_type(std::string_view name) {
+  if (name == "Float32") return NumberType{4, true, true};
+  if (name == "Float64") return NumberType{8, true, true};
+  const bool is_unsigned = name.starts_with("UInt");
+  if (!is_unsigned && !name.starts_with("Int")) return std::nullopt;
+  const std::string_view bits = name.substr(is_unsigned ? 4 : 3);
+  for (const int bytes : {1, 2, 4, 8}) {
+    if (bits == std::to_string(8 * bytes)) return NumberType{bytes, false, !is_unsigned};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
+                                    std::uint64_t expected, const ArrayName& name) {
+  if (encoding.compressed) return read_compressed(stream, encoding, expected, name);
+  check_length(read_word(stream, encoding), expected, name);
+  if (expected > stream.left()) {
+    fail(name, text("truncated: needs ", expected, " bytes, at most ", stream.left(), " are left"));
+  }
+  std::vector<std::byte> bytes(expected);
+  stream.read(bytes);
+  return bytes;
+}
+
+std::vector<std::uint64_t> integers_of_bytes(const std::vector<std::byte>& bytes, NumberType type,
+                                             ByteOrder order) {
+  std::vector<std::uint64_t> numbers;
+  numbers.reserve(bytes.size() / static_cast<std::size_t>(type.bytes));
+  visit_integers(bytes, type, order,
+                 [&](auto number) { numbers.push_back(static_cast<std::uint64_t>(number)); });
+  return numbers;
+}
+
+std::vector<double> reals_of_bytes(const std::vector<std::byte>& bytes, NumberType type,
+                                   ByteOrder order) {
+  std::vector<double> numbers;
+  numbers.reserve(bytes.size() / static_cast<std::size_t>(type.bytes));
+  const auto use = [&](auto number) { numbers.push_back(static_cast<double>(number)); };
+  if (!type.is_float) {
+    visit_integers(bytes, type, order, use);
+  } else if (type.bytes == 4) {
+    visit_as<float>(bytes, order, use);
+  } else {
+    visit_as<double>(bytes, order, use);
+  }
+  return numbers;
+}
+
+std::vector<std::uint64_t> integers_of_text(std::string_view text, const ArrayName& name) {
+  std::vector<std::uint64_t> numbers;
+  visit_words(text, [&](std::string_view word) {
+    numbers.push_back(word[0] == '-'
+                          ? static_cast<std::uint64_t>(parse_word<std::int64_t>(word, name))
+                          : parse_word<std::uint64_t>(word, name));
+  });
+  return numbers;
+}
+
+std::vector<double> reals_of_text(std::string_view text, const ArrayName& name) {
+  std::vector<double> numbers;
+  visit_words(text,
+              [&](std::string_view word) { numbers.push_back(parse_word<double>(word, name)); });
+  return numbers;
+}
+
+}  // namespace mw::io

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The numbers of one VTK DataArray from its bytes or text.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/file/byte_order.h"
+#include "io/mesh/vtu/byte_stream.h"
+
+namespace mw::io {
+
+/// Int8 .. UInt64, Float32, Float64.
+struct NumberType {
+  int bytes = 0;
+  bool is_float = false;
+  bool is_signed = false;
+};
+[[nodiscard]] std::optional<NumberType> parse_number_type(std::string_view name);
+
+/// How the file encodes binary arrays.
+struct VtkEncoding {
+  ByteOrder order = ByteOrder::kLittle;
+  int header_bytes = 4;     ///< 4 or 8: UInt32 or UInt64 header words
+  bool compressed = false;  ///< vtkZLibDataCompressor
+};
+
+/// For error messages: the file and the array.
+struct ArrayName {
+  std::string file;
+  std::string array;
+};
+
+/// The bytes of an array of `expected` bytes, decompressed.
+/// ERRORS of all: mw::Error(kInput) naming file and array.
+[[nodiscard]] std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
+                                                  std::uint64_t expected, const ArrayName& name);
+
+/// Integers as two's complement 64 bits.  REQUIRES: !type.is_float.
+[[nodiscard]] std::vector<std::uint64_t> integers_of_bytes(const std::vector<std::byte>& bytes,
+                                                           NumberType type, ByteOrder order);
+[[nodiscard]] std::vector<double> reals_of_bytes(const std::vector<std::byte>& bytes,
+                                                 NumberType type, ByteOrder order);
+
+/// The same from `format="ascii"`.
+[[nodiscard]] std::vector<std::uint64_t> integers_of_text(std::string_view text,
+                                                          const ArrayName& name);
+[[nodiscard]] std::vector<double> reals_of_text(std::string_view text, const ArrayName& name);
+
+}  // namespace mw::io

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The XML of a .vtu file, and its arrays as numbers.
+#include "io/mesh/vtu/vtu_document.h"
+
+#include <algorithm>
+
+#include "io/file/errors.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::string_view kAppendedTag = "<AppendedData";
+constexpr std::uint64_t kChunkBytes = 1 << 20;
+
+NumberType type_of(pugi::xml_node array, const ArrayName& name) {
+  const std::string type = array.attribute("type").as_string();
+  const auto parsed = parse_number_type(type);
+  if (!parsed) {
+    fail_input(name.file, text("array '", name.array, "'"), text("unknown type '", type, "'"));
+  }
+  return *parsed;
+}
+
+ArrayName name_of(pugi::xml_node array, const std::string& file) {
+  return {file, array.attribute("Name").as_string("Points")};
+}
+
+void check_count(std::uint64_t found, std::uint64_t expected, const ArrayName& name) {
+  if (found == expected) return;
+  fail_input(name.file, text("array '", name.array, "'"),
+             text("holds ", found, " numbers, the counts of the piece need ", expected),
+             "the file is truncated or damaged");
+}
+
+}  // namespace
+
+VtuDocument::VtuDocument(const ByteSource& source) : source_(source) {
+  // XML up to the appended data, which may be binary; all of it when there are none.
+  std::string head;
+  std::size_t found = std::string::npos;
+  while (found == std::string::npos && head.size() < source.size()) {
+    const std::size_t before = head.size();
+    head.resize(before + std::min<std::uint64_t>(kChunkBytes, source.size() - before));
+    source.read_at(before, std::as_writable_bytes(std::span(head)).subspan(before));
+    found = head.find(kAppendedTag, before - std::min(before, kAppendedTag.size()));
+  }
+  if (found != std::string::npos) {
+    // The tag, its '_' and some slack: the start tag may have been cut by the chunk.
+    const std::uint64_t extra = std::min<std::uint64_t>(4096, source.size() - head.size());
+    const std::size_t before = head.size();
+    head.resize(before + extra);
+    source.read_at(before, std::as_writable_bytes(std::span(head)).subspan(before));
+    appended_ = true;
+    appended_start_ = found;
+    find_appended(head);
+  }
+  parse(std::move(head));
+}
+
+/// Takes the appended data off head and notes where and what they are.
+void VtuDocument::find_appended(std::string& head) {
+  const std::size_t tag = appended_start_;
+  const std::size_t close = head.find('>', tag);
+  const std::size_t mark = close == std::string::npos ? close : head.find('_', close);
+  if (mark == std::string::npos) {
+    fail_input(file(), "AppendedData", "no '_' in front of the data", "the file is truncated");
+  }
+  appended_raw_ = head.substr(tag, close - tag).find("base64") == std::string::npos;
+  appended_start_ = mark + 1;
+  head.resize(tag);
+  head += "</VTKFile>";
+}
+
+void VtuDocument::parse(std::string head) {
+  const pugi::xml_parse_result result = xml_.load_buffer(head.data(), head.size());
+  if (!result) {
+    fail_input(file(), text("XML at offset ", result.offset), result.description(),
+               "the file is truncated, damaged or no .vtu file");
+  }
+  const pugi::xml_node root = xml_.child("VTKFile");
+  if (std::string_view(root.attribute("type").as_string()) != "UnstructuredGrid") {
+    fail_input(file(), "VTKFile type", "not UnstructuredGrid", "give a .vtu file of tetrahedra");
+  }
+  const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
+  encoding_.order = order == "BigEndian" ? ByteOrder::kBig : ByteOrder::kLittle;
+  const std::string_view word = root.attribute("header_type").as_string("UInt32");
+  encoding_.header_bytes = word == "UInt64" ? 8 : 4;
+  const std::string_view compressor = root.attribute("compressor").as_string();
+  encoding_.compressed = !compressor.empty();
+  if (encoding_.compressed && compressor != "vtkZLibDataCompressor") {
+    fail_input(file(), "compressor", text(compressor, " is not supported"),
+               "save uncompressed or with zlib");
+  }
+}
+
+pugi::xml_node VtuDocument::grid() const {
+  return xml_.child("VTKFile").child("UnstructuredGrid");
+}
+
+/// Reads from there to the end once; positions in it are the arrays' offsets.
+std::string_view VtuDocument::appended_text() {
+  if (appended_text_.empty()) {
+    appended_text_.resize(source_.size() - appended_start_);
+    source_.read_at(appended_start_, std::as_writable_bytes(std::span(appended_text_)));
+    appended_text_.resize(std::min(appended_text_.find('<'), appended_text_.size()));
+  }
+  return appended_text_;
+}
+
+std::unique_ptr<ByteStream> VtuDocument::stream_of(pugi::xml_node array, const ArrayName& name) {
+  const std::string_view format = array.attribute("format").as_string("ascii");
+  if (format == "binary") {
+    return std::make_unique<Base64Stream>(array.text().get(), name.file);
+  }
+  const std::uint64_t offset = array.attribute("offset").as_ullong();
+  if (format != "appended" || !appended_ || offset > source_.size() - appended_start_) {
+    fail_input(name.file, text("array '", name.array, "'"),
+               text("format '", format, "' with no data at offset ", offset));
+  }
+  if (appended_raw_) return std::make_unique<SourceStream>(source_, appended_start_ + offset);
+  const std::string_view all = appended_text();
+  return std::make_unique<Base64Stream>(all.substr(std::min<std::size_t>(offset, all.size())),
+                                        name.file);
+}
+
+std::vector<std::byte> VtuDocument::bytes_of(pugi::xml_node array, NumberType type,
+                                             std::uint64_t count, const ArrayName& name) {
+  const std::unique_ptr<ByteStream> stream = stream_of(array, name);
+  return read_payload(*stream, encoding_, count * static_cast<std::uint64_t>(type.bytes), name);
+}
+
+std::vector<std::uint64_t> VtuDocument::integers(pugi::xml_node array, std::uint64_t count) {
+  const ArrayName name = name_of(array, file());
+  const NumberType type = type_of(array, name);
+  if (type.is_float) {
+    fail_input(name.file, text("array '", name.array, "'"), "floating point, integers are needed");
+  }
+  if (std::string_view(array.attribute("format").as_string("ascii")) != "ascii") {
+    return integers_of_bytes(bytes_of(array, type, count, name), type, encoding_.order);
+  }
+  auto numbers = integers_of_text(array.text().get(), name);
+  check_count(numbers.size(), count, name);
+  return numbers;
+}
+
+std::vector<double> VtuDocument::reals(pugi::xml_node array, std::uint64_t count) {
+  const ArrayName name = name_of(array, file());
+  const NumberType type = type_of(array, name);
+  if (std::string_view(array.attribute("format").as_string("ascii")) != "ascii") {
+    return reals_of_bytes(bytes_of(array, type, count, name), type, encoding_.order);
+  }
+  auto numbers = reals_of_text(array.text().get(), name);
+  check_count(numbers.size(), count, name);
+  return numbers;
+}
+
+}  // namespace mw::io

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a .vtu file written here looks like: its XML and where its arrays are.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "io/mesh/mesh_sink.h"
+
+namespace mw::io {
+
+/// The file: XML head, '_', then for each array a UInt64 byte count and the numbers, little-endian
+/// (points Float64 x 3, connectivity Int64 x 4, offsets Int64, types UInt8, label UInt64 or
+/// Int64), then the closing tags.
+struct VtuLayout {
+  enum Array { kPoints, kConnectivity, kOffsets, kTypes, kLabel, kArrays };
+  std::string head;                             ///< up to and including '_'
+  std::string tail;                             ///< behind the last array
+  std::array<std::uint64_t, kArrays> start{};   ///< file offset of the byte count
+  std::array<std::uint64_t, kArrays> length{};  ///< bytes of the numbers
+  std::uint64_t tail_start = 0;
+};
+
+/// Pure.  Cost: O(1).
+[[nodiscard]] VtuLayout make_vtu_layout(const MeshHeader& header);
+
+}  // namespace mw::io

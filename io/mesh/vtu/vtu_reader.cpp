@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Reads a tetrahedral .vtu file.
+#include "io/mesh/vtu/vtu_reader.h"
+
+#include <cmath>
+
+#include "io/file/errors.h"
+#include "io/mesh/vtu/vtu_document.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::uint64_t kVtkTetra = 10;
+/// Keeps products of counts and sizes within 64 bits.
+constexpr std::uint64_t kMaxRows = std::uint64_t{1} << 56;
+
+std::uint64_t count_of(pugi::xml_node piece, const char* attribute, const VtuDocument& document) {
+  const std::uint64_t count = piece.attribute(attribute).as_ullong(kMaxRows);
+  if (count >= kMaxRows) fail_input(document.file(), attribute, "missing or not credible");
+  return count;
+}
+
+pugi::xml_node named_array(pugi::xml_node parent, const char* name, const VtuDocument& document) {
+  const pugi::xml_node array = parent.find_child_by_attribute("DataArray", "Name", name);
+  if (!array) fail_input(document.file(), text("array '", name, "'"), "missing");
+  return array;
+}
+
+bool is_integer_scalar(pugi::xml_node array) {
+  const auto type = parse_number_type(array.attribute("type").as_string());
+  return type && !type->is_float && array.attribute("NumberOfComponents").as_int(1) == 1;
+}
+
+pugi::xml_node label_array(pugi::xml_node cell_data, const VtuDocument& document) {
+  for (const char* name : {"label", "Label", "labels", "material", "medit:ref"}) {
+    const auto array = cell_data.find_child_by_attribute("DataArray", "Name", name);
+    if (array && is_integer_scalar(array)) return array;
+  }
+  pugi::xml_node only;
+  int found = 0;
+  for (const pugi::xml_node array : cell_data.children("DataArray")) {
+    if (!is_integer_scalar(array)) continue;
+    only = array;
+    ++found;
+  }
+  if (found == 1) return only;
+  fail_input(document.file(), "cell data",
+             text("none of ", found, " integer arrays is called 'label'"),
+             "store the labels as an integer cell array 'label'");
+}
+
+void read_points(pugi::xml_node piece, VtuDocument& document, MeshData& mesh) {
+  const std::uint64_t count = count_of(piece, "NumberOfPoints", document);
+  const pugi::xml_node array = piece.child("Points").child("DataArray");
+  if (!array && count == 0) return;
+  if (!array || array.attribute("NumberOfComponents").as_int(3) != 3) {
+    fail_input(document.file(), "Points", "missing or not of 3 components");
+  }
+  const std::vector<double> x = document.reals(array, count * 3);
+  mesh.vertices.reserve(mesh.vertices.size() + count);
+  for (std::size_t i = 0; i < count; ++i) {
+    mesh.vertices.push_back({x[3 * i], x[3 * i + 1], x[3 * i + 2]});
+    for (const double c : mesh.vertices.back()) {
+      if (!std::isfinite(c)) fail_input(document.file(), text("point ", i), "is not finite");
+    }
+  }
+}
+
+void check_cells(pugi::xml_node cells, std::uint64_t count, VtuDocument& document) {
+  const auto types = document.integers(named_array(cells, "types", document), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (types[i] == kVtkTetra) continue;
+    fail_input(document.file(), text("cell ", i),
+               text("type ", types[i], " is no tetrahedron (10)"), "keep only the tetrahedra");
+  }
+  const auto offsets = document.integers(named_array(cells, "offsets", document), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (offsets[i] == 4 * (i + 1)) continue;
+    fail_input(document.file(), text("offset of cell ", i),
+               text(offsets[i], " is not ", 4 * i + 4));
+  }
+}
+
+void read_cells(pugi::xml_node piece, std::uint64_t first_row, VtuDocument& document,
+                MeshData& mesh) {
+  const std::uint64_t count = count_of(piece, "NumberOfCells", document);
+  const std::uint64_t rows = mesh.vertices.size() - first_row;
+  if (count == 0) return;
+  const pugi::xml_node cells = piece.child("Cells");
+  check_cells(cells, count, document);
+  const auto corners = document.integers(named_array(cells, "connectivity", document), count * 4);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i % 4 == 0) mesh.tets.emplace_back();
+    if (corners[i] >= rows) {
+      fail_input(document.file(), text("cell ", i / 4),
+                 text("names point ", corners[i], ", there are ", rows));
+    }
+    mesh.tets.back()[i % 4] = first_row + corners[i];
+  }
+  const pugi::xml_node array = label_array(piece.child("CellData"), document);
+  const auto labels = document.integers(array, count);
+  mesh.labels.insert(mesh.labels.end(), labels.begin(), labels.end());
+  const auto type = parse_number_type(array.attribute("type").as_string());
+  mesh.labels_signed = mesh.labels_signed || type->is_signed;
+}
+
+}  // namespace
+
+MeshData read_vtu(const ByteSource& source) {
+  VtuDocument document(source);
+  MeshData mesh;
+  bool found = false;
+  for (const pugi::xml_node piece : document.grid().children("Piece")) {
+    const std::uint64_t first_row = mesh.vertices.size();
+    read_points(piece, document, mesh);
+    read_cells(piece, first_row, document, mesh);
+    found = true;
+  }
+  if (!found) fail_input(document.file(), "Piece", "missing: the file holds no mesh");
+  return mesh;
+}
+
+}  // namespace mw::io

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Reads a tetrahedral .vtu file, ours or another tool's.
+#pragma once
+
+#include "io/file/byte_source.h"
+#include "io/mesh/mesh_data.h"
+
+namespace mw::io {
+
+/// Pieces are put one after the other.  The label is the cell array `label`, else `Label`,
+/// `labels`, `material` or `medit:ref`, else the only integer cell array.
+/// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
+/// tetrahedra, without label, or when a row does not exist.
+[[nodiscard]] MeshData read_vtu(const ByteSource& source);
+
+}  // namespace mw::io

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Streams a mesh into a .vtu file.
+#include "io/mesh/vtu/vtu_sink.h"
+
+#include "io/file/byte_order.h"
+#include "io/mesh/sink_counts.h"
+#include "kernels/core/assert.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kRegionBytes = 1 << 18;
+constexpr std::uint8_t kVtkTetra = 10;
+
+}  // namespace
+
+template <class T>
+void FileRegion::add(T value) {
+  const std::size_t at = buffer_.size();
+  buffer_.resize(at + sizeof value);
+  store_little(value, buffer_.data() + at);
+  if (buffer_.size() >= kRegionBytes) flush();
+}
+
+void FileRegion::flush() {
+  file_->write_at(next_, buffer_);
+  next_ += buffer_.size();
+  buffer_.clear();
+}
+
+void VtuSink::begin(const MeshHeader& header) {
+  header_ = header;
+  layout_ = make_vtu_layout(header);
+  file_.append(layout_.head);
+  for (std::size_t i = 0; i < VtuLayout::kArrays; ++i) {
+    regions_.emplace_back(file_, layout_.start[i]);
+    regions_[i].add(layout_.length[i]);
+  }
+}
+
+void VtuSink::write_vertices(std::span<const Position> positions) {
+  FileRegion& points = regions_[VtuLayout::kPoints];
+  for (const Position& position : positions) {
+    for (const double x : position) points.add(x);
+  }
+  vertices_ += positions.size();
+}
+
+void VtuSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
+  MW_ASSERT(tets.size() == labels.size());
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    for (const std::uint64_t row : tets[i]) regions_[VtuLayout::kConnectivity].add(row);
+    regions_[VtuLayout::kOffsets].add(4 * ++tets_);
+    regions_[VtuLayout::kTypes].add(kVtkTetra);
+    regions_[VtuLayout::kLabel].add(labels[i]);
+  }
+}
+
+void VtuSink::finish() {
+  check_sink_counts(name_, header_, vertices_, tets_);
+  for (FileRegion& region : regions_) region.flush();
+  file_.write_at(layout_.tail_start, std::as_bytes(std::span(layout_.tail)));
+  file_.commit();
+}
+
+}  // namespace mw::io

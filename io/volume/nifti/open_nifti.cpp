@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Opens a NIfTI file as a volume.
+#include "io/volume/nifti/open_nifti.h"
+
+#include "io/volume/checks.h"
+#include "io/volume/nifti/nifti_header.h"
+#include "io/volume/raw_array.h"
+
+namespace mw::io {
+
+std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
+                                        const OpenOptions& options) {
+  const std::string& file = source->name();
+  const NiftiHeader header = parse_nifti_header(read_prefix(*source, kNiftiHeaderBytes), file);
+  VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nifti"};
+  info.spacing = options.spacing ? *options.spacing : nifti_spacing(header, file);
+  info.origin = options.origin ? *options.origin : nifti_origin(header, info.spacing, file);
+  check_payload(file, info, header.data_offset, source->size(), false);
+  return std::make_unique<RawArrayVolume>(
+      std::move(source), std::move(info),
+      ArrayPlace{.offset = header.data_offset, .order = header.order});
+}
+
+}  // namespace mw::io

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Opens a NIfTI file as a volume.
+#pragma once
+
+#include "io/file/byte_source.h"
+#include "io/volume/open_options.h"
+
+namespace mw::io {
+
+/// Spacing and origin as nifti_spacing and nifti_origin say, unless the options replace them.
+/// Bytes behind the voxels are ignored.  ERRORS: mw::Error(kInput) naming file and field.
+[[nodiscard]] std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
+                                                      const OpenOptions& options);
+
+}  // namespace mw::io

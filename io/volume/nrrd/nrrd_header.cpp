@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The text header of an NRRD volume.
+#include "io/volume/nrrd/nrrd_header.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "io/file/errors.h"
+#include "io/volume/checks.h"
+
+namespace mw::io {
+namespace {
+
+using FieldMap = std::map<std::string, std::string, std::less<>>;
+
+std::string_view trim(std::string_view s) {
+  const std::size_t first = s.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string lower(std::string_view s) {
+  std::string out(s);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+/// "space directions" and "spacedirections" are the same field.
+std::string field_key(std::string_view name) {
+  std::string key = lower(trim(name));
+  std::erase(key, ' ');
+  return key;
+}
+
+/// Splits the header into fields; header.bytes is where it ends.
+FieldMap split_fields(std::string_view head, std::size_t& bytes, std::string_view file) {
+  FieldMap fields;
+  std::size_t at = head.find('\n');
+  at = at == std::string_view::npos ? head.size() : at + 1;
+  while (at < head.size()) {
+    const std::size_t end = head.find('\n', at);
+    const std::string_view line = trim(head.substr(at, end - at));
+    at = end == std::string_view::npos ? head.size() : end + 1;
+    if (line.empty()) break;
+    const std::size_t colon = line.find(':');
+    if (line[0] == '#' || colon == std::string_view::npos) continue;
+    if (line.substr(colon).starts_with(":=")) continue;
+    const std::string key = field_key(line.substr(0, colon));
+    fields[key == "centerings" ? "centers" : key] = std::string(trim(line.substr(colon + 1)));
+  }
+  if (at >= kMaxNrrdHeaderBytes) fail_input(file, "NRRD header", "its end was not found");
+  bytes = at;
+  return fields;
+}
+
+const std::string& required(const FieldMap& fields, std::string_view key, std::string_view file) {
+  const auto found = fields.find(key);
+  if (found == fields.end()) {
+    fail_input(file, text("NRRD field '", key, "'"), "missing", "add it to the header");
+  }
+  return found->second;
+}
+
+VoxelType parse_type(const std::string& value, std::string_view file) {
+  static const std::map<std::string, VoxelType, std::less<>> types{
+      {"signed char", VoxelType::kI8},
+      {"int8", VoxelType::kI8},
+      {"int8_t", VoxelType::kI8},
+      {"uchar", VoxelType::kU8},
+      {"unsigned char", VoxelType::kU8},
+      {"uint8", VoxelType::kU8},
+      {"uint8_t", VoxelType::kU8},
+      {"short", VoxelType::kI16},
+      {"short int", VoxelType::kI16},
+      {"signed short", VoxelType::kI16},
+      {"signed short int", VoxelType::kI16},
+      {"int16", VoxelType::kI16},
+      {"int16_t", VoxelType::kI16},
+      {"ushort", VoxelType::kU16},
+      {"unsigned short", VoxelType::kU16},
+      {"unsigned short int", VoxelType::kU16},
+      {"uint16", VoxelType::kU16},
+      {"uint16_t", VoxelType::kU16},
+      {"int", VoxelType::kI32},
+      {"signed int", VoxelType::kI32},
+      {"int32", VoxelType::kI32},
+      {"int32_t", VoxelType::kI32},
+      {"uint", VoxelType::kU32},
+      {"unsigned int", VoxelType::kU32},
+      {"uint32", VoxelType::kU32},
+      {"uint32_t", VoxelType::kU32},
+      {"longlong", VoxelType::kI64},
+      {"long long", VoxelType::kI64},
+      {"long long int", VoxelType::kI64},
+      {"signed long long", VoxelType::kI64},
+      {"signed long long int", VoxelType::kI64},
+      {"int64", VoxelType::kI64},
+      {"int64_t", VoxelType::kI64},
+      {"ulonglong", VoxelType::kU64},
+      {"unsigned long long", VoxelType::kU64},
+      {"unsigned long long int", VoxelType::kU64},
+      {"uint64", VoxelType::kU64},
+      {"uint64_t", VoxelType::kU64}};
+  const auto found = types.find(lower(value));
+  if (found != types.end()) return found->second;
+  fail_input(file, text("NRRD field 'type' = ", value),
+             "unsupported; labels must be integers of 8 to 64 bits", "convert the voxels");
+}
+
+/// Numbers between blanks, commas and parentheses.
+template <class T>
+std::vector<T> parse_numbers(const std::string& value, std::string_view field,
+                             std::string_view file) {
+  constexpr std::string_view kSeparators = " \t,()";
+  std::vector<T> numbers;
+  for (std::size_t at = value.find_first_not_of(kSeparators); at != std::string::npos;) {
+    const std::size_t end = std::min(value.find_first_of(kSeparators, at), value.size());
+    T number{};
+    const auto [stop, verdict] =
+        std::from_chars(value.data() + at + (value[at] == '+'), value.data() + end, number);
+    if (verdict != std::errc{} || stop != value.data() + end) {
+      fail_input(file, text("NRRD field '", field, "'"), text("no valid numbers: ", value));
+    }
+    numbers.push_back(number);
+    at = value.find_first_not_of(kSeparators, end);
+  }
+  return numbers;
+}
+
+Index3 parse_sizes(const FieldMap& fields, std::string_view file) {
+  const auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
+  const auto rank =
+      parse_numbers<std::int64_t>(required(fields, "dimension", file), "dimension", file);
+  if (sizes.size() != 3 || rank.size() != 1 || rank[0] != 3) {
+    fail_input(file, "NRRD fields 'dimension' and 'sizes'",
+               text("the volume has ", sizes.size(), " axes, 3 are needed"), "pick one channel");
+  }
+  return checked_shape(file, "NRRD field 'sizes'", {sizes[0], sizes[1], sizes[2]});
+}
+
+ByteOrder parse_endian(const FieldMap& fields, VoxelType type, std::string_view file) {
+  if (byte_size(type) == 1) return ByteOrder::kLittle;
+  const std::string value = lower(required(fields, "endian", file));
+  if (value == "big") return ByteOrder::kBig;
+  if (value == "little") return ByteOrder::kLittle;
+  fail_input(file, "NRRD field 'endian'", text(value, " is neither little nor big"));
+}
+
+bool parse_encoding(const FieldMap& fields, std::string_view file) {
+  const std::string value = lower(required(fields, "encoding", file));
+  if (value == "gzip" || value == "gz") return true;
+  if (value == "raw") return false;
+  fail_input(file, text("NRRD field 'encoding' = ", value), "unsupported", "save as raw or gzip");
+}
+
+void parse_skips(const FieldMap& fields, NrrdHeader& header, std::string_view file) {
+  for (const char* key : {"lineskip", "byteskip"}) {
+    const auto found = fields.find(key);
+    if (found == fields.end()) continue;
+    const auto skip = parse_numbers<std::int64_t>(found->second, key, file);
+    const bool is_line = found->first == "lineskip";
+    const std::int64_t least = is_line || header.gzip ? 0 : -1;
+    if (skip.size() != 1 || skip[0] < least || (is_line && skip[0] != 0)) {
+      fail_input(file, text("NRRD field '", is_line ? "line skip" : "byte skip", "'"),
+                 text(found->second, " is not supported"), "save the file without skips");
+    }
+    if (!is_line) header.byte_skip = skip[0];
+  }
+}
+
+void parse_data_file(const FieldMap& fields, NrrdHeader& header, std::string_view file) {
+  const auto found = fields.find("datafile");
+  if (found == fields.end()) return;
+  if (found->second.starts_with("LIST") || found->second.find('%') != std::string::npos) {
+    fail_input(file, "NRRD field 'data file'", "voxels in many files are not supported",
+               "save as one file");
+  }
+  header.data_file = found->second;
+}
+
+std::optional<std::array<double, 3>> parse_spacing(const FieldMap& fields, std::string_view file) {
+  if (const auto found = fields.find("spacedirections"); found != fields.end()) {
+    const auto v = parse_numbers<double>(found->second, "space directions", file);
+    if (v.size() != 9) fail_input(file, "NRRD field 'space directions'", "not three 3-vectors");
+    return std::array{std::hypot(v[0], v[1], v[2]), std::hypot(v[3], v[4], v[5]),
+                      std::hypot(v[6], v[7], v[8])};
+  }
+  const auto found = fields.find("spacings");
+  if (found == fields.end()) return std::nullopt;
+  const auto v = parse_numbers<double>(found->second, "spacings", file);
+  if (v.size() != 3) fail_input(file, "NRRD field 'spacings'", "not three numbers");
+  return std::array{v[0], v[1], v[2]};
+}
+
+std::optional<std::array<double, 3>> parse_origin(const FieldMap& fields, std::string_view file) {
+  const auto found = fields.find("spaceorigin");
+  if (found == fields.end()) return std::nullopt;
+  const auto v = parse_numbers<double>(found->second, "space origin", file);
+  if (v.size() != 3) fail_input(file, "NRRD field 'space origin'", "not three numbers");
+  return std::array{v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+bool has_nrrd_magic(std::string_view text) {
+  return text.starts_with("NRRD000");
+}
+
+NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
+  if (!has_nrrd_magic(head)) {
+    fail_input(file, "NRRD magic", "the file does not begin with NRRD000",
+               "it is damaged or of another format");
+  }
+  NrrdHeader header;
+  const FieldMap fields = split_fields(head, header.bytes, file);
+  header.type = parse_type(required(fields, "type", file), file);
+  header.shape = parse_sizes(fields, file);
+  header.order = parse_endian(fields, header.type, file);
+  header.gzip = parse_encoding(fields, file);
+  parse_skips(fields, header, file);
+  parse_data_file(fields, header, file);
+  header.spacing = parse_spacing(fields, file);
+  header.space_origin = parse_origin(fields, file);
+  return header;
+}
+
+std::array<double, 3> nrrd_spacing(const NrrdHeader& header, std::string_view file) {
+  const std::array<double, 3> spacing = header.spacing.value_or(std::array{1.0, 1.0, 1.0});
+  for (const double s : spacing) check_spacing(file, "NRRD 'spacings' or 'space directions'", s);
+  return spacing;
+}
+
+std::array<double, 3> nrrd_origin(const NrrdHeader& header, const std::array<double, 3>& spacing,
+                                  std::string_view file) {
+  std::array<double, 3> origin{};
+  if (!header.space_origin) return origin;
+  for (std::size_t i = 0; i < 3; ++i) {
+    origin[i] = (*header.space_origin)[i] - spacing[i] / 2;
+    check_origin(file, "NRRD field 'space origin'", origin[i]);
+  }
+  return origin;
+}
+
+}  // namespace mw::io

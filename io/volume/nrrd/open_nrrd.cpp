@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Opens an NRRD file as a volume.
+#include "io/volume/nrrd/open_nrrd.h"
+
+#include <algorithm>
+
+#include "io/file/errors.h"
+#include "io/file/file_source.h"
+#include "io/file/open_bytes.h"
+#include "io/volume/checks.h"
+#include "io/volume/nrrd/nrrd_header.h"
+#include "io/volume/raw_array.h"
+
+namespace mw::io {
+namespace {
+
+NrrdHeader read_header(const ByteSource& source) {
+  std::string head(std::min<std::uint64_t>(source.size(), kMaxNrrdHeaderBytes), '\0');
+  source.read_at(0, std::as_writable_bytes(std::span(head)));
+  return parse_nrrd_header(head, source.name());
+}
+
+/// The source that holds the voxels, still packed when the encoding is gzip.
+std::unique_ptr<ByteSource> data_source(std::unique_ptr<ByteSource> source,
+                                        const NrrdHeader& header,
+                                        const std::filesystem::path& path) {
+  if (header.data_file.empty()) return source;
+  const std::filesystem::path data = path.parent_path() / header.data_file;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(data, ignored)) {
+    fail_input(path.string(), "NRRD field 'data file'",
+               text(data.string(), " is missing or not a file"),
+               "put it where the header says, relative to the header");
+  }
+  return std::make_unique<FileSource>(data);
+}
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
+                                       const std::filesystem::path& path,
+                                       const OpenOptions& options) {
+  const std::string file = source->name();
+  const NrrdHeader header = read_header(*source);
+  VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nrrd"};
+  info.spacing = options.spacing ? *options.spacing : nrrd_spacing(header, file);
+  info.origin = options.origin ? *options.origin : nrrd_origin(header, info.spacing, file);
+
+  std::unique_ptr<ByteSource> data = data_source(std::move(source), header, path);
+  std::uint64_t offset = header.data_file.empty() ? header.bytes : 0;
+  if (header.gzip) {
+    data = inflate_bytes(*data, offset);
+    offset = 0;
+  }
+  const std::uint64_t needed = payload_bytes(info);
+  const bool at_end = header.byte_skip == -1 && data->size() >= offset + needed;
+  offset = at_end
+               ? data->size() - needed
+               : offset + static_cast<std::uint64_t>(std::max<std::int64_t>(0, header.byte_skip));
+  check_payload(data->name(), info, offset, data->size(), false);
+  return std::make_unique<RawArrayVolume>(std::move(data), std::move(info),
+                                          ArrayPlace{.offset = offset, .order = header.order});
+}
+
+}  // namespace mw::io

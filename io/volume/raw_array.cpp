@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A dense array of voxels in a ByteSource, read by region.
+#include "io/volume/raw_array.h"
+
+#include <algorithm>
+
+#include "io/volume/decode.h"
+#include "kernels/core/assert.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::uint64_t kChunkBytes = 1 << 20;
+/// Reading this much for nothing costs about as much as one more system call.
+constexpr std::uint64_t kMaxGapBytes = 4096;
+
+/// The rows (runs along the fastest axis) of a box, in file order.
+class Rows {
+ public:
+  Rows(const VolumeInfo& info, const ArrayPlace& place, const Box3& box)
+      : info_(info),
+        offset_(place.offset),
+        size_(static_cast<std::uint64_t>(byte_size(info.type))),
+        box_(box) {
+    const Index3 shape = box.shape();
+    length_ = static_cast<std::size_t>(info.z_fastest ? shape.z : shape.x);
+    count_ = info.z_fastest ? shape.x * shape.y : shape.y * shape.z;
+    stride_ = info.z_fastest ? static_cast<std::size_t>(shape.x * shape.y) : 1;
+  }
+
+  [[nodiscard]] std::int64_t count() const { return count_; }
+  [[nodiscard]] std::size_t length() const { return length_; }
+  [[nodiscard]] std::uint64_t bytes() const { return length_ * size_; }
+  /// Distance in the output between voxels that are neighbours in a row.
+  [[nodiscard]] std::size_t out_stride() const { return stride_; }
+
+  [[nodiscard]] std::uint64_t file_offset(std::int64_t row) const {
+    const Index3 v = first_voxel(row);
+    const Index3 n = info_.shape;
+    const std::int64_t index =
+        info_.z_fastest ? (v.x * n.y + v.y) * n.z + v.z : (v.z * n.y + v.y) * n.x + v.x;
+    return offset_ + static_cast<std::uint64_t>(index) * size_;
+  }
+  [[nodiscard]] std::size_t out_offset(std::int64_t row) const {
+    return static_cast<std::size_t>(box_.offset(first_voxel(row)));
+  }
+
+ private:
+  [[nodiscard]] Index3 first_voxel(std::int64_t row) const {
+    const std::int64_t middle = row % box_.shape().y;
+    const std::int64_t slow = row / box_.shape().y;
+    return info_.z_fastest ? box_.lo + Index3{slow, middle, 0} : box_.lo + Index3{0, middle, slow};
+  }
+
+  const VolumeInfo& info_;
+  std::uint64_t offset_;
+  std::uint64_t size_;
+  Box3 box_;
+  std::size_t length_;
+  std::int64_t count_;
+  std::size_t stride_;
+};
+
+/// One past the last row that is worth reading together with `first`.
+std::int64_t group_end(const Rows& rows, std::int64_t first) {
+  const std::uint64_t start = rows.file_offset(first);
+  std::uint64_t end = start + rows.bytes();
+  std::int64_t row = first + 1;
+  for (; row < rows.count(); ++row) {
+    const std::uint64_t next = rows.file_offset(row);
+    if (next - end > kMaxGapBytes || next + rows.bytes() - start > kChunkBytes) break;
+    end = next + rows.bytes();
+  }
+  return row;
+}
+
+}  // namespace
+
+void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
+  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+  const Rows rows(info_, place_, box);
+  std::vector<std::byte> scratch;
+  for (std::int64_t first = 0; first < rows.count();) {
+    const std::int64_t last = group_end(rows, first);
+    const std::uint64_t start = rows.file_offset(first);
+    scratch.resize(rows.file_offset(last - 1) + rows.bytes() - start);
+    source_->read_at(start, scratch);
+    for (std::int64_t row = first; row < last; ++row) {
+      decode_voxels(scratch.data() + (rows.file_offset(row) - start), rows.length(), info_.type,
+                    place_.order, out.data() + rows.out_offset(row), rows.out_stride());
+    }
+    first = last;
+  }
+}
+
+}  // namespace mw::io

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A dense array of voxels somewhere in a ByteSource, read by region: what all formats end in.
+#pragma once
+
+#include <memory>
+
+#include "io/file/byte_order.h"
+#include "io/file/byte_source.h"
+#include "io/volume/label_volume.h"
+
+namespace mw::io {
+
+/// Where the voxels are.  Axes go from fastest to slowest x, y, z, or z, y, x when
+/// VolumeInfo::z_fastest (a Fortran-order npy).
+struct ArrayPlace {
+  std::uint64_t offset = 0;
+  ByteOrder order = ByteOrder::kLittle;
+};
+
+class RawArrayVolume : public LabelVolume {
+ public:
+  /// REQUIRES: the source holds all voxels (check_payload).
+  RawArrayVolume(std::unique_ptr<ByteSource> source, VolumeInfo info, ArrayPlace place)
+      : source_(std::move(source)), info_(std::move(info)), place_(place) {}
+
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+  /// Cost: one pread for each run of rows that lie close together; at most 1 MiB or one row of
+  /// scratch memory.
+  void read(const Box3& box, std::span<RawLabel> out) const override;
+
+ private:
+  std::unique_ptr<ByteSource> source_;
+  VolumeInfo info_;
+  ArrayPlace place_;
+};
+
+}  // namespace mw::io

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// An independent second opinion on a finished mesh: promises P1, P2 and P3 (`mwmesh verify`).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kernels/audit/betti.h"
+#include "kernels/audit/check.h"
+#include "kernels/audit/quality.h"
+#include "kernels/audit/subject.h"
+#include "kernels/audit/validity.h"
+
+namespace mw::audit {
+
+struct AuditOptions {
+  double radius_ratio_floor = kSliverRadiusRatio;  ///< P3 fails below this
+};
+
+/// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
+struct AuditReport {
+  /// Those of validity, then "P1 topology" and "P3 radius ratio".
+  std::vector<Check> checks;
+  std::vector<RegionBetti> voxels;
+  std::vector<RegionBetti> mesh;  ///< empty when the mesh could not be read as one
+  /// Labels whose Betti numbers differ, ascending dense labels; the exterior is kExterior.
+  std::vector<Label> labels_changed;
+  /// The mesh is no partition of the box, so what was counted on it is indicative only.
+  bool topology_is_indicative = false;
+  ValidityReport validity;
+  QualityReport quality;
+
+  [[nodiscard]] bool passed() const;
+};
+
+/// Judges a mesh of any tool against its volume.  Shares no code with the mesher but kernels/core.
+/// label_count: size of the label table; the volume's labels are below it.
+/// Errors: kInput for an unusable volume; whatever is wrong with the mesh is a failed check.
+/// Cost: see voxel_betti, mesh_betti and check_validity.  Deterministic, one thread.
+[[nodiscard]] AuditReport audit(const VoxelLabels& volume, std::size_t label_count,
+                                const AuditMesh& mesh, const Frame& frame,
+                                const AuditOptions& options = {});
+
+}  // namespace mw::audit

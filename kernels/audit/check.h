@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A named check with its verdict, and how an audit words its details.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mw::audit {
+
+/// One line of a report.  detail: what was counted, and the first offenders if any.
+struct Check {
+  std::string name;
+  bool passed = false;
+  std::string detail;
+
+  friend bool operator==(const Check&, const Check&) = default;
+};
+
+/// Counts offenders and remembers the first few by name.
+class Offenders {
+ public:
+  /// noun: "tets", "triangles"; used in text().
+  explicit Offenders(std::string_view noun) : noun_(noun) {}
+
+  /// describe() -> std::string is called for the first few only.
+  template <class Describe>
+  void add(Describe&& describe) {
+    if (count_++ < kNamed) first_.push_back(describe());
+  }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  /// "3 tets (5, 7, 9)"; "0 tets".
+  [[nodiscard]] std::string text() const;
+
+ private:
+  static constexpr std::uint64_t kNamed = 4;
+
+  std::string noun_;
+  std::uint64_t count_ = 0;
+  std::vector<std::string> first_;
+};
+
+/// Shortest decimal that reads back as the same double; independent of the locale.
+[[nodiscard]] std::string number(double value);
+
+}  // namespace mw::audit

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Betti numbers of a mesh: one sweep over triangles for the parts, one over vertices to count.
+#include <algorithm>
+#include <utility>
+
+#include "kernels/audit/disjoint_sets.h"
+#include "kernels/audit/mesh_stars.h"
+#include "kernels/audit/part_graph.h"
+
+namespace mw::audit {
+namespace {
+
+class MeshSweep {
+ public:
+  MeshSweep(const AuditMesh& mesh, std::size_t label_count)
+      : stars_(mesh),
+        exterior_(static_cast<Label>(label_count)),
+        euler_(label_count + 2),
+        on_box_(mesh.vertices.size(), false) {
+    join_parts();
+  }
+
+  std::vector<RegionBetti> run() {
+    for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (stars_.star(v).empty()) continue;
+      count_vertex(v);
+      count_edges(v);
+      visit_faces_at(stars_, v, sides_, [this](const MeshFace& face) { count_face(face); });
+    }
+    count_cells();
+    auto betti = betti_of_parts(part_class_, graph_, euler_);
+    betti.resize(std::size_t{exterior_} + 1);
+    return betti;
+  }
+
+ private:
+  /// Labels of the volume, then the exterior, then all labels that are not the volume's.
+  [[nodiscard]] Label class_of(std::uint32_t tet) const {
+    const Label label = stars_.mesh().labels[tet];
+    return label < exterior_ ? label : exterior_ + 1;
+  }
+
+  /// Tets that name a vertex twice are in no star; they count for nothing.
+  [[nodiscard]] bool is_left_out(std::uint32_t tet) const {
+    return MeshStars::repeats_vertex(stars_.mesh().tets[tet]);
+  }
+
+  void join_parts() {
+    const std::size_t tets = stars_.mesh().tets.size();
+    DisjointSets sets(tets + 1);
+    visit_faces(stars_, [&](const MeshFace& face) {
+      for (std::size_t i = 1; i < face.sides.size(); ++i) {
+        const std::uint32_t a = face.sides[i - 1].tet;
+        const std::uint32_t b = face.sides[i].tet;
+        if (class_of(a) == class_of(b)) sets.unite(a, b);
+      }
+      if (face.sides.size() == 1) note_box_face(face.vertices);
+    });
+    std::sort(box_edges_.begin(), box_edges_.end());
+    box_edges_.erase(std::unique(box_edges_.begin(), box_edges_.end()), box_edges_.end());
+    for (std::uint32_t tet = 0; tet < tets; ++tet) {
+      if (is_left_out(tet)) sets.unite(tet, static_cast<std::uint32_t>(tets));
+    }
+    Parts parts = number_parts(std::move(sets), euler_.closed.size(), [&](std::size_t member) {
+      const auto tet = static_cast<std::uint32_t>(member);
+      return member == tets || is_left_out(tet) ? exterior_ : class_of(tet);
+    });
+    parts_ = std::move(parts.of_member);
+    part_class_ = std::move(parts.part_class);
+    exterior_part_ = parts_[tets];
+  }
+
+  void note_box_face(const std::array<std::uint32_t, 3>& v) {
+    for (const std::uint32_t vertex : v) on_box_[vertex] = true;
+    for (const auto& [a, b] : {std::pair{v[0], v[1]}, {v[0], v[2]}, {v[1], v[2]}}) {
+      box_edges_.push_back(std::uint64_t{a} << 32 | b);
+    }
+  }
+
+  void count_vertex(std::uint32_t v) {
+    around_.clear();
+    if (on_box_[v]) around_.push_back(exterior_part_);
+    for (const std::uint32_t tet : stars_.star(v)) around_.push_back(parts_[tet]);
+    std::sort(around_.begin(), around_.end());
+    around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
+    graph_.add_vertex(around_, part_class_);
+    classes_.clear();
+    for (const std::uint32_t part : around_) classes_.push_back(part_class_[part]);
+    add_cell(1);
+  }
+
+  /// Edges from v to a larger vertex; box_edges_ is read along, as v ascends.
+  void count_edges(std::uint32_t v) {
+    edges_.clear();
+    for (const std::uint32_t tet : stars_.star(v)) {
+      for (const std::uint64_t other : stars_.mesh().tets[tet]) {
+        if (other > v) edges_.push_back(other << 32 | class_of(tet));
+      }
+    }
+    for (; next_box_edge_ < box_edges_.size() && box_edges_[next_box_edge_] >> 32 == v;
+         ++next_box_edge_) {
+      edges_.push_back(box_edges_[next_box_edge_] << 32 | exterior_);
+    }
+    std::sort(edges_.begin(), edges_.end());
+    for (std::size_t i = 0; i < edges_.size();) {
+      const std::uint64_t other = edges_[i] >> 32;
+      classes_.clear();
+      for (; i < edges_.size() && edges_[i] >> 32 == other; ++i) {
+        classes_.push_back(static_cast<Label>(edges_[i] & 0xffffffffU));
+      }
+      add_cell(-1);
+    }
+  }
+
+  void count_face(const MeshFace& face) {
+    classes_.clear();
+    std::uint32_t previous = face.sides.size() == 1 ? exterior_part_ : parts_[face.sides[0].tet];
+    if (face.sides.size() == 1) classes_.push_back(exterior_);
+    for (const FaceSide& side : face.sides) {
+      const std::uint32_t part = parts_[side.tet];
+      graph_.add_face(previous, part);
+      previous = part;
+      classes_.push_back(part_class_[part]);
+    }
+    std::sort(classes_.begin(), classes_.end());
+    add_cell(1);
+  }
+
+  void count_cells() {
+    euler_.add(-1, std::span(&exterior_, 1));
+    for (std::uint32_t tet = 0; tet < stars_.mesh().tets.size(); ++tet) {
+      if (!is_left_out(tet)) euler_.add(-1, std::span(&part_class_[parts_[tet]], 1));
+    }
+  }
+
+  /// The cell has classes_, ascending, around it.
+  void add_cell(std::int64_t sign) {
+    classes_.erase(std::unique(classes_.begin(), classes_.end()), classes_.end());
+    euler_.add(sign, classes_);
+  }
+
+  MeshStars stars_;
+  Label exterior_;
+  EulerSums euler_;
+  PartGraph graph_;
+  std::vector<bool> on_box_;
+  std::vector<std::uint64_t> box_edges_;
+  std::size_t next_box_edge_ = 0;
+  std::vector<std::uint32_t> parts_;
+  std::vector<Label> part_class_;
+  std::uint32_t exterior_part_ = 0;
+  std::vector<FaceSide> sides_;
+  std::vector<std::uint32_t> around_;
+  std::vector<std::uint64_t> edges_;
+  std::vector<Label> classes_;
+};
+
+}  // namespace
+
+std::vector<RegionBetti> mesh_betti(const AuditMesh& mesh, std::size_t label_count) {
+  return MeshSweep(mesh, label_count).run();
+}
+
+}  // namespace mw::audit

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Vertex stars by counting, triangles by sorting inside a star.
+#include "kernels/audit/mesh_stars.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "kernels/core/error.h"
+
+namespace mw::audit {
+namespace {
+
+void require_sound(const AuditMesh& mesh) {
+  if (mesh.tets.size() != mesh.labels.size()) {
+    throw Error(ErrorKind::kInput, "audit: the mesh has " + std::to_string(mesh.tets.size()) +
+                                       " tets but " + std::to_string(mesh.labels.size()) +
+                                       " labels");
+  }
+  if (mesh.tets.size() > std::size_t{1} << 31 ||
+      mesh.vertices.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorKind::kResource, "audit: more than 2^31 tets or 2^32 vertices; audit parts");
+  }
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (const std::uint64_t v : mesh.tets[t]) {
+      if (v < mesh.vertices.size()) continue;
+      throw Error(ErrorKind::kInput, "audit: tet " + std::to_string(t) + " names vertex " +
+                                         std::to_string(v) + " of " +
+                                         std::to_string(mesh.vertices.size()));
+    }
+  }
+}
+
+/// True for an odd permutation of 0 .. 3.
+bool is_odd(const std::array<unsigned, 4>& order) {
+  unsigned inversions = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = i + 1; k < 4; ++k) inversions += order[i] > order[k] ? 1U : 0U;
+  }
+  return inversions % 2 != 0;
+}
+
+/// The side of the triangle (vertex, tet[i], tet[k]), where vertex = tet[at].
+FaceSide side_of(const TetRow& tet, std::uint32_t id, unsigned at, unsigned i, unsigned k) {
+  if (tet[i] > tet[k]) std::swap(i, k);
+  const unsigned apex = 6 - at - i - k;  // all four sum to 6
+  return {tet[i] << 32 | tet[k], id, is_odd({apex, at, i, k})};
+}
+
+}  // namespace
+
+bool MeshStars::repeats_vertex(const TetRow& t) {
+  return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] ||
+         t[2] == t[3];
+}
+
+MeshStars::MeshStars(const AuditMesh& mesh) : mesh_(mesh) {
+  require_sound(mesh);
+  begin_.assign(mesh.vertices.size() + 1, 0);
+  for (const TetRow& tet : mesh.tets) {
+    if (repeats_vertex(tet)) continue;
+    for (const std::uint64_t v : tet) ++begin_[v + 1];
+  }
+  for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+  tets_.resize(begin_.back());
+  std::vector<std::uint64_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (repeats_vertex(mesh.tets[t])) continue;
+    for (const std::uint64_t v : mesh.tets[t]) tets_[next[v]++] = static_cast<std::uint32_t>(t);
+  }
+}
+
+void MeshStars::collect_sides(std::uint32_t vertex, std::vector<FaceSide>& sides) const {
+  sides.clear();
+  for (const std::uint32_t id : star(vertex)) {
+    const TetRow& tet = mesh_.tets[id];
+    std::array<unsigned, 3> larger{};
+    unsigned count = 0;
+    unsigned at = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+      if (tet[i] == vertex) at = i;
+      if (tet[i] > vertex) larger[count++] = i;
+    }
+    if (count < 2) continue;
+    sides.push_back(side_of(tet, id, at, larger[0], larger[1]));
+    if (count < 3) continue;
+    sides.push_back(side_of(tet, id, at, larger[0], larger[2]));
+    sides.push_back(side_of(tet, id, at, larger[1], larger[2]));
+  }
+  std::sort(sides.begin(), sides.end());
+}
+
+}  // namespace mw::audit

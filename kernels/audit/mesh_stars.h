@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which tets are at each vertex of a mesh, and every triangle once with the tets on it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernels/audit/subject.h"
+
+namespace mw::audit {
+
+/// A tet on one triangle.
+struct FaceSide {
+  std::uint64_t others = 0;  ///< the triangle's two larger vertices, middle one in the high half
+  std::uint32_t tet = 0;
+  bool odd = false;  ///< the tet is an odd permutation of (its apex, the triangle ascending)
+
+  friend auto operator<=>(const FaceSide&, const FaceSide&) = default;
+};
+
+/// A triangle, vertices ascending, and the tets on it, ascending.
+struct MeshFace {
+  std::array<std::uint32_t, 3> vertices{};
+  std::span<const FaceSide> sides;
+};
+
+/// The tets at every vertex.  Tets that name a vertex twice are left out.
+/// Memory: 16 bytes a tet and 8 a vertex.  Reads the mesh as long as it lives.
+class MeshStars {
+ public:
+  /// Errors: kInput when labels and tets differ in number or a vertex row is out of range,
+  /// kResource above 2^31 tets or 2^32 - 1 vertices.
+  explicit MeshStars(const AuditMesh& mesh);
+
+  [[nodiscard]] const AuditMesh& mesh() const { return mesh_; }
+  [[nodiscard]] std::uint32_t vertex_count() const {
+    return static_cast<std::uint32_t>(begin_.size() - 1);
+  }
+  /// Ascending.
+  [[nodiscard]] std::span<const std::uint32_t> star(std::uint32_t vertex) const {
+    return std::span(tets_).subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
+  }
+  /// The sides of all triangles whose smallest vertex this is, sorted by triangle, then tet.
+  void collect_sides(std::uint32_t vertex, std::vector<FaceSide>& sides) const;
+
+  /// True for a tet that names a vertex twice.
+  [[nodiscard]] static bool repeats_vertex(const TetRow& tet);
+
+ private:
+  AuditMesh mesh_;
+  std::vector<std::uint64_t> begin_;
+  std::vector<std::uint32_t> tets_;
+};
+
+/// Calls visit(MeshFace) for every triangle whose smallest vertex is `vertex`, in ascending order.
+template <class Visit>
+void visit_faces_at(const MeshStars& stars, std::uint32_t vertex, std::vector<FaceSide>& scratch,
+                    Visit&& visit) {
+  stars.collect_sides(vertex, scratch);
+  for (std::size_t begin = 0; begin < scratch.size();) {
+    const std::uint64_t others = scratch[begin].others;
+    std::size_t end = begin + 1;
+    while (end < scratch.size() && scratch[end].others == others) ++end;
+    visit(MeshFace{{vertex, static_cast<std::uint32_t>(others >> 32),
+                    static_cast<std::uint32_t>(others & 0xffffffffU)},
+                   std::span<const FaceSide>(scratch).subspan(begin, end - begin)});
+    begin = end;
+  }
+}
+
+/// Calls visit(MeshFace) for every triangle of the mesh, in ascending order of its vertices.
+template <class Visit>
+void visit_faces(const MeshStars& stars, Visit&& visit) {
+  std::vector<FaceSide> scratch;
+  for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
+    visit_faces_at(stars, v, scratch, visit);
+  }
+}
+
+}  // namespace mw::audit

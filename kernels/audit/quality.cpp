@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Radius ratios and dihedral angles.
+#include "kernels/audit/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kernels/audit/compensated_sum.h"
+
+namespace mw::audit {
+namespace {
+
+Position minus(const Position& a, const Position& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Position cross(const Position& a, const Position& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Position& a, const Position& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double norm(const Position& a) {
+  return std::sqrt(dot(a, a));
+}
+
+/// What both measures need: edges from a, and normals of the faces opposite to a, b, c, d, as long
+/// as twice the face's area, all outward or all inward.
+struct TetShape {
+  TetShape(const Position& a, const Position& b, const Position& c, const Position& d)
+      : edges{minus(b, a), minus(c, a), minus(d, a)} {
+    normals[1] = cross(edges[2], edges[1]);
+    normals[2] = cross(edges[0], edges[2]);
+    normals[3] = cross(edges[1], edges[0]);
+    normals[0] = cross(minus(c, b), minus(d, b));
+    for (std::size_t i = 0; i < 4; ++i) lengths[i] = norm(normals[i]);
+  }
+
+  [[nodiscard]] double radius_ratio() const;
+
+  std::array<Position, 3> edges;
+  std::array<Position, 4> normals;
+  std::array<double, 4> lengths{};
+};
+
+/// With D = 6 volume, S = total area and n = 2 D (circumcentre - a):
+/// r_in = D / (2 S), r_circ = |n| / (2 |D|), hence 3 r_in / r_circ = 3 D^2 / (S |n|).
+double TetShape::radius_ratio() const {
+  const double det = -dot(edges[0], normals[1]);
+  Position n{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double square = dot(edges[i], edges[i]);
+    for (std::size_t k = 0; k < 3; ++k) n[k] += square * normals[i + 1][k];
+  }
+  const double area = (lengths[0] + lengths[1] + lengths[2] + lengths[3]) / 2;
+  const double below = area * norm(n);
+  return below > 0 ? std::min(3 * det * det / below, 1.0) : 0;
+}
+
+/// Cosines of the sharpest and the bluntest dihedral angle so far.
+struct DihedralRange {
+  double largest = -2;
+  double smallest = 2;
+
+  void add(const TetShape& tet) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = i + 1; k < 4; ++k) {
+        const double lengths = tet.lengths[i] * tet.lengths[k];
+        if (lengths == 0) continue;
+        const double cosine = std::clamp(-dot(tet.normals[i], tet.normals[k]) / lengths, -1., 1.);
+        largest = std::max(largest, cosine);
+        smallest = std::min(smallest, cosine);
+      }
+    }
+  }
+};
+
+/// For the report only, so a last bit that depends on the C library does no harm.
+double degrees_of_cosine(double cosine) {
+  return std::acos(cosine) * 180 / std::numbers::pi;
+}
+
+TetShape shape_of(const AuditMesh& mesh, const TetRow& t) {
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]]};
+}
+
+}  // namespace
+
+double radius_ratio(const Position& a, const Position& b, const Position& c, const Position& d) {
+  return TetShape(a, b, c, d).radius_ratio();
+}
+
+QualityReport measure_quality(const AuditMesh& mesh) {
+  QualityReport report;
+  if (mesh.tets.empty()) return report;
+  const auto bins = report.radius_ratio_histogram.size();
+  CompensatedSum sum;
+  DihedralRange dihedral;
+  std::uint64_t slivers = 0;
+  report.radius_ratio_min = 2;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const TetShape tet = shape_of(mesh, mesh.tets[t]);
+    const double ratio = tet.radius_ratio();
+    if (ratio < report.radius_ratio_min) {
+      report.radius_ratio_min = ratio;
+      report.worst_tet = t;
+    }
+    sum.add(ratio);
+    if (ratio < kSliverRadiusRatio) ++slivers;
+    const auto bin = static_cast<std::size_t>(ratio * static_cast<double>(bins));
+    ++report.radius_ratio_histogram[std::min(bin, bins - 1)];
+    dihedral.add(tet);
+  }
+  const auto count = static_cast<double>(mesh.tets.size());
+  report.radius_ratio_mean = sum.value() / count;
+  report.sliver_fraction = static_cast<double>(slivers) / count;
+  if (dihedral.largest < -1) return report;
+  report.dihedral_min_deg = degrees_of_cosine(dihedral.largest);
+  report.dihedral_max_deg = degrees_of_cosine(dihedral.smallest);
+  return report;
+}
+
+}  // namespace mw::audit

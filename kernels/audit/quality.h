@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Shape of a mesh's tets (promise P3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "kernels/audit/subject.h"
+
+namespace mw::audit {
+
+/// Radius ratios below this are called slivers (paper, Table 3).
+inline constexpr double kSliverRadiusRatio = 0.1;
+
+/// Figures over all tets, in physical units.
+struct QualityReport {
+  double radius_ratio_min = 0;
+  std::uint64_t worst_tet = 0;  ///< first tet with the least radius ratio
+  double radius_ratio_mean = 0;
+  std::array<std::uint64_t, 20> radius_ratio_histogram{};  ///< equal bins over [0, 1]
+  double sliver_fraction = 0;
+  double dihedral_min_deg = 0;
+  double dihedral_max_deg = 0;
+};
+
+/// 3 r_in / r_circ: 1 for a regular tet, 0 for a flat one, whatever its orientation.
+[[nodiscard]] double radius_ratio(const Position& a, const Position& b, const Position& c,
+                                  const Position& d);
+
+/// P3.  An empty mesh gives zeros.  Flat tets count as radius ratio 0; faces without area are left
+/// out of the dihedral angles.
+/// REQUIRES: vertex rows in range, finite coordinates.  Cost: O(tets), no allocation.
+[[nodiscard]] QualityReport measure_quality(const AuditMesh& mesh);
+
+}  // namespace mw::audit

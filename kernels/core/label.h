@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Labels (the paper's materials), as files hold them and as the kernels use them.
+#pragma once
+
+#include <cstdint>
+
+namespace mw {
+
+/// A label as the input has it, 64 bits; signed types are sign-extended (two's complement).
+using RawLabel = std::uint64_t;
+
+/// Dense label: rank of a raw label among the labels of the volume.
+using Label = std::uint32_t;
+
+/// Everything outside the volume's box counts as one more label.
+inline constexpr Label kExterior = 0xffffffffU;
+
+}  // namespace mw

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where samples go when interface triangles change, and whether they may.
+#include "kernels/distance/distance_guard.h"
+
+#include <algorithm>
+
+#include "kernels/distance/point_triangle.h"
+
+namespace mw {
+namespace {
+
+constexpr double kRoundingGuard = 1e-9;
+
+/// A sample stays with the successor of its triangle up to this distance, without a search.
+constexpr double kNearEnough = 0.5;
+
+Vec3 in_voxels(Point p) {
+  return Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
+}
+
+}  // namespace
+
+DistanceGuard::DistanceGuard(const LabelBox& labels, Index3 volume, double max_distance,
+                             CarriedSamples& samples)
+    : reach_(labels, max_distance),
+      volume_(volume),
+      placing_distance_(max_distance - kSampleCoveringRadius - kRoundingGuard),
+      samples_(samples) {}
+
+void DistanceGuard::add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other,
+                                LocalVertex survivor, Point target) {
+  fan_.collect(mesh, v, triangles_);
+  const bool same_place = v == survivor && target == mesh.position(v);
+  for (const FanTriangle& t : triangles_) {
+    const bool vanishes = t.a == other || t.b == other;
+    // The triangles at both ends vanish once.
+    if (vanishes && v != survivor) continue;
+    changed_.push_back({.before = triangle_key(v, t.a, t.b),
+                        .after = triangle_key(survivor, t.a, t.b),
+                        .corners = {in_voxels(target), in_voxels(mesh.position(t.a)),
+                                    in_voxels(mesh.position(t.b))},
+                        .low = t.low,
+                        .high = t.high,
+                        .vanishes = vanishes,
+                        .stays = same_place && !vanishes});
+  }
+}
+
+bool DistanceGuard::allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
+                                       Point target) {
+  changed_.clear();
+  add_changed(mesh, keep, drop, keep, target);
+  add_changed(mesh, drop, keep, keep, target);
+  return keeps_bound();
+}
+
+bool DistanceGuard::allows_move(const TetMesh& mesh, LocalVertex v, Point target) {
+  changed_.clear();
+  add_changed(mesh, v, mesh.infinity(), v, target);
+  return keeps_bound();
+}
+
+bool DistanceGuard::keeps_bound() {
+  handovers_.clear();
+  for (std::size_t i = 0; i < changed_.size(); ++i) {
+    if (!changed_[i].stays && !place_samples(i)) return false;
+  }
+  for (const Changed& t : changed_) {
+    if (!t.stays && !t.vanishes && !reach_.within(t.corners, t.low, t.high)) return false;
+  }
+  return true;
+}
+
+bool DistanceGuard::place_samples(std::size_t from) {
+  const CarriedSamples::List* list = samples_.find(changed_[from].before);
+  if (list == nullptr) return true;
+  for (FaceSample s : list->samples) {
+    if (!place(s, from)) return false;
+  }
+  return true;
+}
+
+bool DistanceGuard::place(FaceSample sample, std::size_t from) {
+  const Vec3 p = in_voxels(position(sample, volume_));
+  const Changed& old = changed_[from];
+  const double near = std::min(kNearEnough, placing_distance_);
+  if (!old.vanishes && squared_distance(p, old.corners) <= near * near) {
+    handovers_.push_back({from, sample});
+    return true;
+  }
+  double best = placing_distance_ * placing_distance_;
+  std::size_t to = changed_.size();
+  for (std::size_t i = 0; i < changed_.size(); ++i) {
+    const Changed& t = changed_[i];
+    if (t.vanishes || t.low != old.low || t.high != old.high) continue;
+    const double d = squared_distance(p, t.corners);
+    if (d <= best && (to == changed_.size() || d < best)) {
+      best = d;
+      to = i;
+    }
+  }
+  if (to == changed_.size()) return false;
+  handovers_.push_back({to, sample});
+  return true;
+}
+
+void DistanceGuard::commit() {
+  for (const Changed& t : changed_) {
+    if (!t.stays) samples_.erase(t.before);
+  }
+  for (const Handover& h : handovers_) {
+    const Changed& t = changed_[h.to];
+    samples_.add(t.after, t.low, h.sample);
+  }
+}
+
+}  // namespace mw

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The hard two-sided bound on the distance between input and output interfaces (promise P4).
+#pragma once
+
+#include "kernels/distance/carried_samples.h"
+#include "kernels/distance/interface_fan.h"
+#include "kernels/distance/label_reach.h"
+
+namespace mw {
+
+/// Refuses changes of the mesh that would let input and output interfaces drift apart by more than
+/// D voxels, for any label, in either direction.
+///
+/// Output to input: each changed interface triangle is proved by LabelReach.
+/// Input to output: every voxel face between two labels has samples; each is carried by one output
+/// triangle between the same labels at a distance of at most D less the covering radius, which
+/// proves all of the face.  A change hands the samples of the triangles that it replaces to the
+/// nearest new ones between the same labels, and is refused when one ends too far.
+///
+/// Flips never touch interface triangles, and contractions of an inner vertex change none, so only
+/// contractions between boundary vertices and moves of interface vertices come here.
+class DistanceGuard {
+ public:
+  /// `labels` as LabelReach asks; `volume` is the shape of the whole volume; keeps references.
+  DistanceGuard(const LabelBox& labels, Index3 volume, double max_distance,
+                CarriedSamples& samples);
+
+  /// Smallest bound that the samples can prove anything for.
+  [[nodiscard]] static constexpr double least_distance() { return 2.0 * kSampleCoveringRadius; }
+
+  /// Would contracting (keep, drop) to `target` keep the bound?  Remembers where the samples go.
+  /// REQUIRES: both ends free; not yet contracted.
+  [[nodiscard]] bool allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
+                                        Point target);
+  /// The same for a move of v.
+  [[nodiscard]] bool allows_move(const TetMesh& mesh, LocalVertex v, Point target);
+  /// Hands the samples over, after the change that was last allowed has been made.
+  void commit();
+
+ private:
+  /// A triangle before and after the change; `after` is dropped when the triangle vanishes.
+  struct Changed {
+    TriangleKey before;
+    TriangleKey after;
+    std::array<Vec3, 3> corners;  ///< after the change, in voxels
+    Label low = 0;
+    Label high = 0;
+    bool vanishes = false;
+    bool stays = false;  ///< not changed at all; may receive samples
+  };
+  struct Handover {
+    std::size_t to = 0;
+    FaceSample sample = 0;
+  };
+
+  void add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other, LocalVertex survivor,
+                   Point target);
+  [[nodiscard]] bool keeps_bound();
+  [[nodiscard]] bool place_samples(std::size_t from);
+  [[nodiscard]] bool place(FaceSample sample, std::size_t from);
+
+  LabelReach reach_;
+  Index3 volume_;
+  double placing_distance_;
+  CarriedSamples& samples_;
+  InterfaceFan fan_;
+  std::vector<FanTriangle> triangles_;
+  std::vector<Changed> changed_;
+  std::vector<Handover> handovers_;
+};
+
+}  // namespace mw

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The interface triangles at a vertex.
+#pragma once
+
+#include <vector>
+
+#include "kernels/mesh/tet_mesh.h"
+
+namespace mw {
+
+/// Triangle (v, a, b) of an interface between labels low < high; a < b.
+struct FanTriangle {
+  LocalVertex a = 0;
+  LocalVertex b = 0;
+  Label low = 0;
+  Label high = 0;
+};
+
+/// Collects the triangles at v that have different labels of the volume on their two sides (the
+/// box is no interface), ascending.  REQUIRES: v free.
+class InterfaceFan {
+ public:
+  void collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out);
+
+ private:
+  struct Side {
+    LocalVertex a = 0;
+    LocalVertex b = 0;
+    Label label = 0;
+    friend auto operator<=>(const Side&, const Side&) = default;
+  };
+  std::vector<Side> sides_;
+};
+
+}  // namespace mw

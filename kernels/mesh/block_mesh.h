@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The canonical content of a block: what is stored between the visits of windows (Sec 4.2).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernels/core/face_sample.h"
+#include "kernels/core/label.h"
+#include "kernels/core/lattice.h"
+#include "kernels/quadric/quadric.h"
+
+namespace mw {
+
+/// A vertex as blocks hold it.  All copies of a vertex in different blocks are equal.
+struct BlockVertex {
+  VertexId id = 0;
+  Point position;
+  Quadric quadric;
+
+  friend bool operator==(const BlockVertex&, const BlockVertex&) = default;
+};
+
+/// A tetrahedron by rows of the block's vertex list, ascending.  Orientation is not stored: it
+/// follows from the positions, exactly.
+struct BlockTet {
+  std::array<std::uint32_t, 4> vertices{};
+  Label label = 0;
+
+  friend auto operator<=>(const BlockTet&, const BlockTet&) = default;
+};
+
+/// A sample of the input's interface, carried by a triangle of the mesh's (distance bound).  It is
+/// stored with the tet on that side of the triangle whose label is the smaller.
+struct BlockSample {
+  std::array<std::uint32_t, 3> triangle{};  ///< rows of the block's vertex list, ascending
+  Label side = 0;                           ///< label of that tet
+  FaceSample sample = 0;
+
+  friend auto operator<=>(const BlockSample&, const BlockSample&) = default;
+};
+
+/// Content of one block.  Canonical: vertices ascending by id, tets and samples ascending; every
+/// vertex is referenced.  Equal content is equal bytes, whichever window wrote it.
+struct BlockMesh {
+  std::vector<BlockVertex> vertices;
+  std::vector<BlockTet> tets;
+  std::vector<BlockSample> samples;
+
+  friend bool operator==(const BlockMesh&, const BlockMesh&) = default;
+};
+
+}  // namespace mw

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Stars of link triangles: construction, contraction and the two primitive edits of flips.
+#include "kernels/mesh/tet_mesh.h"
+
+#include <algorithm>
+
+namespace mw {
+namespace {
+
+BoxPlanes planes_of(Point p, Point box) {
+  unsigned planes = 0;
+  if (p.x == 0) planes |= 1U;
+  if (p.x == box.x) planes |= 2U;
+  if (p.y == 0) planes |= 4U;
+  if (p.y == box.y) planes |= 8U;
+  if (p.z == 0) planes |= 16U;
+  if (p.z == box.z) planes |= 32U;
+  return static_cast<BoxPlanes>(planes);
+}
+
+}  // namespace
+
+TetMesh::TetMesh(std::vector<BlockVertex> vertices, std::span<const BlockTet> tets, Point box)
+    : vertices_(std::move(vertices)), marks_(vertices_.size() + 1) {
+  planes_.reserve(vertices_.size());
+  for (const BlockVertex& v : vertices_) planes_.push_back(planes_of(v.position, box));
+
+  std::vector<LocalTet> loaded;
+  loaded.reserve(tets.size() + tets.size() / 8);
+  for (const BlockTet& t : tets) {
+    LocalTet tet{t.vertices, t.label};
+    auto& v = tet.vertices;
+    if (volume6(position(v[0]), position(v[1]), position(v[2]), position(v[3])) < 0) {
+      std::swap(v[2], v[3]);
+    }
+    loaded.push_back(tet);
+  }
+  const std::size_t real = loaded.size();
+  for (std::size_t i = 0; i < real; ++i) {
+    const auto v = loaded[i].vertices;
+    // The face opposite each corner, turned so that the virtual tet beyond it is positive.
+    const std::array<LocalTet, 4> beyond{{{{infinity(), v[2], v[1], v[3]}, kExterior},
+                                          {{v[0], infinity(), v[3], v[2]}, kExterior},
+                                          {{v[1], v[0], infinity(), v[3]}, kExterior},
+                                          {{v[0], v[2], v[1], infinity()}, kExterior}}};
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      unsigned shared = 63;
+      for (std::size_t j = 0; j < 4; ++j) {
+        if (j != corner) shared &= planes_[v[j]];
+      }
+      if (shared != 0) loaded.push_back(beyond[corner]);
+    }
+  }
+  count_stars(loaded);
+  for (const LocalTet& t : loaded) {
+    for (int i = 0; i < 4; ++i) {
+      const LocalVertex v = t.vertices[static_cast<std::size_t>(i)];
+      if (v == infinity()) continue;
+      pool_[stars_[v].begin + stars_[v].size++] = link_triangle(t, i);
+    }
+  }
+  versions_.assign(vertices_.size(), 0);
+  classify_vertices();
+}
+
+void TetMesh::count_stars(std::span<const LocalTet> tets) {
+  stars_.assign(vertices_.size(), {});
+  for (const LocalTet& t : tets) {
+    for (LocalVertex v : t.vertices) {
+      if (v != infinity()) ++stars_[v].capacity;
+    }
+  }
+  std::uint32_t begin = 0;
+  for (Star& s : stars_) {
+    s.begin = begin;
+    begin += s.capacity;
+  }
+  pool_.resize(begin);
+}
+
+void TetMesh::classify_vertices() {
+  free_.assign(vertices_.size(), 0);
+  orders_.assign(vertices_.size(), 0);
+  signatures_.assign(vertices_.size(), 0);
+  for (LocalVertex v = 0; v < vertex_count(); ++v) {
+    marks_.clear();
+    std::size_t link_vertices = 0;
+    for (const LinkTriangle& t : star(v)) {
+      for (LocalVertex w : {t.a, t.b, t.c}) link_vertices += marks_.insert(w) ? 1U : 0U;
+    }
+    free_[v] = 2 * link_vertices == stars_[v].size + 4 ? 1 : 0;
+    classify_labels(v);
+  }
+}
+
+void TetMesh::classify_labels(LocalVertex v) {
+  std::array<Label, 255> seen;
+  std::size_t count = 0;
+  std::uint64_t signature = 0;
+  for (const LinkTriangle& t : star(v)) {
+    signature |= label_bit(t.label);
+    const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
+    if (count < seen.size() && std::find(seen.begin(), end, t.label) == end) {
+      seen[count++] = t.label;
+    }
+  }
+  orders_[v] = static_cast<std::uint8_t>(count);
+  signatures_[v] = signature;
+}
+
+void TetMesh::reserve(LocalVertex v, std::uint32_t capacity) {
+  Star& s = stars_[v];
+  if (s.capacity >= capacity) return;
+  const auto begin = static_cast<std::uint32_t>(pool_.size());
+  pool_.resize(pool_.size() + capacity);
+  std::copy_n(pool_.begin() + s.begin, s.size, pool_.begin() + begin);
+  s.begin = begin;
+  s.capacity = capacity;
+}
+
+void TetMesh::append(LocalVertex v, LinkTriangle triangle) {
+  if (stars_[v].size == stars_[v].capacity) reserve(v, 2 * stars_[v].capacity + 8);
+  Star& s = stars_[v];
+  pool_[s.begin + s.size++] = triangle;
+}
+
+void TetMesh::erase(LocalVertex v, std::uint32_t index) {
+  Star& s = stars_[v];
+  pool_[s.begin + index] = pool_[s.begin + --s.size];
+}
+
+void TetMesh::replace_in_link(LocalVertex keep, LocalVertex drop) {
+  marks_.clear();
+  marks_.insert(keep);
+  marks_.insert(infinity());
+  for (std::uint32_t i = 0; i < stars_[drop].size; ++i) {
+    const LinkTriangle t = pool_[stars_[drop].begin + i];
+    for (LocalVertex w : {t.a, t.b, t.c}) {
+      if (!marks_.insert(w)) continue;
+      for (std::uint32_t k = 0; k < stars_[w].size;) {
+        LinkTriangle& u = pool_[stars_[w].begin + k];
+        if (u.has(drop)) {
+          if (u.has(keep)) {
+            erase(w, k);
+            continue;
+          }
+          (u.a == drop ? u.a : u.b == drop ? u.b : u.c) = keep;
+        }
+        ++k;
+      }
+    }
+  }
+}
+
+void TetMesh::merge_stars(LocalVertex keep, LocalVertex drop) {
+  for (std::uint32_t k = 0; k < stars_[keep].size;) {
+    if (pool_[stars_[keep].begin + k].has(drop)) {
+      erase(keep, k);
+    } else {
+      ++k;
+    }
+  }
+  reserve(keep, stars_[keep].size + stars_[drop].size);
+  for (std::uint32_t i = 0; i < stars_[drop].size; ++i) {
+    const LinkTriangle t = pool_[stars_[drop].begin + i];
+    if (!t.has(keep)) append(keep, t);
+  }
+  stars_[drop].size = 0;
+}
+
+void TetMesh::contract(LocalVertex keep, LocalVertex drop, Point position,
+                       const Quadric& quadric) {
+  MW_ASSERT(is_free(keep) && is_free(drop));
+  replace_in_link(keep, drop);
+  merge_stars(keep, drop);
+  classify_labels(keep);
+  move(keep, position, quadric);
+}
+
+void TetMesh::move(LocalVertex v, Point position, const Quadric& quadric) {
+  MW_ASSERT(is_free(v));
+  vertices_[v].position = position;
+  vertices_[v].quadric = quadric;
+  ++versions_[v];
+}
+
+void TetMesh::add_tet(const LocalTet& tet) {
+  for (int i = 0; i < 4; ++i) {
+    append(tet.vertices[static_cast<std::size_t>(i)], link_triangle(tet, i));
+  }
+}
+
+void TetMesh::remove_tet(const LocalTet& tet) {
+  for (int i = 0; i < 4; ++i) {
+    const LocalVertex v = tet.vertices[static_cast<std::size_t>(i)];
+    const LinkTriangle wanted = link_triangle(tet, i);
+    const auto entries = star(v);
+    const auto found = std::find_if(entries.begin(), entries.end(), [&](const LinkTriangle& t) {
+      return t.has(wanted.a) && t.has(wanted.b) && t.has(wanted.c);
+    });
+    MW_ASSERT(found != entries.end());
+    erase(v, static_cast<std::uint32_t>(found - entries.begin()));
+  }
+}
+
+std::vector<LocalTet> TetMesh::tets() const {
+  std::vector<LocalTet> out;
+  for (LocalVertex v = 0; v < vertex_count(); ++v) {
+    for (const LinkTriangle& t : star(v)) {
+      if (v < t.a && v < t.b && v < t.c && t.label != kExterior) {
+        out.push_back({{v, t.a, t.b, t.c}, t.label});
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace mw

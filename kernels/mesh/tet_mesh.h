@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// TetMesh: the one mutable mesh, that of a window.  Each vertex holds its star as link triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernels/core/assert.h"
+#include "kernels/core/label.h"
+#include "kernels/core/lattice.h"
+#include "kernels/mesh/block_mesh.h"
+#include "kernels/mesh/vertex_marks.h"
+#include "kernels/quadric/quadric.h"
+
+namespace mw {
+
+/// Row of a vertex in its window; ascending with the global id.
+using LocalVertex = std::uint32_t;
+
+/// A tetrahedron seen from one of its vertices v: (v, a, b, c) is positively oriented.
+struct LinkTriangle {
+  LocalVertex a = 0;
+  LocalVertex b = 0;
+  LocalVertex c = 0;
+  Label label = 0;
+
+  friend auto operator<=>(const LinkTriangle&, const LinkTriangle&) = default;
+
+  [[nodiscard]] bool has(LocalVertex v) const { return a == v || b == v || c == v; }
+};
+
+/// A positively oriented tetrahedron.
+struct LocalTet {
+  std::array<LocalVertex, 4> vertices{};
+  Label label = 0;
+};
+
+/// Bits of the box planes that a vertex lies on: 1, 2 for low and high x; 4, 8 for y; 16, 32 for z.
+using BoxPlanes = std::uint8_t;
+
+/// Axes (bit 0 = x) along which a vertex on these planes cannot move.
+[[nodiscard]] constexpr unsigned fixed_axes(BoxPlanes planes) {
+  return ((planes & 3U) != 0 ? 1U : 0U) | ((planes & 12U) != 0 ? 2U : 0U) |
+         ((planes & 48U) != 0 ? 4U : 0U);
+}
+
+/// The mesh of a window.
+///
+/// The exterior is present as virtual tetrahedra of label kExterior between each triangle on the
+/// volume's box and the vertex infinity(), so that the star of a free vertex is always a closed
+/// sphere and the topology test needs no special case (topology.md D.3).
+///
+/// A vertex is free when its star is complete, that is, when its loaded link is a sphere: with n
+/// link vertices and F link triangles, 2 n = F + 4 (Euler; no proper subset of a triangulated
+/// sphere satisfies it).  Only free vertices may move or vanish (design rule of Sec 4.1).
+class TetMesh {
+ public:
+  /// Local vertices are the rows of `vertices`.
+  /// REQUIRES: vertices ascending by id; tets by rows, in a canonical order, all within
+  /// kMaxTetExtent and not flat; box = far corner of the volume in lattice units.
+  TetMesh(std::vector<BlockVertex> vertices, std::span<const BlockTet> tets, Point box);
+
+  [[nodiscard]] LocalVertex vertex_count() const {
+    return static_cast<LocalVertex>(vertices_.size());
+  }
+  [[nodiscard]] LocalVertex infinity() const { return vertex_count(); }
+
+  [[nodiscard]] const BlockVertex& vertex(LocalVertex v) const { return vertices_[v]; }
+  [[nodiscard]] Point position(LocalVertex v) const { return vertices_[v].position; }
+  [[nodiscard]] const Quadric& quadric(LocalVertex v) const { return vertices_[v].quadric; }
+  [[nodiscard]] BoxPlanes planes(LocalVertex v) const { return planes_[v]; }
+  [[nodiscard]] bool is_free(LocalVertex v) const { return free_[v] != 0; }
+  [[nodiscard]] bool is_alive(LocalVertex v) const { return stars_[v].size != 0; }
+  /// Changes whenever v moves or another vertex is merged into it.
+  [[nodiscard]] std::uint32_t version(LocalVertex v) const { return versions_[v]; }
+
+  /// The loaded tetrahedra at v, virtual ones included.  Invalid after any change of the mesh.
+  [[nodiscard]] std::span<const LinkTriangle> star(LocalVertex v) const {
+    return {pool_.data() + stars_[v].begin, stars_[v].size};
+  }
+
+  /// Number of distinct labels at v, exterior included (the paper's order, Sec 5.3.1).
+  /// REQUIRES: v free (a fixed vertex may have labels that are not loaded).
+  [[nodiscard]] int order(LocalVertex v) const { return orders_[v]; }
+  /// One bit a label (hashed) at v.
+  [[nodiscard]] std::uint64_t label_signature(LocalVertex v) const { return signatures_[v]; }
+  [[nodiscard]] static std::uint64_t label_bit(Label label) {
+    return std::uint64_t{1} << (label * 0x9E3779B1U >> 26);
+  }
+  /// True when v lies between two labels of the volume (not merely on the box).
+  [[nodiscard]] bool on_interface(LocalVertex v) const {
+    return orders_[v] > (planes_[v] != 0 ? 2 : 1);
+  }
+
+  /// Contracts edge (keep, drop): drop vanishes, keep goes to position with the given quadric.
+  /// REQUIRES: both free, joined by an edge, and the contraction found valid.
+  void contract(LocalVertex keep, LocalVertex drop, Point position, const Quadric& quadric);
+
+  /// Moves v; its quadric stays the same function.  REQUIRES: v free; all tets stay positive.
+  void move(LocalVertex v, Point position, const Quadric& quadric);
+
+  /// REQUIRES: positive orientation; no virtual tets.
+  void add_tet(const LocalTet& tet);
+  /// REQUIRES: the tet is there.
+  void remove_tet(const LocalTet& tet);
+
+  /// Every tetrahedron once (virtual ones excluded): positive, grouped by its smallest vertex.
+  [[nodiscard]] std::vector<LocalTet> tets() const;
+
+ private:
+  struct Star {
+    std::uint32_t begin = 0;
+    std::uint32_t size = 0;
+    std::uint32_t capacity = 0;
+  };
+
+  void count_stars(std::span<const LocalTet> tets);
+  void classify_vertices();
+  void classify_labels(LocalVertex v);
+  void append(LocalVertex v, LinkTriangle triangle);
+  void reserve(LocalVertex v, std::uint32_t capacity);
+  void erase(LocalVertex v, std::uint32_t index);
+  void replace_in_link(LocalVertex keep, LocalVertex drop);
+  void merge_stars(LocalVertex keep, LocalVertex drop);
+
+  std::vector<BlockVertex> vertices_;
+  std::vector<BoxPlanes> planes_;
+  std::vector<std::uint8_t> free_;
+  std::vector<std::uint8_t> orders_;
+  std::vector<std::uint64_t> signatures_;
+  std::vector<std::uint32_t> versions_;
+  std::vector<Star> stars_;
+  std::vector<LinkTriangle> pool_;
+  VertexMarks marks_;
+};
+
+/// The star entry of corner i of a positive tet: an even permutation that brings it to the front.
+[[nodiscard]] constexpr LinkTriangle link_triangle(const LocalTet& t, int i) {
+  const auto& v = t.vertices;
+  switch (i) {
+    case 0: return {v[1], v[2], v[3], t.label};
+    case 1: return {v[0], v[3], v[2], t.label};
+    case 2: return {v[0], v[1], v[3], t.label};
+    default: return {v[0], v[2], v[1], t.label};
+  }
+}
+
+}  // namespace mw

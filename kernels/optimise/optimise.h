@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A sweep of local optimisation over a window: flips, then smoothing.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/distance/distance_guard.h"
+#include "kernels/mesh/tet_mesh.h"
+
+namespace mw {
+
+struct OptimiseOptions {
+  int sweeps = 1;
+  double flip_below = 0.5;    ///< flips are tried on tets with a smaller radius ratio
+  double smooth_below = 0.6;  ///< smoothing, at vertices whose worst tet is below
+};
+
+struct OptimiseStats {
+  std::uint64_t flips = 0;
+  std::uint64_t moves = 0;
+
+  OptimiseStats& operator+=(const OptimiseStats& other);
+};
+
+/// Improves tets in place of the paper's constrained ODT (Sec 5.5); every step raises the least
+/// radius ratio of the tets that it replaces.  guard: as in simplify().
+/// ENSURES: as simplify(): exact positivity, labels as point sets kept by flips and as complexes by
+///          moves, box kept, fixed vertices do not move; depends on content only.
+OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
+                       DistanceGuard* guard = nullptr);
+
+}  // namespace mw

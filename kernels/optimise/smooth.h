@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Vertex smoothing: moves a free vertex to where the worst tet of its star is better.
+#pragma once
+
+#include "kernels/distance/distance_guard.h"
+#include "kernels/mesh/tet_mesh.h"
+
+namespace mw {
+
+/// Moves v, if that raises the least radius ratio of its star.
+///
+/// Inner vertices move freely, box vertices within their planes, interface vertices only where
+/// their quadric stays below max(present value, a quarter voxel squared per accumulated plane): the
+/// slack is absolute, so it does not add up over visits.  With a guard they keep the distance bound
+/// as well.
+/// REQUIRES: v free.  ENSURES: all tets exactly positive; connectivity unchanged, so topology is.
+/// Returns true when v moved.
+bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v,
+                   DistanceGuard* guard = nullptr);
+
+}  // namespace mw

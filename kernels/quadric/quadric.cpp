@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Quadric algebra (Sec 5.2) with Eigen's fixed-size matrices.
+#include "kernels/quadric/quadric.h"
+
+#include <Eigen/Dense>
+
+namespace mw {
+namespace {
+
+Eigen::Matrix3d matrix(const Quadric& q) {
+  Eigen::Matrix3d m;
+  m << q.a[0], q.a[1], q.a[2], q.a[1], q.a[3], q.a[4], q.a[2], q.a[4], q.a[5];
+  return m;
+}
+
+Vec3 linear(const Quadric& q) { return {q.b[0], q.b[1], q.b[2]}; }
+
+}  // namespace
+
+void Quadric::add_axis_plane(int axis, double weight) {
+  constexpr std::array<std::size_t, 3> kDiagonal{0, 3, 5};
+  a[kDiagonal[static_cast<std::size_t>(axis)]] += weight;
+}
+
+void Quadric::add_point(double weight) {
+  a[0] += weight;
+  a[3] += weight;
+  a[5] += weight;
+}
+
+double Quadric::value(const Vec3& x) const {
+  return x.dot(matrix(*this) * x) + 2.0 * linear(*this).dot(x) + c;
+}
+
+Quadric Quadric::shifted(const Vec3& offset) const {
+  const Vec3 slope = matrix(*this) * offset;
+  Quadric out = *this;
+  for (std::size_t i = 0; i < 3; ++i) out.b[i] += slope[static_cast<Eigen::Index>(i)];
+  out.c = value(offset);
+  return out;
+}
+
+Quadric operator+(const Quadric& p, const Quadric& q) {
+  Quadric out;
+  for (std::size_t i = 0; i < 6; ++i) out.a[i] = p.a[i] + q.a[i];
+  for (std::size_t i = 0; i < 3; ++i) out.b[i] = p.b[i] + q.b[i];
+  out.c = p.c + q.c;
+  return out;
+}
+
+QuadricMinimum minimum(const Quadric& q, unsigned fixed_axes) {
+  Eigen::Matrix3d m = matrix(q);
+  Vec3 b = linear(q);
+  for (int i = 0; i < 3; ++i) {
+    if ((fixed_axes >> i & 1U) == 0) continue;
+    m.row(i).setZero();
+    m.col(i).setZero();
+    m(i, i) = 1.0;
+    b[i] = 0.0;
+  }
+  const Vec3 x = m.inverse() * (-b);
+  return {x, q.value(x)};
+}
+
+}  // namespace mw

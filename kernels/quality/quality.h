@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Shape measures of a tetrahedron: radius ratio and edge length variance (Sec 5.4, Eq (3)).
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "kernels/core/metric.h"
+
+namespace mw {
+
+/// Three edge vectors of a tetrahedron from one vertex to the other three.
+struct TetEdges {
+  Vec3 a, b, c;
+};
+
+/// Radius ratio 3 r_in / r_circ, in (0, 1]; 1 for the regular tetrahedron.
+/// With n1 = b x c, n2 = c x a, n3 = a x b, V6 = a . n1 and w = a^2 n1 + b^2 n2 + c^2 n3:
+/// r_in = V6 / sum of the four |n|, r_circ = |w| / (2 V6).
+/// ENSURES: a value <= 0 when the orientation is not positive (up to rounding: exactness is
+/// volume6's business).
+[[nodiscard]] inline double radius_ratio(const TetEdges& t) {
+  const Vec3 n1 = t.b.cross(t.c), n2 = t.c.cross(t.a), n3 = t.a.cross(t.b);
+  const double v6 = t.a.dot(n1);
+  if (v6 <= 0.0) return v6 < 0.0 ? -1.0 : 0.0;
+  const double area = n1.norm() + n2.norm() + n3.norm() + (n1 + n2 + n3).norm();
+  const Vec3 w = t.a.squaredNorm() * n1 + t.b.squaredNorm() * n2 + t.c.squaredNorm() * n3;
+  return 6.0 * v6 * v6 / (area * w.norm());
+}
+
+/// Normalised edge length variance, Eq (3): variance of the six edge lengths over their squared
+/// mean.
+[[nodiscard]] inline double edge_length_variance(const TetEdges& t) {
+  const std::array<double, 6> e{t.a.norm(),         t.b.norm(),         t.c.norm(),
+                                (t.b - t.a).norm(), (t.c - t.b).norm(), (t.a - t.c).norm()};
+  double sum = 0.0;
+  for (double length : e) sum += length;
+  const double mean = sum / 6.0;
+  double squares = 0.0;
+  for (double length : e) squares += (length - mean) * (length - mean);
+  return squares / (6.0 * mean * mean);
+}
+
+}  // namespace mw

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Cases 1 to 3 of Sec 5.3.3: survivor, position and cost.
+#include "kernels/simplify/contraction.h"
+
+#include <utility>
+
+namespace mw {
+namespace {
+
+constexpr double kInnerToBoundaryFactor = 4.0;
+
+bool is_inner(const TetMesh& mesh, LocalVertex v) { return mesh.order(v) == 1; }
+
+Quadric sum_at(const TetMesh& mesh, const Metric& metric, LocalVertex p, LocalVertex q) {
+  const Vec3 from_q_to_p = metric.vector(mesh.position(q), mesh.position(p));
+  return mesh.quadric(p) + mesh.quadric(q).shifted(from_q_to_p);
+}
+
+/// Ranks the ends by what must survive: box planes first, then order.  Positive: p, negative: q,
+/// zero: neither.  Empty when the two demands contradict each other.
+std::optional<int> survivor(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
+  const unsigned planes_p = mesh.planes(p), planes_q = mesh.planes(q);
+  const unsigned both = planes_p & planes_q;
+  if (both != planes_p && both != planes_q) return std::nullopt;
+  const int by_planes = (both == planes_q ? 1 : 0) - (both == planes_p ? 1 : 0);
+  const int by_order = (mesh.order(p) > mesh.order(q) ? 1 : 0) -
+                       (mesh.order(p) < mesh.order(q) ? 1 : 0);
+  if (by_planes * by_order < 0) return std::nullopt;
+  return by_planes != 0 ? by_planes : by_order;
+}
+
+}  // namespace
+
+std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& metric,
+                                            LocalVertex p, LocalVertex q) {
+  if (p > q) std::swap(p, q);
+  const std::optional<int> rank = survivor(mesh, p, q);
+  if (!rank) return std::nullopt;
+  Contraction c{.keep = *rank < 0 ? q : p, .drop = *rank < 0 ? p : q};
+  if (*rank == 0) {
+    const QuadricMinimum best =
+        minimum(sum_at(mesh, metric, p, q), fixed_axes(mesh.planes(p)));
+    c.position = metric.moved(mesh.position(p), best.offset);
+    c.cost = best.value;
+    c.moves = true;
+    return c;
+  }
+  c.position = mesh.position(c.keep);
+  const Vec3 way = metric.vector(mesh.position(c.drop), c.position);
+  c.cost = mesh.quadric(c.drop).value(way);
+  if (is_inner(mesh, c.drop)) {
+    c.cost *= kInnerToBoundaryFactor;
+  } else {
+    c.cost += mesh.quadric(c.keep).c;
+  }
+  return c;
+}
+
+Quadric contracted_quadric(const TetMesh& mesh, const Metric& metric,
+                           const Contraction& contraction) {
+  const Vec3 move = metric.vector(mesh.position(contraction.keep), contraction.position);
+  const Quadric kept = mesh.quadric(contraction.keep).shifted(move);
+  const bool absorbs_inner = is_inner(mesh, contraction.drop) && !is_inner(mesh, contraction.keep);
+  if (absorbs_inner) return kept;
+  const Vec3 way = metric.vector(mesh.position(contraction.drop), contraction.position);
+  return kept + mesh.quadric(contraction.drop).shifted(way);
+}
+
+}  // namespace mw

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What contracting an edge would do: which end survives, where, at which cost (Sec 5.2, 5.3.3).
+#pragma once
+
+#include <optional>
+
+#include "kernels/mesh/tet_mesh.h"
+
+namespace mw {
+
+/// A contraction that the types of its ends allow; geometry and topology are still to be tested.
+struct Contraction {
+  LocalVertex keep = 0;
+  LocalVertex drop = 0;
+  Point position;      ///< where `keep` goes
+  double cost = 0.0;   ///< quadric error, metric units squared
+  bool moves = false;  ///< position differs from that of `keep`
+};
+
+/// Plans the contraction of edge (p, q) by the paper's cases.
+///  Case 1, both inner: the smaller id survives, at the optimum of Q_p + Q_q.
+///  Case 2, one inner: the other survives where it is.  Its quadric stays its own: the paper adds
+///          the inner one, which drags interfaces (kernel study); such contractions rarely succeed,
+///          so their cost counts fourfold.
+///  Case 3, both on boundaries: the higher order survives where it is; on a tie the optimum.
+/// Vertices on the box keep to their planes: the end on more planes survives where it is, ends on
+/// the same planes go to the optimum within them, other pairs are refused.
+/// REQUIRES: p, q free.  ENSURES: symmetric in p and q.
+[[nodiscard]] std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& metric,
+                                                          LocalVertex p, LocalVertex q);
+
+/// The quadric of the surviving vertex, relative to its new position.
+[[nodiscard]] Quadric contracted_quadric(const TetMesh& mesh, const Metric& metric,
+                                         const Contraction& contraction);
+
+}  // namespace mw

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Simplification of a window by edge contraction (Sec 5.2 to 5.4).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "kernels/distance/distance_guard.h"
+#include "kernels/mesh/tet_mesh.h"
+
+namespace mw {
+
+struct SimplifyOptions {
+  /// No contraction may create a tet below this radius ratio, unless the tets that it replaces
+  /// reach no further (strong anisotropy makes even the start mesh flat).
+  double quality_floor = 0.1;
+  /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none: unbounded.
+  std::optional<double> edge_variance;
+};
+
+/// Why candidates fell; one count each.
+struct SimplifyStats {
+  std::uint64_t tried = 0;
+  std::uint64_t contracted = 0;
+  std::uint64_t inverted = 0;
+  std::uint64_t low_quality = 0;
+  std::uint64_t topology = 0;
+  std::uint64_t distance = 0;
+
+  SimplifyStats& operator+=(const SimplifyStats& other);
+};
+
+/// Contracts edges with both ends free until none that passes the filters costs less than the last
+/// bound of VertexQueue.
+/// guard: keeps the distance bound; null: no bound.
+/// ENSURES: all tets strictly positive (exactly), topology of every label kept, box kept, fixed
+///          vertices untouched; the result depends on the mesh's content only.
+SimplifyStats simplify(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
+                       DistanceGuard* guard = nullptr);
+
+}  // namespace mw

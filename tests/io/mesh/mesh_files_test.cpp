@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Meshes survive every format; their digest does not depend on it.
+#include <cmath>
+
+#include "io/mesh/digest.h"
+#include "io/mesh/open_mesh.h"
+#include "tests/io/mesh/sample_mesh.h"
+
+namespace mw::io {
+namespace {
+
+const char* const kNames[] = {"m.vtu", "m.mesh"};
+
+void save(const MeshData& mesh, const std::filesystem::path& path) {
+  write_mesh(mesh, *open_mesh_sink(path));
+}
+
+TEST(MeshFiles, RoundTripAndSameDigest) {
+  const TempDir dir;
+  for (const bool labels_signed : {false, true}) {
+    // The large one fills the sinks' buffers several times.
+    for (const std::size_t tets : {1U, 2U, 50000U}) {
+      const MeshData mesh = sample_mesh(tets, labels_signed);
+      for (const char* name : kNames) {
+        save(mesh, dir.path() / name);
+        const MeshData back = read_mesh(dir.path() / name);
+        expect_same(back, mesh);
+        EXPECT_EQ(mesh_digest(back), mesh_digest(mesh));
+      }
+    }
+  }
+  EXPECT_EQ(dir.entries(), 2U);
+}
+
+TEST(MeshFiles, EmptyMesh) {
+  const TempDir dir;
+  for (const char* name : kNames) {
+    save({}, dir.path() / name);
+    EXPECT_TRUE(read_mesh(dir.path() / name).tets.empty());
+  }
+}
+
+TEST(MeshFiles, NothingIsLeftWithoutFinish) {
+  const TempDir dir;
+  const MeshData mesh = sample_mesh(10, false);
+  for (const char* name : kNames) {
+    {
+      const auto sink = open_mesh_sink(dir.path() / name);
+      sink->begin({.vertices = 13, .tets = 10});
+      sink->write_vertices(mesh.vertices);
+    }
+    expect_error(ErrorKind::kInternal, {name, "13 vertices and 0 tets"}, [&] {
+      const auto sink = open_mesh_sink(dir.path() / name);
+      sink->begin({.vertices = 13, .tets = 10});
+      sink->write_vertices(mesh.vertices);
+      sink->finish();
+    });
+  }
+  EXPECT_EQ(dir.entries(), 0U);
+}
+
+TEST(MeshFiles, EveryTruncationIsRefused) {
+  const TempDir dir;
+  for (const char* name : kNames) {
+    save(sample_mesh(3, false), dir.path() / name);
+    const std::string whole = content_of(dir.path() / name);
+    // The closing tags of a .vtu hold nothing; all before them matters.
+    const std::size_t tail = std::string(name) == "m.vtu" ? 33 : 3;
+    for (std::size_t size = 0; size + tail < whole.size(); ++size) {
+      const auto path = dir.file(std::string("cut_") + name, whole.substr(0, size));
+      expect_error(ErrorKind::kInput, {path.string()}, [&] { static_cast<void>(read_mesh(path)); });
+    }
+  }
+}
+
+TEST(MeshFiles, UnknownExtensions) {
+  for (const char* name : {"m.stl", "m"}) {
+    expect_error(ErrorKind::kUsage, {name, ".vtu and .mesh"},
+                 [&] { static_cast<void>(read_mesh(name)); });
+    expect_error(ErrorKind::kUsage, {name, ".vtu and .mesh"},
+                 [&] { static_cast<void>(open_mesh_sink(name)); });
+  }
+  expect_error(ErrorKind::kInput, {"gone.vtu"}, [] { static_cast<void>(read_mesh("gone.vtu")); });
+}
+
+TEST(Medit, ToleratesOtherSectionsCommentsAndLineEnds) {
+  const TempDir dir;
+  const auto path =
+      dir.file("a.mesh",
+               "MeshVersionFormatted 1\r\n# comment 1 2 3\r\nDimension\r\n3\r\n"
+               "Vertices 4\r\n0 0 0 1\r\n+1 0 0 1 # here too\r\n0 1e0 0 1\r\n0 0 1. 1"
+               "\r\nEdges\n1\n1 2 0\nTriangles\n1\n1 2 3 7\nTetrahedra\n1\n1 2 3 4 -9\n"
+               "Corners\n1\n1\nEnd\n");
+  const MeshData mesh = read_mesh(path);
+  ASSERT_EQ(mesh.vertices.size(), 4U);
+  EXPECT_EQ(mesh.vertices[3], (Position{0, 0, 1}));
+  EXPECT_EQ(mesh.tets, (std::vector<TetRows>{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.labels, (std::vector<RawLabel>{static_cast<RawLabel>(-9)}));
+  EXPECT_TRUE(mesh.labels_signed);
+}
+
+TEST(Medit, RefusesBrokenFiles) {
+  const TempDir dir;
+  const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n";
+  const std::string points = "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+  const auto refuse = [&](const std::string& content, std::vector<std::string> pieces) {
+    const auto path = dir.file("a.mesh", content);
+    pieces.push_back(path.string());
+    expect_error(ErrorKind::kInput, pieces, [&] { static_cast<void>(read_mesh(path)); });
+  };
+  refuse("solid stl\n", {"not a MEDIT file"});
+  refuse(std::string(5000, 'x'), {"not an ASCII"});
+  refuse("MeshVersionFormatted 2\nDimension 2\n", {"line 2", "dimension"});
+  refuse(head + points + "Tetrahedra\n1\n1 2 3 5 0\nEnd\n", {"line 11", "vertex 5"});
+  refuse(head + points + "Tetrahedra\n1\n0 2 3 4 0\nEnd\n", {"line 11", "vertex 0"});
+  refuse(head + points + "Tetrahedra\n999999999999\n1 2 3 4 0\nEnd\n", {"999999999999 rows"});
+  refuse(head + "0 0 nan 0\n", {"line 5", "nan"});
+  refuse(head + points + "Tetrahedra\n1\n1 2 3 4 0.5\nEnd\n", {"0.5"});
+  refuse(head + points + "End\n", {"Tetrahedra"});
+}
+
+TEST(Digest, IndependentOfRowsOrientationAndSignOfZero) {
+  MeshData mesh = sample_mesh(20, false);
+  const std::string digest = mesh_digest(mesh);
+  EXPECT_EQ(digest.size(), 7U + 64U);
+  EXPECT_EQ(digest.substr(0, 7), "sha256:");
+  MeshData turned = mesh;
+  std::reverse(turned.vertices.begin(), turned.vertices.end());
+  std::reverse(turned.tets.begin(), turned.tets.end());
+  std::reverse(turned.labels.begin(), turned.labels.end());
+  for (TetRows& tet : turned.tets) {
+    for (auto& row : tet) row = mesh.vertices.size() - 1 - row;
+    std::swap(tet[0], tet[1]);
+  }
+  for (Position& p : turned.vertices) p[0] = p[0] == 0 ? -0.0 : p[0];
+  EXPECT_EQ(mesh_digest(turned), digest);
+}
+
+TEST(Digest, ChangesWithAnyLabelPositionOrTet) {
+  const MeshData mesh = sample_mesh(20, false);
+  const std::string digest = mesh_digest(mesh);
+  MeshData other = mesh;
+  other.labels[7] ^= 1;
+  EXPECT_NE(mesh_digest(other), digest);
+  other = mesh;
+  other.vertices[3][1] = std::nextafter(other.vertices[3][1], 1.0);
+  EXPECT_NE(mesh_digest(other), digest);
+  other = mesh;
+  other.tets[0][0] = 9;
+  EXPECT_NE(mesh_digest(other), digest);
+}
+
+/// Pins the byte layout that the header documents: sha256 of "mwmesh-digest-1" and 16 zero bytes.
+TEST(Digest, OfTheEmptyMesh) {
+  EXPECT_EQ(mesh_digest({}),
+            "sha256:e4621f1bd13ad7312e8bd78d6dc6450af2d63b074e938138dd3f53165c8f6c4b");
+}
+
+}  // namespace
+}  // namespace mw::io

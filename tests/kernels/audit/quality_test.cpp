@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// P3: radius ratios and dihedral angles of tets whose shape is known.
+#include "kernels/audit/quality.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "tests/oracle/small_volumes.h"
+
+namespace mw::audit {
+namespace {
+
+using test::five_tet_mesh;
+using test::SmallMesh;
+using test::SmallVolume;
+using test::volume_from;
+
+SmallVolume box(Index3 shape) {
+  return volume_from(shape, 1, [](auto, auto, auto) { return 0; });
+}
+
+TEST(Quality, RegularTetHasRadiusRatioOne) {
+  EXPECT_NEAR(radius_ratio({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}), 1, 1e-15);
+  EXPECT_NEAR(radius_ratio({1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}), 1, 1e-15);
+}
+
+TEST(Quality, FlatTetHasRadiusRatioZero) {
+  EXPECT_EQ(radius_ratio({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}), 0);
+  EXPECT_EQ(radius_ratio({0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}), 0);
+}
+
+TEST(Quality, CornerTetOfACube) {
+  // r_in = 1 / (3 + sqrt 3), r_circ = sqrt(3) / 2, any scale.
+  const double expected = 3 / (3 + std::sqrt(3.0)) / (std::sqrt(3.0) / 2);
+  EXPECT_NEAR(radius_ratio({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), expected, 1e-15);
+  EXPECT_NEAR(radius_ratio({7, 7, 7}, {10, 7, 7}, {7, 10, 7}, {7, 7, 10}), expected, 1e-15);
+}
+
+TEST(Quality, FiveTetMeshOfCubes) {
+  const SmallMesh mesh = five_tet_mesh(box({2, 3, 4}));
+  const QualityReport report = measure_quality(mesh.view());
+  EXPECT_NEAR(report.radius_ratio_min, 0.7320508, 1e-6);
+  EXPECT_NEAR(report.radius_ratio_mean, (4 * 0.7320508 + 1) / 5, 1e-6);
+  EXPECT_EQ(report.sliver_fraction, 0);
+  EXPECT_NEAR(report.dihedral_min_deg, 54.7356103, 1e-6);
+  EXPECT_NEAR(report.dihedral_max_deg, 90, 1e-9);
+  const auto& bins = report.radius_ratio_histogram;
+  EXPECT_EQ(std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}), mesh.tets.size());
+  EXPECT_EQ(bins[14], mesh.tets.size() / 5 * 4);
+  EXPECT_EQ(bins[19], mesh.tets.size() / 5);
+}
+
+TEST(Quality, IsMeasuredInPhysicalUnits) {
+  const Frame thin{{1, 1, 100}, {0, 0, 0}};
+  const QualityReport report = measure_quality(five_tet_mesh(box({1, 1, 1}), thin).view());
+  EXPECT_LT(report.radius_ratio_min, kSliverRadiusRatio);
+  EXPECT_GT(report.sliver_fraction, 0.5);
+}
+
+TEST(Quality, NamesTheWorstTet) {
+  const std::vector<Position> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.3, .3, 1e-6}};
+  const std::vector<TetRow> tets{{0, 1, 2, 3}, {0, 1, 2, 4}, {1, 2, 3, 4}};
+  const QualityReport report = measure_quality({vertices, tets, {}});
+  EXPECT_EQ(report.worst_tet, 1U);
+  EXPECT_LT(report.radius_ratio_min, 1e-5);
+  EXPECT_LT(report.dihedral_min_deg, 1e-3);
+  EXPECT_GT(report.dihedral_max_deg, 179.99);
+}
+
+TEST(Quality, EmptyMeshIsZeros) {
+  EXPECT_EQ(measure_quality({}).radius_ratio_min, 0);
+  EXPECT_EQ(measure_quality({}).dihedral_max_deg, 0);
+}
+
+}  // namespace
+}  // namespace mw::audit
