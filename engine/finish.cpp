@@ -63,15 +63,10 @@ FinishedMesh finish(BlockStore& store, const WindowGrid& grid, const io::DenseVo
                     io::MeshSink& sink) {
   std::vector<BlockMesh> blocks;
   FinishedMesh out;
-  const Index3 shape = grid.blocks();
-  for (Index3 b; b.z < shape.z; ++b.z) {
-    for (b.y = 0; b.y < shape.y; ++b.y) {
-      for (b.x = 0; b.x < shape.x; ++b.x) {
-        blocks.push_back(store.take(b).value_or(BlockMesh{}));
-        out.tets += blocks.back().tets.size();
-      }
-    }
-  }
+  each_index(grid.blocks(), [&](Index3 b) {
+    blocks.push_back(store.take(b).value());
+    out.tets += blocks.back().tets.size();
+  });
   const std::vector<FinalVertex> vertices = unique_vertices(blocks);
   out.vertices = vertices.size();
   sink.begin({out.vertices, out.tets, volume.table().is_signed()});

@@ -6,21 +6,8 @@
 #include "kernels/core/assert.h"
 
 namespace mw::engine {
-namespace {
-
-template <typename Visit>
-void each_window(Index3 windows, Visit visit) {
-  for (Index3 w; w.z < windows.z; ++w.z) {
-    for (w.y = 0; w.y < windows.y; ++w.y) {
-      for (w.x = 0; w.x < windows.x; ++w.x) visit(w);
-    }
-  }
-}
-
-}  // namespace
-
 void march(const WindowGrid& grid, const VisitWindow& visit) {
-  each_window(grid.windows(), visit);
+  each_index(grid.windows(), [&](Index3 w) { visit(w); });
 }
 
 void march(const WindowGrid& grid, const VisitWindow& visit, const PickReady& pick) {
@@ -28,7 +15,7 @@ void march(const WindowGrid& grid, const VisitWindow& visit, const PickReady& pi
   std::vector<std::vector<Index3>> successors(count);
   std::vector<std::size_t> missing(count);
   std::vector<Index3> ready;
-  each_window(grid.windows(), [&](Index3 w) {
+  each_index(grid.windows(), [&](Index3 w) {
     const auto before = grid.predecessors(w);
     missing[raster(w, grid.windows())] = before.size();
     for (Index3 p : before) successors[raster(p, grid.windows())].push_back(w);

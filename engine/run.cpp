@@ -5,18 +5,21 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "engine/block_store.h"
 #include "engine/finish.h"
 #include "engine/window.h"
-#include "kernels/lattice/dense_start.h"
+#include "kernels/lattice/graded_start.h"
 
 namespace mw::engine {
 namespace {
 
 constexpr int kMaxWindow = 256;
+constexpr int kMaxLevel = 3;
+constexpr int kMaxMarches = 4;
 constexpr double kMaxDistance = 16.0;
 
 class Stopwatch {
@@ -57,6 +60,29 @@ LabelBox read_labels(const io::DenseVolume& volume, const Box3& box) {
   return out;
 }
 
+/// The largest cells of the octree: blocks must start at multiples of their size.
+int max_level(int window) {
+  const int block = window / 2;
+  int level = 0;
+  while (level < kMaxLevel && block % (2 << level) == 0) ++level;
+  return level;
+}
+
+/// The blocks of a march, each made of the eight that the march before left in its place.
+std::unique_ptr<BlockStore> regroup(BlockStore& before, Index3 blocks_before, Index3 blocks) {
+  auto store = std::make_unique<MemoryBlockStore>(blocks);
+  each_index(blocks, [&](Index3 b) {
+    std::vector<BlockMesh> parts;
+    each_index({2, 2, 2}, [&](Index3 i) {
+      const Index3 part{2 * b.x + i.x, 2 * b.y + i.y, 2 * b.z + i.z};
+      if (!Box3{{0, 0, 0}, blocks_before}.contains(part)) return;
+      parts.push_back(before.take(part).value());
+    });
+    store->put(b, merge(parts));
+  });
+  return store;
+}
+
 /// Visits windows: gathers blocks, runs the kernels, scatters.
 class WindowVisitor {
  public:
@@ -67,9 +93,11 @@ class WindowVisitor {
         store_(store),
         report_(report),
         metric_(volume.info().spacing),
+        start_{.max_level = settings.start == StartMesh::kOctree ? max_level(settings.window) : 0,
+               .with_samples = settings.max_distance.has_value()},
         simplify_{.quality_floor = settings.quality_floor,
                   .edge_variance = settings.edge_variance},
-        optimise_{.sweeps = settings.optimise ? 1 : 0},
+        optimise_{.sweeps = settings.optimise ? 1 : 0, .quality_floor = settings.quality_floor},
         max_distance_(settings.max_distance) {}
 
   void visit(Index3 window) {
@@ -108,11 +136,10 @@ class WindowVisitor {
   BlockMesh take(Index3 block) {
     if (auto stored = store_.take(block)) return std::move(*stored);
     const Box3 box = grid_.block_box(block);
-    const Index3 one{1, 1, 1};
-    const LabelBox labels = read_labels(volume_, {box.lo - one, box.hi + one});
-    BlockMesh mesh = dense_start(labels, box, grid_.volume(), {});
-    if (max_distance_) mesh.samples = interface_samples(labels, box, grid_.volume());
-    return mesh;
+    const std::int64_t halo = start_halo(start_.max_level);
+    const Index3 around{halo, halo, halo};
+    const LabelBox labels = read_labels(volume_, {box.lo - around, box.hi + around});
+    return graded_start(labels, box, grid_.volume(), start_);
   }
 
   const io::DenseVolume& volume_;
@@ -120,10 +147,22 @@ class WindowVisitor {
   BlockStore& store_;
   RunReport& report_;
   Metric metric_;
+  StartOptions start_;
   SimplifyOptions simplify_;
   OptimiseOptions optimise_;
   std::optional<double> max_distance_;
 };
+
+/// One grid a march.  A vertex near a block plane is free in half as many windows, so it stays
+/// denser there; the next march has other planes and heals that.
+std::vector<WindowGrid> march_grids(Index3 shape, const MeshSettings& settings) {
+  std::vector<WindowGrid> grids;
+  int window = settings.window;
+  for (int i = 0; i < settings.marches && window <= kMaxWindow; ++i, window *= 2) {
+    grids.emplace_back(shape, window);
+  }
+  return grids;
+}
 
 [[noreturn]] void refuse(const std::string& setting, const std::string& allowed) {
   throw Error(ErrorKind::kUsage, setting + " must be " + allowed);
@@ -134,6 +173,9 @@ class WindowVisitor {
 void check(const MeshSettings& s) {
   if (s.window < 4 || s.window > kMaxWindow || s.window % 2 != 0) {
     refuse("window", "an even number from 4 to " + std::to_string(kMaxWindow));
+  }
+  if (s.marches < 1 || s.marches > kMaxMarches) {
+    refuse("marches", "from 1 to " + std::to_string(kMaxMarches));
   }
   if (!(s.quality_floor >= 0.0 && s.quality_floor <= 0.5)) {
     refuse("quality-floor", "from 0 to 0.5 (the start mesh has 0.73)");
@@ -151,21 +193,26 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
                       io::MeshSink& sink, const RunHooks& hooks) {
   check(settings);
   RunReport report;
-  const WindowGrid grid(volume.info().shape, settings.window);
-  MemoryBlockStore store(grid.blocks());
-  WindowVisitor visitor(volume, settings, grid, store, report);
-  const auto total = static_cast<std::uint64_t>(grid.windows().product());
-  const VisitWindow visit = [&](Index3 window) {
-    visitor.visit(window);
-    if (hooks.progress) hooks.progress(report.windows, total);
-  };
-  if (hooks.pick) {
-    march(grid, visit, hooks.pick);
-  } else {
-    march(grid, visit);
+  const std::vector<WindowGrid> grids = march_grids(volume.info().shape, settings);
+  std::uint64_t total = 0;
+  for (const WindowGrid& g : grids) total += static_cast<std::uint64_t>(g.windows().product());
+  std::unique_ptr<BlockStore> store = std::make_unique<MemoryBlockStore>(grids[0].blocks());
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    const WindowGrid& grid = grids[i];
+    if (i > 0) store = regroup(*store, grids[i - 1].blocks(), grid.blocks());
+    WindowVisitor visitor(volume, settings, grid, *store, report);
+    const VisitWindow visit = [&](Index3 window) {
+      visitor.visit(window);
+      if (hooks.progress) hooks.progress(report.windows, total);
+    };
+    if (hooks.pick) {
+      march(grid, visit, hooks.pick);
+    } else {
+      march(grid, visit);
+    }
   }
   Stopwatch watch;
-  const FinishedMesh finished = finish(store, grid, volume, sink);
+  const FinishedMesh finished = finish(*store, grids.back(), volume, sink);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;

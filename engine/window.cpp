@@ -107,24 +107,32 @@ void take_samples(const WindowContent& content, const BlockTet& tet, Share& shar
 
 }  // namespace
 
-WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume) {
-  std::vector<BlockVertex> vertices = merged_vertices(blocks);
-  std::vector<BlockTet> tets;
-  CarriedSamples samples;
+BlockMesh merge(std::span<const BlockMesh> blocks) {
+  BlockMesh out;
+  out.vertices = merged_vertices(blocks);
   for (const BlockMesh& b : blocks) {
-    const std::vector<LocalVertex> row = window_rows(b, vertices);
+    const std::vector<LocalVertex> row = window_rows(b, out.vertices);
     for (BlockTet t : b.tets) {
       for (std::uint32_t& v : t.vertices) v = row[v];
-      tets.push_back(t);
+      out.tets.push_back(t);
     }
-    for (const BlockSample& s : b.samples) {
-      samples.add({row[s.triangle[0]], row[s.triangle[1]], row[s.triangle[2]]}, s.side, s.sample);
+    for (BlockSample s : b.samples) {
+      for (std::uint32_t& v : s.triangle) v = row[v];
+      out.samples.push_back(s);
     }
   }
-  std::sort(tets.begin(), tets.end());
-  for (const BlockTet& t : tets) check_extent(t, vertices);
+  std::sort(out.tets.begin(), out.tets.end());
+  std::sort(out.samples.begin(), out.samples.end());
+  return out;
+}
+
+WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume) {
+  BlockMesh merged = merge(blocks);
+  for (const BlockTet& t : merged.tets) check_extent(t, merged.vertices);
+  CarriedSamples samples;
+  for (const BlockSample& s : merged.samples) samples.add(s.triangle, s.side, s.sample);
   const Point box{lattice(volume.x), lattice(volume.y), lattice(volume.z)};
-  return {TetMesh(std::move(vertices), tets, box), std::move(samples)};
+  return {TetMesh(std::move(merged.vertices), merged.tets, box), std::move(samples)};
 }
 
 std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,

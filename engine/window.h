@@ -11,15 +11,18 @@
 
 namespace mw::engine {
 
+/// Merges blocks into one, canonically.
+/// REQUIRES: canonical blocks; copies of a vertex are equal.
+/// ENSURES: a function of the content alone, not of the order of the blocks.
+[[nodiscard]] BlockMesh merge(std::span<const BlockMesh> blocks);
+
 /// What a window works on.
 struct WindowContent {
   TetMesh mesh;
   CarriedSamples samples;
 };
 
-/// Merges blocks into the content of a window.
-/// REQUIRES: canonical blocks; copies of a vertex are equal.
-/// ENSURES: a function of the content alone, not of the order of the blocks.
+/// Merges blocks into the content of a window; as merge().
 [[nodiscard]] WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume);
 
 /// Deals the tets of a window to the owner blocks of their barycentres, canonically; samples go

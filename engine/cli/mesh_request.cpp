@@ -24,10 +24,19 @@ std::string bound_text(const std::optional<double>& bound) {
   return bound ? format_number(*bound) : kNone;
 }
 
-int parse_window(const std::string& text) {
-  const std::int64_t edge = parse_integer(text);
-  if (edge > 0 && edge <= std::numeric_limits<int>::max()) return static_cast<int>(edge);
+int parse_count(const std::string& text) {
+  const std::int64_t count = parse_integer(text);
+  if (count > 0 && count <= std::numeric_limits<int>::max()) return static_cast<int>(count);
   throw Error(ErrorKind::kUsage, "out of range");
+}
+
+[[noreturn]] void refuse_for_now(const std::string& alternative) {
+  throw Error(ErrorKind::kUsage, "not available in this version; " + alternative);
+}
+
+engine::StartMesh parse_start(const std::string& text) {
+  if (text == "coarse") refuse_for_now("octree and dense are");
+  return text == "dense" ? engine::StartMesh::kDense : engine::StartMesh::kOctree;
 }
 
 void add_output_option(OptionSet& options, MeshRequest& request) {
@@ -48,14 +57,21 @@ void add_setting(OptionSet& options, MeshRequest& request, Option option,
   options.add(std::move(option));
 }
 
-void add_window_option(OptionSet& options, MeshRequest& request) {
+void add_march_options(OptionSet& options, MeshRequest& request) {
   add_setting(options, request,
               {.name = "window",
                .value = "N",
                .help = "window edge in voxels, even",
                .kind = ValueKind::kInteger,
                .fallback = std::to_string(engine::MeshSettings{}.window)},
-              [](engine::MeshSettings& s, const std::string& t) { s.window = parse_window(t); });
+              [](engine::MeshSettings& s, const std::string& t) { s.window = parse_count(t); });
+  add_setting(options, request,
+              {.name = "marches",
+               .value = "N",
+               .help = "marches over the volume, each with windows twice as large",
+               .kind = ValueKind::kInteger,
+               .fallback = std::to_string(engine::MeshSettings{}.marches)},
+              [](engine::MeshSettings& s, const std::string& t) { s.marches = parse_count(t); });
 }
 
 void add_bound_options(OptionSet& options, MeshRequest& request) {
@@ -106,17 +122,17 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
                .fallback = engine::MeshSettings{}.optimise ? "local" : kNone,
                .choices = {"local", "tetgen", kNone}},
               [](engine::MeshSettings& s, const std::string& t) {
-                if (t == "tetgen") {
-                  throw Error(ErrorKind::kUsage, "not available in this version; local is");
-                }
+                if (t == "tetgen") refuse_for_now("local is");
                 s.optimise = t == "local";
               });
-  options.add({.name = "start",
-               .value = "MESH",
-               .help = "start mesh: dense, coarse, octree",
-               .fallback = "dense",
-               .choices = {"coarse", "octree", "dense"},
-               .today = "dense"});
+  add_setting(
+      options, request,
+      {.name = "start",
+       .value = "MESH",
+       .help = "start mesh: octree (larger cells inside labels), dense; coarse comes later",
+       .fallback = engine::MeshSettings{}.start == engine::StartMesh::kDense ? "dense" : "octree",
+       .choices = {"coarse", "octree", "dense"}},
+      [](engine::MeshSettings& s, const std::string& t) { s.start = parse_start(t); });
 }
 
 void parse_threads(const std::string& text) {
@@ -192,7 +208,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
   add_input_option(options, request.volume.path);
   add_output_option(options, request);
   add_volume_options(options, request.volume);
-  add_window_option(options, request);
+  add_march_options(options, request);
   add_bound_options(options, request);
   add_method_options(options, request);
   add_resource_options(options);

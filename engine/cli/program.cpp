@@ -25,7 +25,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_info_command(app, chosen);
   add_convert_command(app, chosen);
   add_synth_command(app, chosen);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.set_version_flag("--version", "mwmesh " MW_VERSION);
   for (CLI::App* command : app.get_subcommands({})) {
     command->set_version_flag("--version", "mwmesh " MW_VERSION);
@@ -43,7 +43,10 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::kUsage, std::string(error.what()) + "; see mwmesh --help");
   }
-  return chosen();
+  if (!chosen) throw Error(ErrorKind::kUsage, "a subcommand is needed; see mwmesh --help");
+  const int code = chosen();
+  if (!std::cout.flush()) throw Error(ErrorKind::kResource, "cannot write to standard output");
+  return code;
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// mwmesh verify: promises P1 to P3 of a finished mesh, independently of how it was made.
+// mwmesh verify: promises P1 to P4 of a finished mesh, independently of how it was made.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "engine/cli/commands.h"
+#include "engine/cli/distance_facts.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/resource_meter.h"
@@ -14,11 +15,14 @@
 #include "engine/cli/volume_options.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/audit/audit.h"
+#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr const char* kNone = "none";
 
 struct VerifyJob {
   OptionSet options;
@@ -31,11 +35,18 @@ struct VerifyJob {
 struct Verdict {
   audit::AuditReport audit;
   std::vector<std::string> labels_changed;  ///< as the input has them, or "exterior"
-  std::uint64_t labels = 0;
+  io::LabelTable table;
 
   /// The first check asks whether the file holds a mesh at all.
   [[nodiscard]] bool looked_at() const { return audit.checks.front().passed; }
 };
+
+std::optional<double> parse_distance(const std::string& text) {
+  if (text == kNone) return std::nullopt;
+  const double voxels = parse_number(text);
+  if (voxels >= 0) return voxels;
+  throw Error(ErrorKind::kUsage, "must not be negative; or none");
+}
 
 void add_verify_options(VerifyJob& job) {
   OptionSet& options = job.options;
@@ -54,6 +65,13 @@ void add_verify_options(VerifyJob& job) {
                .assign = [&](const std::string& text) {
                  job.audit.radius_ratio_floor = parse_number(text);
                }});
+  options.add(
+      {.name = "max-distance",
+       .value = "D",
+       .help = "P4 fails above this many voxels between label boundaries, or none",
+       .kind = ValueKind::kNumberOrNone,
+       .fallback = kNone,
+       .assign = [&](const std::string& text) { job.audit.max_distance = parse_distance(text); }});
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes the result as JSON",
@@ -72,7 +90,7 @@ std::vector<std::string> changed_labels(const audit::AuditReport& audit,
 
 Verdict judge(const VerifyJob& job) {
   const std::unique_ptr<io::LabelVolume> volume = open(job.volume);
-  const io::LabelTable table = io::collect_labels(*volume);
+  io::LabelTable table = io::collect_labels(*volume);
   const io::VolumeInfo& info = volume->info();
   std::vector<Label> voxels(static_cast<std::size_t>(info.shape.product()));
   io::DenseVolume(*volume, table).read({{0, 0, 0}, info.shape}, voxels);
@@ -83,7 +101,7 @@ Verdict judge(const VerifyJob& job) {
       audit::audit({.shape = info.shape, .labels = voxels}, table.size(), audit_view(mesh, labels),
                    {.spacing = info.spacing, .origin = info.origin}, job.audit);
   verdict.labels_changed = changed_labels(verdict.audit, table);
-  verdict.labels = table.size();
+  verdict.table = std::move(table);
   return verdict;
 }
 
@@ -100,6 +118,7 @@ void print_verdict(const Verdict& verdict) {
     std::cout << "\n";
   }
   if (verdict.looked_at()) print_quality(verdict.audit.quality);
+  if (verdict.audit.distance) print_distance(*verdict.audit.distance, verdict.table);
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const audit::Check& check) { return !check.passed; });
   std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail") << "\n";
@@ -121,15 +140,21 @@ ordered_json topology_json(const Verdict& verdict) {
           {"indicative_only", verdict.audit.topology_is_indicative}};
 }
 
+ordered_json measured_distance(const Verdict& verdict) {
+  if (!verdict.audit.distance) return nullptr;
+  return distance_json(*verdict.audit.distance, verdict.table);
+}
+
 ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
                            const Resources& resources) {
   const bool measured = verdict.looked_at();
   return {{"version", MW_VERSION},
           {"settings", job.options.json()},
-          {"labels", verdict.labels},
+          {"labels", verdict.table.size()},
           {"passed", verdict.audit.passed()},
           {"checks", checks_json(verdict.audit)},
           {"quality", measured ? quality_json(verdict.audit.quality) : ordered_json(nullptr)},
+          {"distance", measured_distance(verdict)},
           {"topology", topology_json(verdict)},
           {"performance",
            {{"wall_s", resources.wall_seconds},

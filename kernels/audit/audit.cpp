@@ -19,7 +19,8 @@ std::string change_text(const char* region, const Betti& before, const Betti& af
 }
 
 std::string label_text(Label label) {
-  return label == kExterior ? "exterior" : "dense " + std::to_string(label);
+  if (label == kExterior) return "exterior";
+  return label == kUnknown ? "unknown" : "dense " + std::to_string(label);
 }
 
 Check compare_topology(AuditReport& report) {
@@ -48,6 +49,30 @@ Check judge_quality(const QualityReport& quality, double floor) {
   return {"P3 radius ratio", quality.radius_ratio_min >= floor, detail};
 }
 
+std::string distance_text(const DistanceReport& distance) {
+  const DistanceReport::PerLabel* farthest = distance.farthest();
+  if (farthest == nullptr) return "no interface on both sides";
+  return number(farthest->max()) + " voxels at most (" + label_text(farthest->label) + ")" +
+         (distance.is_finite() ? ", mean " + number(distance.mean_voxels) : "");
+}
+
+/// Sampled distances fail only when they exceed the bound by more than rounding.
+Check judge_distance(const DistanceReport& distance, const std::optional<double>& bound) {
+  constexpr double kRounding = 1e-6;
+  std::string detail = distance_text(distance);
+  if (bound) detail += ", bound " + number(*bound);
+  detail += "; " + sampling_text(distance);
+  const auto name_labels = [&](const char* noun, const std::vector<Label>& labels) {
+    Offenders lonely(noun);
+    for (const Label label : labels) lonely.add([&] { return label_text(label); });
+    if (lonely.count() > 0) detail += "; " + lonely.text();
+  };
+  name_labels("labels without an interface in the mesh", distance.only_in_volume);
+  name_labels("labels without an interface in the volume", distance.only_in_mesh);
+  const bool passed = distance.is_finite() && (!bound || distance.max_voxels <= *bound + kRounding);
+  return {"P4 distance", passed, detail};
+}
+
 }  // namespace
 
 bool AuditReport::passed() const {
@@ -64,12 +89,21 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
   if (!report.checks.front().passed) {
     report.checks.push_back({"P1 topology", false, "not looked at: the input is no mesh"});
     report.checks.push_back({"P3 radius ratio", false, "not looked at: the input is no mesh"});
+    if (options.max_distance) {
+      report.checks.push_back({"P4 distance", false, "not looked at: the input is no mesh"});
+    }
     return report;
   }
   report.mesh = mesh_betti(mesh, label_count);
   report.checks.push_back(compare_topology(report));
   report.quality = measure_quality(mesh);
   report.checks.push_back(judge_quality(report.quality, options.radius_ratio_floor));
+  if (options.measure_distance || options.max_distance) {
+    report.distance = measure_distance(volume, label_count, mesh, frame);
+    if (options.max_distance || !report.distance->is_finite()) {
+      report.checks.push_back(judge_distance(*report.distance, options.max_distance));
+    }
+  }
   return report;
 }
 

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An independent second opinion on a finished mesh: promises P1, P2 and P3 (`mwmesh verify`).
+// An independent second opinion on a finished mesh: promises P1 to P4 (`mwmesh verify`).
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "kernels/audit/betti.h"
 #include "kernels/audit/check.h"
+#include "kernels/audit/distance.h"
 #include "kernels/audit/quality.h"
 #include "kernels/audit/subject.h"
 #include "kernels/audit/validity.h"
@@ -16,11 +18,14 @@ namespace mw::audit {
 
 struct AuditOptions {
   double radius_ratio_floor = kSliverRadiusRatio;  ///< P3 fails below this
+  bool measure_distance = true;                    ///< false: only when max_distance is set
+  std::optional<double> max_distance;              ///< voxels; P4 is checked, and fails above this
 };
 
 /// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
 struct AuditReport {
-  /// Those of validity, then "P1 topology" and "P3 radius ratio".
+  /// Those of validity, then "P1 topology", "P3 radius ratio" and "P4 distance"; the last only with
+  /// a bound, or when a label has an interface on one side only, which fails without a bound too.
   std::vector<Check> checks;
   std::vector<RegionBetti> voxels;
   std::vector<RegionBetti> mesh;  ///< empty when the mesh could not be read as one
@@ -30,6 +35,8 @@ struct AuditReport {
   bool topology_is_indicative = false;
   ValidityReport validity;
   QualityReport quality;
+  std::optional<DistanceReport>
+      distance;  ///< as AuditOptions ask, if the mesh could be read as one
 
   [[nodiscard]] bool passed() const;
 };
@@ -37,7 +44,8 @@ struct AuditReport {
 /// Judges a mesh of any tool against its volume.  Shares no code with the mesher but kernels/core.
 /// label_count: size of the label table; the volume's labels are below it.
 /// Errors: kInput for an unusable volume; whatever is wrong with the mesh is a failed check.
-/// Cost: see voxel_betti, mesh_betti and check_validity.  Deterministic, one thread.
+/// Cost: see voxel_betti, mesh_betti, check_validity and measure_distance.  Deterministic, one
+/// thread.
 [[nodiscard]] AuditReport audit(const VoxelLabels& volume, std::size_t label_count,
                                 const AuditMesh& mesh, const Frame& frame,
                                 const AuditOptions& options = {});

@@ -61,6 +61,30 @@ bool DistanceGuard::allows_move(const TetMesh& mesh, LocalVertex v, Point target
   return keeps_bound();
 }
 
+bool DistanceGuard::allows_flip(const TetMesh& mesh, const std::array<LocalVertex, 2>& pq,
+                                const std::array<LocalVertex, 2>& ab, Label low, Label high) {
+  changed_.clear();
+  for (LocalVertex a : ab) {
+    const TriangleKey old = triangle_key(pq[0], pq[1], a);
+    changed_.push_back({.before = old,
+                        .after = old,
+                        .corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()},
+                        .low = low,
+                        .high = high,
+                        .vanishes = true});
+  }
+  for (LocalVertex p : pq) {
+    const TriangleKey fresh = triangle_key(ab[0], ab[1], p);
+    changed_.push_back({.before = fresh,
+                        .after = fresh,
+                        .corners = {in_voxels(mesh.position(p)), in_voxels(mesh.position(ab[0])),
+                                    in_voxels(mesh.position(ab[1]))},
+                        .low = low,
+                        .high = high});
+  }
+  return keeps_bound();
+}
+
 bool DistanceGuard::keeps_bound() {
   handovers_.clear();
   for (std::size_t i = 0; i < changed_.size(); ++i) {

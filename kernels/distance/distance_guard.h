@@ -18,8 +18,8 @@ namespace mw {
 /// proves all of the face.  A change hands the samples of the triangles that it replaces to the
 /// nearest new ones between the same labels, and is refused when one ends too far.
 ///
-/// Flips never touch interface triangles, and contractions of an inner vertex change none, so only
-/// contractions between boundary vertices and moves of interface vertices come here.
+/// Contractions of an inner vertex and flips inside a label change no interface triangle; everything
+/// else comes here.
 class DistanceGuard {
  public:
   /// `labels` as LabelReach asks; `volume` is the shape of the whole volume; keeps references.
@@ -35,6 +35,10 @@ class DistanceGuard {
                                         Point target);
   /// The same for a move of v.
   [[nodiscard]] bool allows_move(const TetMesh& mesh, LocalVertex v, Point target);
+  /// The same for a flip that replaces interface triangles (p, q, a) and (p, q, b) between labels
+  /// low < high by (a, b, p) and (a, b, q).
+  [[nodiscard]] bool allows_flip(const TetMesh& mesh, const std::array<LocalVertex, 2>& pq,
+                                 const std::array<LocalVertex, 2>& ab, Label low, Label high);
   /// Hands the samples over, after the change that was last allowed has been made.
   void commit();
 

@@ -4,17 +4,10 @@
 #pragma once
 
 #include "kernels/core/label_box.h"
+#include "kernels/lattice/graded_start.h"
 #include "kernels/mesh/block_mesh.h"
 
 namespace mw {
-
-/// Weights of the quadrics of Sec 5.2.  The paper has 1, 1, 1; light point terms keep interfaces
-/// where they are and inner vertices from crowding the result (kernel studies).
-struct QuadricWeights {
-  double plane = 1.0;           ///< Eq (1), for each interface face at the vertex
-  double boundary_point = 0.1;  ///< Eq (2), vertices on an interface or on the box
-  double inner_point = 0.2;     ///< Eq (2), all others
-};
 
 /// Start mesh of a block: the tets of its voxels and their vertices with quadrics.
 ///

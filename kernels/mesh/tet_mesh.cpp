@@ -187,13 +187,15 @@ void TetMesh::move(LocalVertex v, Point position, const Quadric& quadric) {
 
 void TetMesh::add_tet(const LocalTet& tet) {
   for (int i = 0; i < 4; ++i) {
-    append(tet.vertices[static_cast<std::size_t>(i)], link_triangle(tet, i));
+    const LocalVertex v = tet.vertices[static_cast<std::size_t>(i)];
+    if (v != infinity()) append(v, link_triangle(tet, i));
   }
 }
 
 void TetMesh::remove_tet(const LocalTet& tet) {
   for (int i = 0; i < 4; ++i) {
     const LocalVertex v = tet.vertices[static_cast<std::size_t>(i)];
+    if (v == infinity()) continue;
     const LinkTriangle wanted = link_triangle(tet, i);
     const auto entries = star(v);
     const auto found = std::find_if(entries.begin(), entries.end(), [&](const LinkTriangle& t) {

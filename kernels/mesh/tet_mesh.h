@@ -102,7 +102,7 @@ class TetMesh {
   /// Moves v; its quadric stays the same function.  REQUIRES: v free; all tets stay positive.
   void move(LocalVertex v, Point position, const Quadric& quadric);
 
-  /// REQUIRES: positive orientation; no virtual tets.
+  /// REQUIRES: positive orientation, also in the sense of virtual tets.
   void add_tet(const LocalTet& tet);
   /// REQUIRES: the tet is there.
   void remove_tet(const LocalTet& tet);

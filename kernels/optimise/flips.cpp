@@ -4,81 +4,130 @@
 #include "kernels/optimise/flips.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "kernels/quality/mesh_quality.h"
 
 namespace mw {
 
-void Flipper::replace(const std::vector<LocalTet>& old_tets,
-                      const std::vector<LocalTet>& new_tets) {
-  for (const LocalTet& t : old_tets) mesh_.remove_tet(t);
-  for (const LocalTet& t : new_tets) mesh_.add_tet(t);
+void Flipper::replace() {
+  for (const LocalTet& t : old_tets_) mesh_.remove_tet(t);
+  for (const LocalTet& t : new_tets_) mesh_.add_tet(t);
 }
 
-double Flipper::worst_of_ring(LocalVertex p, LocalVertex q) const {
-  double worst = 1.0;
-  for (std::size_t i = 0; i < ring_.size(); ++i) {
-    const LocalTet t{{p, q, ring_.vertices[i], ring_.ends[i]}, ring_.labels[i]};
-    worst = std::min(worst, radius_ratio(mesh_, metric_, t));
+double Flipper::energy_of(const LocalTet& tet) const {
+  return tet.label == kExterior ? 0.0 : shape_energy(radius_ratio(mesh_, metric_, tet), least_);
+}
+
+/// Also decides what new tets must reach.
+double Flipper::energy_of_old_tets() {
+  double worst = 1.0, sum = 0.0;
+  for (const LocalTet& t : old_tets_) {
+    if (t.label == kExterior) continue;
+    const double r = radius_ratio(mesh_, metric_, t);
+    worst = std::min(worst, r);
+    sum += shape_energy(r, 0.0);
   }
-  return worst;
+  least_ = least_allowed(worst, quality_floor_);
+  return sum;
 }
 
-double Flipper::triangle_value(LocalVertex p, LocalVertex q, std::size_t i, std::size_t j,
-                               std::size_t k) const {
-  const LocalVertex a = ring_.vertices[i], b = ring_.vertices[j], c = ring_.vertices[k];
-  const double upper = radius_ratio(mesh_, metric_, LocalTet{{a, b, c, q}, 0});
-  if (upper <= 0.0) return upper;
-  return std::min(upper, radius_ratio(mesh_, metric_, LocalTet{{a, c, b, p}, 0}));
-}
-
-double Flipper::best_triangulation(LocalVertex p, LocalVertex q, double enough) {
-  const std::size_t n = ring_.size();
-  for (std::size_t i = 0; i + 1 < n; ++i) value_[i][i + 1] = 1.0;
-  for (std::size_t gap = 2; gap < n; ++gap) {
-    for (std::size_t i = 0; i + gap < n; ++i) {
+double Flipper::best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon) {
+  const auto [first, last, label] = polygon;
+  for (std::size_t i = first; i < last; ++i) energy_[i][i + 1] = 0.0;
+  for (std::size_t gap = 2; gap <= last - first; ++gap) {
+    for (std::size_t i = first; i + gap <= last; ++i) {
       const std::size_t k = i + gap;
-      value_[i][k] = -1.0;
+      energy_[i][k] = std::numeric_limits<double>::infinity();
       for (std::size_t j = i + 1; j < k; ++j) {
-        const double sides = std::min(value_[i][j], value_[j][k]);
-        if (sides <= enough || sides <= value_[i][k]) continue;
-        const double v = std::min(sides, triangle_value(p, q, i, j, k));
-        if (v > value_[i][k]) {
-          value_[i][k] = v;
+        double sum = energy_[i][j] + energy_[j][k];
+        if (sum >= energy_[i][k]) continue;
+        const LocalVertex a = ring_vertex(i), b = ring_vertex(j), c = ring_vertex(k);
+        sum += energy_of({{a, b, c, q}, label});
+        if (sum < energy_[i][k]) sum += energy_of({{a, c, b, p}, label});
+        if (sum < energy_[i][k]) {
+          energy_[i][k] = sum;
           apex_[i][k] = j;
         }
       }
     }
   }
-  return value_[0][n - 1];
+  return energy_[first][last];
 }
 
-bool Flipper::collect_triangles(LocalVertex p, LocalVertex q, std::size_t i, std::size_t k) {
+bool Flipper::collect_triangles(LocalVertex p, LocalVertex q, const Polygon& polygon) {
+  const auto [i, k, label] = polygon;
   if (k - i < 2) return true;
   const std::size_t j = apex_[i][k];
-  const LocalVertex a = ring_.vertices[i], b = ring_.vertices[j], c = ring_.vertices[k];
-  const Label label = ring_.labels[0];
+  const LocalVertex a = ring_vertex(i), b = ring_vertex(j), c = ring_vertex(k);
   const LocalTet upper{{a, b, c, q}, label}, lower{{a, c, b, p}, label};
-  if (!is_positive(mesh_, upper) || !is_positive(mesh_, lower)) return false;
+  if (label != kExterior && (!is_positive(mesh_, upper) || !is_positive(mesh_, lower))) {
+    return false;
+  }
   new_tets_.push_back(upper);
   new_tets_.push_back(lower);
-  return collect_triangles(p, q, i, j) && collect_triangles(p, q, j, k);
+  return collect_triangles(p, q, {i, j, label}) && collect_triangles(p, q, {j, k, label});
+}
+
+/// One polygon when all tets of the ring bear one label; two when there are two labels, each on one
+/// stretch of at least two tets.  The ring is turned so that the first stretch starts it.
+bool Flipper::cut_into_polygons() {
+  polygons_.clear();
+  const std::size_t n = ring_.size();
+  std::vector<Label>& labels = ring_.labels;
+  std::size_t start = 0, changes = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (labels[i] == labels[(i + n - 1) % n]) continue;
+    start = i;
+    ++changes;
+  }
+  if (changes == 0) {
+    polygons_.push_back({0, n - 1, labels[0]});
+    return labels[0] != kExterior;
+  }
+  if (changes != 2) return false;
+  const auto turn = [start](auto& v) {
+    std::rotate(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(start), v.end());
+  };
+  turn(ring_.vertices);
+  turn(ring_.ends);
+  turn(labels);
+  const auto stretch = static_cast<std::size_t>(
+      std::find(labels.begin(), labels.end(), labels[n - 1]) - labels.begin());
+  if (stretch < 2 || n - stretch < 2) return false;
+  polygons_.push_back({0, stretch, labels[0]});
+  polygons_.push_back({stretch, n, labels[n - 1]});
+  return true;
+}
+
+bool Flipper::surface_allows(LocalVertex p, LocalVertex q) {
+  if (polygons_.size() == 1) return true;
+  const std::array<LocalVertex, 2> ab{ring_vertex(0), ring_vertex(polygons_[1].first)};
+  const auto [low, high] = std::minmax(polygons_[0].label, polygons_[1].label);
+  if (high == kExterior) {
+    return (mesh_.planes(p) & mesh_.planes(q) & mesh_.planes(ab[0]) & mesh_.planes(ab[1])) != 0;
+  }
+  return guard_ == nullptr || guard_->allows_flip(mesh_, {p, q}, ab, low, high);
 }
 
 bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
   if (!collect_ring(mesh_, p, q, ring_) || ring_.size() > kMaxRing) return false;
-  for (Label label : ring_.labels) {
-    if (label != ring_.labels[0] || label == kExterior) return false;
-  }
-  const double enough = worst_of_ring(p, q) + kLeastGain;
-  if (best_triangulation(p, q, enough) <= enough) return false;
-  new_tets_.clear();
-  if (!collect_triangles(p, q, 0, ring_.size() - 1)) return false;
+  if (!cut_into_polygons()) return false;
   old_tets_.clear();
   for (std::size_t i = 0; i < ring_.size(); ++i) {
     old_tets_.push_back({{p, q, ring_.vertices[i], ring_.ends[i]}, ring_.labels[i]});
   }
-  replace(old_tets_, new_tets_);
+  double gain = energy_of_old_tets();
+  new_tets_.clear();
+  for (const Polygon& polygon : polygons_) {
+    gain -= best_triangulation(p, q, polygon);
+    if (!(gain > kLeastGain) || !collect_triangles(p, q, polygon)) return false;
+  }
+  if (!surface_allows(p, q)) return false;
+  replace();
+  const bool on_guarded_surface = polygons_.size() == 2 && polygons_[0].label != kExterior &&
+                                  polygons_[1].label != kExterior;
+  if (guard_ != nullptr && on_guarded_surface) guard_->commit();
   return true;
 }
 
@@ -103,16 +152,15 @@ bool Flipper::remove_face(LocalVertex a, LocalVertex b, LocalVertex c, LocalVert
   old_tets_.assign({LocalTet{{a, b, c, d}, label}, beyond});
   new_tets_.assign({LocalTet{{e, a, b, d}, label}, LocalTet{{e, a, d, c}, label},
                     LocalTet{{e, a, c, b}, label}});
-  double present = 1.0, next = 1.0;
-  for (const LocalTet& t : old_tets_) present = std::min(present, radius_ratio(mesh_, metric_, t));
+  double gain = energy_of_old_tets();
   for (const LocalTet& t : new_tets_) {
-    next = std::min(next, radius_ratio(mesh_, metric_, t));
-    if (next <= present + kLeastGain) return false;
+    gain -= energy_of(t);
+    if (!(gain > kLeastGain)) return false;
   }
   for (const LocalTet& t : new_tets_) {
     if (!is_positive(mesh_, t)) return false;
   }
-  replace(old_tets_, new_tets_);
+  replace();
   return true;
 }
 

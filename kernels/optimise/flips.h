@@ -1,49 +1,80 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Reconnection inside one label: edge removal (3-2, 4-4 and up) and 2-3 flips.
+// Reconnection: edge removal (3-2, 4-4 and up), also across an interface or the box, and 2-3 flips.
 #pragma once
 
+#include <array>
+#include <vector>
+
+#include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/topology/edge_ring.h"
 
 namespace mw {
 
-/// Flips that raise the least radius ratio of the tets they replace.
+/// Flips that lower the shape energy of the tets they replace (kernels/quality/mesh_quality.h).
 ///
-/// They never touch an interface or the box: all tets involved bear one label, and the new ones
-/// fill exactly the same region (each is exactly positive), so every label stays the same point
-/// set.  Vertices may be fixed: a flip changes no vertex, and a closed ring of loaded tets is all
-/// it needs.
+/// Inside a label all tets involved bear one label and the new ones fill exactly the same region
+/// (each is exactly positive), so every label stays the same point set.
+///
+/// Across an interface, or on the box, the edge (p, q) lies on a surface with one label A on one
+/// side and one label B, or the exterior, on the other; its two surface triangles (p, q, a) and
+/// (p, q, b) become (a, b, p) and (a, b, q).  The ball around the edge is cut by a disc before and
+/// after, with the same rim, so each label keeps its topology; triangles on the box stay in their
+/// plane, and a guard keeps the distance bound on interfaces.
+///
+/// Vertices may be fixed: a flip changes no vertex, and a closed ring of loaded tets is all it
+/// needs.
 ///
 /// A flip must gain at least kLeastGain: the same tet listed in another order has a radius ratio
 /// that differs in the last bits, and a gain of that size would flip back and forth for ever.
 class Flipper {
  public:
-  Flipper(TetMesh& mesh, const Metric& metric) : mesh_(mesh), metric_(metric) {}
+  /// guard: keeps the distance bound; null: no bound.
+  Flipper(TetMesh& mesh, const Metric& metric, double quality_floor,
+          DistanceGuard* guard = nullptr)
+      : mesh_(mesh), metric_(metric), quality_floor_(quality_floor), guard_(guard) {}
 
   /// Replaces the ring of edge (p, q) by the best triangulation of the ring's polygon, joined to
-  /// both ends (dynamic programming over at most kMaxRing vertices).
+  /// both ends (dynamic programming over at most kMaxRing vertices).  On a surface the polygon is
+  /// cut in two by the new edge (a, b).
   bool remove_edge(LocalVertex p, LocalVertex q);
 
-  /// Replaces the two tets at face (b, c, d) of tet (a, b, c, d) by three around a new edge.
+  /// Replaces the two tets at face (b, c, d) of tet (a, b, c, d), of one label, by three around a
+  /// new edge.
   bool remove_face(LocalVertex a, LocalVertex b, LocalVertex c, LocalVertex d);
 
  private:
   static constexpr std::size_t kMaxRing = 7;
-  static constexpr double kLeastGain = 1e-3;
+  static constexpr double kLeastGain = 1e-2;
 
-  [[nodiscard]] double worst_of_ring(LocalVertex p, LocalVertex q) const;
-  [[nodiscard]] double triangle_value(LocalVertex p, LocalVertex q, std::size_t i, std::size_t j,
-                                      std::size_t k) const;
-  [[nodiscard]] double best_triangulation(LocalVertex p, LocalVertex q, double enough);
-  bool collect_triangles(LocalVertex p, LocalVertex q, std::size_t i, std::size_t k);
-  void replace(const std::vector<LocalTet>& old_tets, const std::vector<LocalTet>& new_tets);
+  /// Ring vertices first .. last, a polygon of one label; last may be ring size, which is vertex 0.
+  struct Polygon {
+    std::size_t first = 0;
+    std::size_t last = 0;
+    Label label = 0;
+  };
+
+  [[nodiscard]] bool cut_into_polygons();
+  [[nodiscard]] bool surface_allows(LocalVertex p, LocalVertex q);
+  [[nodiscard]] LocalVertex ring_vertex(std::size_t i) const {
+    return ring_.vertices[i % ring_.size()];
+  }
+  [[nodiscard]] double energy_of_old_tets();
+  [[nodiscard]] double energy_of(const LocalTet& tet) const;
+  [[nodiscard]] double best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon);
+  bool collect_triangles(LocalVertex p, LocalVertex q, const Polygon& polygon);
+  void replace();
 
   TetMesh& mesh_;
   const Metric& metric_;
+  double quality_floor_;
+  DistanceGuard* guard_;
+  double least_ = 0.0;  ///< what the new tets must reach
   EdgeRing ring_;
-  std::array<std::array<double, kMaxRing>, kMaxRing> value_{};
-  std::array<std::array<std::size_t, kMaxRing>, kMaxRing> apex_{};
+  std::vector<Polygon> polygons_;
+  std::array<std::array<double, kMaxRing + 1>, kMaxRing + 1> energy_{};
+  std::array<std::array<std::size_t, kMaxRing + 1>, kMaxRing + 1> apex_{};
   std::vector<LocalTet> old_tets_;
   std::vector<LocalTet> new_tets_;
 };

@@ -19,14 +19,15 @@ bool improve_tet(Flipper& flipper, LocalVertex v, const LinkTriangle& t) {
          flipper.remove_face(t.b, v, t.a, t.c) || flipper.remove_face(t.c, v, t.b, t.a);
 }
 
-std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, double below) {
-  Flipper flipper(mesh, metric);
+std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
+                         DistanceGuard* guard) {
+  Flipper flipper(mesh, metric, options.quality_floor, guard);
   std::uint64_t flips = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     for (std::size_t i = 0; i < mesh.star(v).size();) {
       const LinkTriangle t = mesh.star(v)[i];
       const bool mine = v < t.a && v < t.b && v < t.c && t.label != kExterior;
-      if (mine && radius_ratio(mesh, metric, mesh.position(v), t) < below &&
+      if (mine && radius_ratio(mesh, metric, mesh.position(v), t) < options.flip_below &&
           improve_tet(flipper, v, t)) {
         ++flips;
         i = 0;
@@ -38,13 +39,13 @@ std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, double below) {
   return flips;
 }
 
-std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, double below,
+std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                            DistanceGuard* guard) {
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
-    if (worst_at(mesh, metric, v, mesh.position(v), -2.0) >= below) continue;
-    moves += smooth_vertex(mesh, metric, v, guard) ? 1U : 0U;
+    if (worst_of_star(mesh, metric, v) >= options.smooth_below) continue;
+    moves += smooth_vertex(mesh, metric, v, options.quality_floor, guard) ? 1U : 0U;
   }
   return moves;
 }
@@ -61,8 +62,8 @@ OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOption
                        DistanceGuard* guard) {
   OptimiseStats stats;
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    stats.flips += flip_sweep(mesh, metric, options.flip_below);
-    stats.moves += smooth_sweep(mesh, metric, options.smooth_below, guard);
+    stats.flips += flip_sweep(mesh, metric, options, guard);
+    stats.moves += smooth_sweep(mesh, metric, options, guard);
   }
   return stats;
 }

@@ -12,8 +12,9 @@ namespace mw {
 
 struct OptimiseOptions {
   int sweeps = 1;
-  double flip_below = 0.5;    ///< flips are tried on tets with a smaller radius ratio
-  double smooth_below = 0.6;  ///< smoothing, at vertices whose worst tet is below
+  double flip_below = 0.6;    ///< flips are tried on tets with a smaller radius ratio
+  double smooth_below = 0.8;  ///< smoothing, at vertices whose worst tet is below
+  double quality_floor = 0.1;  ///< no step creates a tet below, unless it replaces a worse one
 };
 
 struct OptimiseStats {
@@ -23,8 +24,8 @@ struct OptimiseStats {
   OptimiseStats& operator+=(const OptimiseStats& other);
 };
 
-/// Improves tets in place of the paper's constrained ODT (Sec 5.5); every step raises the least
-/// radius ratio of the tets that it replaces.  guard: as in simplify().
+/// Improves tets in place of the paper's constrained ODT (Sec 5.5); every step lowers the shape
+/// energy of the tets that it replaces.  guard: as in simplify().
 /// ENSURES: as simplify(): exact positivity, labels as point sets kept by flips and as complexes by
 ///          moves, box kept, fixed vertices do not move; depends on content only.
 OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Pattern search for the position that maximises the least radius ratio of a star.
+// Pattern search for the position of least shape energy.
 #include "kernels/optimise/smooth.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "kernels/quality/mesh_quality.h"
@@ -17,8 +18,12 @@ constexpr int kHalvings = 4;
 /// What a move of one vertex has to respect.
 class Mover {
  public:
-  Mover(const TetMesh& mesh, const Metric& metric, LocalVertex v)
-      : mesh_(mesh), metric_(metric), v_(v), fixed_(fixed_axes(mesh.planes(v))) {
+  Mover(const TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor)
+      : mesh_(mesh),
+        metric_(metric),
+        v_(v),
+        fixed_(fixed_axes(mesh.planes(v))),
+        least_(least_allowed(worst_of_star(mesh, metric, v), quality_floor)) {
     if (mesh.on_interface(v)) {
       const Quadric& q = mesh.quadric(v);
       quadric_limit_ = std::max(q.c, kInterfaceSlack * q.trace());
@@ -50,8 +55,8 @@ class Mover {
     return true;
   }
 
-  [[nodiscard]] double worst(Point x, double enough) const {
-    return worst_at(mesh_, metric_, v_, x, enough);
+  [[nodiscard]] double energy(Point x, double enough) const {
+    return star_energy(mesh_, metric_, v_, x, least_, enough);
   }
 
   /// Mean of the link triangles' corners: where the vertex would go by Laplacian smoothing.
@@ -83,19 +88,20 @@ class Mover {
   const Metric& metric_;
   LocalVertex v_;
   unsigned fixed_;
+  double least_;
   std::optional<double> quadric_limit_;
 };
 
 struct Best {
   Point position;
-  double worst;
+  double energy;
 
   bool offer(const Mover& mover, std::optional<Point> x) {
     if (!x) return false;
-    const double w = mover.worst(*x, worst);
-    if (w <= worst || !mover.all_positive(*x)) return false;
+    const double e = mover.energy(*x, energy);
+    if (e >= energy || !mover.all_positive(*x)) return false;
     position = *x;
-    worst = w;
+    energy = e;
     return true;
   }
 };
@@ -117,10 +123,11 @@ void search(const Mover& mover, Best& best) {
 
 }  // namespace
 
-bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, DistanceGuard* guard) {
-  const Mover mover(mesh, metric, v);
+bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor,
+                   DistanceGuard* guard) {
+  const Mover mover(mesh, metric, v, quality_floor);
   const Point start = mesh.position(v);
-  Best best{start, mover.worst(start, -2.0)};
+  Best best{start, mover.energy(start, std::numeric_limits<double>::infinity())};
   search(mover, best);
   if (best.position == start) return false;
   const bool guarded = guard != nullptr && mesh.on_interface(v);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Vertex smoothing: moves a free vertex to where the worst tet of its star is better.
+// Vertex smoothing: moves a free vertex to where the tets of its star have better shapes.
 #pragma once
 
 #include "kernels/distance/distance_guard.h"
@@ -8,7 +8,7 @@
 
 namespace mw {
 
-/// Moves v, if that raises the least radius ratio of its star.
+/// Moves v, if that lowers the shape energy of its star (kernels/quality/mesh_quality.h).
 ///
 /// Inner vertices move freely, box vertices within their planes, interface vertices only where
 /// their quadric stays below max(present value, a quarter voxel squared per accumulated plane): the
@@ -16,7 +16,7 @@ namespace mw {
 /// as well.
 /// REQUIRES: v free.  ENSURES: all tets exactly positive; connectivity unchanged, so topology is.
 /// Returns true when v moved.
-bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v,
+bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor,
                    DistanceGuard* guard = nullptr);
 
 }  // namespace mw

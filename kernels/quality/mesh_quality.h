@@ -3,6 +3,9 @@
 // Shape of tetrahedra given by points or by rows of a TetMesh.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/quality.h"
 
@@ -31,17 +34,42 @@ namespace mw {
                  mesh.position(t.vertices[2]), mesh.position(t.vertices[3])) > 0;
 }
 
-/// Least radius ratio of the real tets at v, were v at x; gives up below `enough`.
-[[nodiscard]] inline double worst_at(const TetMesh& mesh, const Metric& metric, LocalVertex v,
-                                     Point x, double enough) {
+/// Energy of a tet of radius ratio r, to be minimised as a sum: every tet counts, bad ones most.
+/// A tet below `least` makes it infinite.  (Raising only the worst tet of a star, as max-min
+/// optimisation does, leaves the mean radius ratio 0.05 to 0.1 lower at the same mesh size.)
+[[nodiscard]] inline double shape_energy(double r, double least) {
+  return r > 0.0 && r >= least ? 1.0 / r : std::numeric_limits<double>::infinity();
+}
+
+/// What an improvement may lower the radius ratio of a tet to, when the worst present one has
+/// `worst`: never below that, nor below the quality floor, unless it stays decent.
+[[nodiscard]] inline double least_allowed(double worst, double quality_floor) {
+  constexpr double kDecent = 0.3;
+  return std::min(worst, std::max(kDecent, quality_floor));
+}
+
+/// Least radius ratio of the real tets at v.
+[[nodiscard]] inline double worst_of_star(const TetMesh& mesh, const Metric& metric,
+                                          LocalVertex v) {
   double worst = 1.0;
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior) continue;
-    const double r = radius_ratio(mesh, metric, x, t);
-    if (r < worst) worst = r;
-    if (worst <= enough) break;
+    worst = std::min(worst, radius_ratio(mesh, metric, mesh.position(v), t));
   }
   return worst;
+}
+
+/// Energy of the real tets at v, were v at x; infinite when one is below `least`, not finished when
+/// it exceeds `enough`.
+[[nodiscard]] inline double star_energy(const TetMesh& mesh, const Metric& metric, LocalVertex v,
+                                        Point x, double least, double enough) {
+  double sum = 0.0;
+  for (const LinkTriangle& t : mesh.star(v)) {
+    if (t.label == kExterior) continue;
+    sum += shape_energy(radius_ratio(mesh, metric, x, t), least);
+    if (sum > enough) break;
+  }
+  return sum;
 }
 
 }  // namespace mw

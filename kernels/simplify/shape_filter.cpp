@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "kernels/quality/quality.h"
+#include "kernels/quality/mesh_quality.h"
 
 namespace mw {
 namespace {
@@ -35,28 +35,15 @@ bool positive_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x)
   });
 }
 
-TetEdges edges_from(const TetMesh& mesh, const Metric& metric, Point x, const LinkTriangle& t) {
-  return {metric.vector(x, mesh.position(t.a)), metric.vector(x, mesh.position(t.b)),
-          metric.vector(x, mesh.position(t.c))};
-}
-
 /// True when all survivors reach `floor` from x (and stay below the variance bound).
 bool good_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other, Point x,
              double floor, const std::optional<double>& variance) {
   return each_survivor(mesh, v, other, [&](const LinkTriangle& t) {
-    const TetEdges edges = edges_from(mesh, metric, x, t);
+    const TetEdges edges = tet_edges(metric, x, mesh.position(t.a), mesh.position(t.b),
+                                     mesh.position(t.c));
     return radius_ratio(edges) >= floor &&
            (!variance || edge_length_variance(edges) < *variance);
   });
-}
-
-double worst_of_star(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
-  double worst = 1.0;
-  each_survivor(mesh, v, mesh.infinity(), [&](const LinkTriangle& t) {
-    worst = std::min(worst, radius_ratio(edges_from(mesh, metric, mesh.position(v), t)));
-    return true;
-  });
-  return worst;
 }
 
 }  // namespace
@@ -72,10 +59,13 @@ ShapeVerdict judge_shape(const TetMesh& mesh, const Metric& metric, const Contra
            (!c.moves ||
             good_at(mesh, metric, c.keep, c.drop, c.position, floor, options.edge_variance));
   };
-  if (reaches(options.quality_floor)) return ShapeVerdict::kGood;
+  const bool moves_inner = mesh.order(c.keep) == 1 || mesh.order(c.drop) == 1;
+  const double floor = moves_inner ? std::max(options.quality_floor, options.inner_quality)
+                                   : options.quality_floor;
+  if (reaches(floor)) return ShapeVerdict::kGood;
   const double present =
       std::min(worst_of_star(mesh, metric, c.drop), worst_of_star(mesh, metric, c.keep));
-  if (present < options.quality_floor && reaches(present)) return ShapeVerdict::kGood;
+  if (present < floor && reaches(present)) return ShapeVerdict::kGood;
   return ShapeVerdict::kLowQuality;
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "kernels/mesh/vertex_marks.h"
 #include "kernels/simplify/contraction.h"
@@ -15,8 +14,6 @@
 
 namespace mw {
 namespace {
-
-constexpr double kNoCost = std::numeric_limits<double>::infinity();
 
 /// Remembers pairs that failed, until one of them changes.  Direct-mapped and of fixed size: a lost
 /// entry costs one more try, and the same one in every run.
@@ -65,9 +62,7 @@ class Simplifier {
 
   SimplifyStats run() {
     for (LocalVertex v = 0; v < mesh_.vertex_count(); ++v) {
-      if (!mesh_.is_free(v)) continue;
-      collect_candidates(v);
-      queue_.push(v, candidates_.empty() ? kNoCost : candidates_.front().cost);
+      if (mesh_.is_free(v)) queue_.push(v, 0.0);
     }
     std::vector<LocalVertex> round;
     while (queue_.take_round(round)) {

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+# Meshes a labelled volume (without FILE: the AAL brain atlas of mricron-data), verifies the mesh
+# against it and prints what came out.  Writes to ./demo.  Usage: demo.sh [FILE]
+set -euo pipefail
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+program="$root/build/release/mwmesh"
+
+die() {
+  echo "demo: $*" >&2
+  exit 1
+}
+
+find_atlas() {
+  local file
+  file="$(dpkg -L mricron-data 2>/dev/null | grep '/aal\.nii\(\.gz\)\?$' | head -n 1 || true)"
+  [[ -r "$file" ]] || die "mricron-data has no aal.nii.gz here; give a FILE"
+  echo "$file"
+}
+
+# The name of a file without folder and extensions.
+stem() {
+  local name="${1##*/}"
+  name="${name%.gz}"
+  echo "${name%.*}"
+}
+
+print_table() {
+  jq -rs '
+    def percent: . * 10000 | round / 100 | tostring + " %";
+    def digits3: . * 1000 | round / 1000 | tostring;
+    .[0] as $run | .[1] as $check |
+    ["input", ($run.input.shape_xyz | map(tostring) | join(" x ")) + " voxels, "
+              + ($run.input.labels | tostring) + " labels"],
+    ["vertices", $run.output.vertices],
+    ["share of voxel corners", ($run.output.vertex_fraction | percent)],
+    ["tets", $run.output.tets],
+    ["radius ratio, least", ($run.quality.radius_ratio_min | digits3)],
+    ["radius ratio, mean", ($run.quality.radius_ratio_mean | digits3)],
+    ["slivers (below 0.1)", ($run.quality.sliver_fraction | percent)],
+    ["labels changed", ($check.topology.labels_changed // "not known")],
+    ["all checks hold", (if $check.passed then "yes" else "NO" end)],
+    ["seconds", ($run.performance.wall_s * 10 | round / 10)],
+    ["voxels/s", ($run.performance.voxels_per_s | round)],
+    ["peak memory, MiB", ($run.performance.peak_rss_bytes / 1048576 | round)]
+    | map(tostring) | @tsv' "$1" "$2" | awk -F '\t' '{ printf "%-24s %s\n", $1, $2 }'
+}
+
+main() {
+  local input name verdict=0
+  bash "$root/configs/setup.sh"
+  input="${1:-$(find_atlas)}"
+  name="demo/$(stem "$input")"
+  mkdir -p demo
+  echo "demo: meshing $input"
+  "$program" mesh "$input" -o "$name.vtu" --report "$name.run.json" >"$name.log"
+  echo "demo: verifying $name.vtu"
+  "$program" verify "$input" "$name.vtu" --report "$name.verify.json" >>"$name.log" || verdict=$?
+  [[ -s "$name.verify.json" ]] || die "verify gave no result (exit $verdict)"
+  echo
+  print_table "$name.run.json" "$name.verify.json"
+  echo
+  echo "mesh      $PWD/$name.vtu"
+  echo "reports   $PWD/$name.run.json, $PWD/$name.verify.json"
+  ((verdict == 0)) || grep '^FAIL' "$name.log" >&2
+  return "$verdict"
+}
+
+main "$@"

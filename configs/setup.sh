@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+# Installs the Debian packages that are missing and builds build/release.  Quiet unless it fails.
+set -euo pipefail
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+log="$(mktemp)"
+trap 'rm -f "$log"' EXIT
+
+die() {
+  echo "setup: $*" >&2
+  exit 1
+}
+
+# Runs a command with its output kept; shows the end of it when the command fails.
+quietly() {
+  "$@" >"$log" 2>&1 && return
+  tail -n 60 "$log" >&2
+  return 1
+}
+
+wanted_packages() {
+  sed 's/#.*//' "$root/configs/packages.txt" | tr -s ' \t' '\n' | sed '/^$/d'
+}
+
+is_installed() {
+  [[ "$(dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null)" == *installed* ]] &&
+    [[ "$(dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null)" != *not-installed* ]]
+}
+
+missing_packages() {
+  local package
+  for package in $(wanted_packages); do
+    is_installed "$package" || echo "$package"
+  done
+}
+
+as_root() {
+  if ((EUID == 0)); then
+    env DEBIAN_FRONTEND=noninteractive "$@"
+  else
+    sudo env DEBIAN_FRONTEND=noninteractive "$@"
+  fi
+}
+
+install_packages() {
+  local missing
+  if ! command -v dpkg-query >/dev/null; then
+    echo "setup: no dpkg here; going on without installing what configs/packages.txt lists" >&2
+    return
+  fi
+  mapfile -t missing < <(missing_packages)
+  ((${#missing[@]})) || return 0
+  if ((EUID != 0)) && ! command -v sudo >/dev/null; then
+    die "neither root nor sudo; as root: apt-get install ${missing[*]}"
+  fi
+  echo "setup: installing ${missing[*]}"
+  quietly as_root apt-get update ||
+    die "apt-get update failed (no network?); these packages are missing: ${missing[*]}"
+  quietly as_root apt-get install --yes --no-install-recommends "${missing[@]}" ||
+    die "apt-get install failed (see above); these packages are missing: ${missing[*]}"
+}
+
+build() {
+  cd "$root"
+  echo "setup: building build/release"
+  quietly cmake --preset release || die "cmake failed (see above)"
+  quietly cmake --build --preset release --parallel 2 || die "the build failed (see above)"
+}
+
+install_packages
+build

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Wording of distances.
+#include "engine/cli/distance_facts.h"
+
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "engine/cli/mesh_facts.h"
+#include "engine/cli/values.h"
+
+namespace mw::cli {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json finite_json(double voxels) {
+  if (std::isfinite(voxels)) return voxels;
+  return nullptr;
+}
+
+ordered_json name_json(Label label, const io::LabelTable& table) {
+  if (label == audit::kUnknown) return nullptr;
+  return label_json(table.raw(label), table.is_signed());
+}
+
+std::string name_text(Label label, const io::LabelTable& table) {
+  if (label == audit::kUnknown) return "that the volume does not have";
+  return format_label(table.raw(label), table.is_signed());
+}
+
+/// "infinite for 2 labels (the first: 7), others "; empty when all is finite.
+std::string infinite_text(const audit::DistanceReport& distance, const io::LabelTable& table) {
+  const std::size_t count = distance.only_in_volume.size() + distance.only_in_mesh.size();
+  if (count == 0) return "";
+  const Label first = distance.only_in_volume.empty() ? distance.only_in_mesh.front()
+                                                      : distance.only_in_volume.front();
+  return "infinite for " + std::to_string(count) + (count == 1 ? " label" : " labels") +
+         " without interface in " + (distance.only_in_volume.empty() ? "the volume" : "the mesh") +
+         " (label " + name_text(first, table) + "); else ";
+}
+
+}  // namespace
+
+ordered_json distance_json(const audit::DistanceReport& distance, const io::LabelTable& table) {
+  ordered_json labels = ordered_json::array();
+  for (const auto& row : distance.per_label) {
+    labels.push_back({{"label", name_json(row.label, table)},
+                      {"input_to_mesh_max", finite_json(row.input_to_mesh_max)},
+                      {"input_to_mesh_mean", finite_json(row.input_to_mesh_mean)},
+                      {"mesh_to_input_max", finite_json(row.mesh_to_input_max)},
+                      {"mesh_to_input_mean", finite_json(row.mesh_to_input_mean)}});
+  }
+  return {{"max_voxels", finite_json(distance.max_voxels)},
+          {"mean_voxels", finite_json(distance.mean_voxels)},
+          {"samples_a_face", distance.samples_a_face},
+          {"input_covering_radius", distance.input_covering_radius},
+          {"mesh_covering_radius", distance.mesh_covering_radius},
+          {"per_label", std::move(labels)}};
+}
+
+void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table) {
+  std::cout << "distance      " << infinite_text(distance, table);
+  const auto* farthest = distance.farthest();
+  if (farthest == nullptr) {
+    std::cout << "no interface to measure\n";
+    return;
+  }
+  std::cout << format_fixed(farthest->max(), 2) << " voxels at most (label "
+            << name_text(farthest->label, table) << ")";
+  if (distance.is_finite()) {
+    std::cout << ", " << format_fixed(distance.mean_voxels, 2) << " on average";
+  }
+  std::cout << "; " << audit::sampling_text(distance) << "\n";
+}
+
+}  // namespace mw::cli

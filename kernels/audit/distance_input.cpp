@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Faces and samples from the eight voxels around a corner.
+#include "kernels/audit/distance_input.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "kernels/core/error.h"
+
+namespace mw::audit {
+namespace {
+
+constexpr std::int64_t kLongestAxis = std::int64_t{1} << 20;
+
+void require_countable(Index3 shape) {
+  if (std::max({shape.x, shape.y, shape.z}) < kLongestAxis) return;
+  throw Error(ErrorKind::kResource,
+              "audit: 2^20 voxels or more along an axis; audit parts, or without the distance");
+}
+
+/// Two of the eight voxels around a corner, with a face between them.
+struct Neighbours {
+  unsigned low = 0;
+  unsigned axis = 0;
+};
+
+constexpr std::array<Neighbours, 12> kNeighbours{{{0, 0},
+                                                  {2, 0},
+                                                  {4, 0},
+                                                  {6, 0},
+                                                  {0, 1},
+                                                  {1, 1},
+                                                  {4, 1},
+                                                  {5, 1},
+                                                  {0, 2},
+                                                  {1, 2},
+                                                  {2, 2},
+                                                  {3, 2}}};
+
+bool is_interface(Label a, Label b) {
+  return a != b && a != kExterior && b != kExterior;
+}
+
+/// curve_position of the voxel above and the axis, which together sort and name a face.
+std::vector<std::uint64_t> face_keys(const VoxelLabels& volume) {
+  std::vector<std::uint64_t> keys;
+  MixedCorners(volume).visit([&](const MixedCorner& corner) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const Label below = corner.around[7U ^ 1U << axis];
+      if (is_interface(below, corner.around[7])) {
+        keys.push_back(curve_position(corner.at) << 2 | axis);
+      }
+    }
+  });
+  return keys;
+}
+
+/// Every third bit of the key from bit 0 on.
+std::uint32_t gathered(std::uint64_t key) {
+  key &= 0x1249249249249249ULL;
+  key = (key | key >> 2) & 0x10c30c30c30c30c3ULL;
+  key = (key | key >> 4) & 0x100f00f00f00f00fULL;
+  key = (key | key >> 8) & 0x001f0000ff0000ffULL;
+  key = (key | key >> 16) & 0x001f00000000ffffULL;
+  return static_cast<std::uint32_t>(key | key >> 32);
+}
+
+VoxelFace face_of(std::uint64_t key) {
+  const std::uint64_t place = key >> 2;
+  return {{gathered(place), gathered(place >> 1), gathered(place >> 2)},
+          static_cast<std::uint32_t>(key & 3U)};
+}
+
+}  // namespace
+
+Extent extent_of(const VoxelFace& face) {
+  Extent out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.lo[k] = face.upper[k];
+    out.hi[k] = face.upper[k] + (k == face.axis ? 0.0 : 1.0);
+  }
+  return out;
+}
+
+LabelPair labels_of(const VoxelFace& face, const VoxelLabels& volume) {
+  const Index3 s = volume.shape;
+  const std::int64_t above =
+      (std::int64_t{face.upper[2]} * s.y + face.upper[1]) * s.x + face.upper[0];
+  const std::array<std::int64_t, 3> step{1, s.x, s.x * s.y};
+  return {volume.labels[static_cast<std::size_t>(above - step[face.axis])],
+          volume.labels[static_cast<std::size_t>(above)]};
+}
+
+std::vector<VoxelFace> interface_faces(const VoxelLabels& volume) {
+  require_countable(volume.shape);
+  std::vector<std::uint64_t> keys = face_keys(volume);
+  if (keys.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorKind::kResource,
+                "audit: 2^32 faces between labels; audit parts, or without the distance");
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<VoxelFace> faces;
+  faces.reserve(keys.size());
+  for (const std::uint64_t key : keys) faces.push_back(face_of(key));
+  return faces;
+}
+
+std::array<const Label*, 4> MixedCorners::rows(std::int64_t y, std::int64_t z) const {
+  const Index3 s = volume_.shape;
+  std::array<const Label*, 4> out{};
+  for (std::int64_t i = 0; i < 4; ++i) {
+    const std::int64_t v = std::clamp(y - 1 + (i & 1), std::int64_t{0}, s.y - 1);
+    const std::int64_t w = std::clamp(z - 1 + (i >> 1), std::int64_t{0}, s.z - 1);
+    out[static_cast<std::size_t>(i)] = volume_.labels.data() + (w * s.y + v) * s.x;
+  }
+  return out;
+}
+
+MixedCorner MixedCorners::corner(Index3 at, const std::array<const Label*, 4>& rows) const {
+  const Box3 box{{0, 0, 0}, volume_.shape};
+  MixedCorner out{{static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y),
+                   static_cast<std::uint32_t>(at.z)},
+                  {}};
+  for (std::int64_t i = 0; i < 8; ++i) {
+    const Index3 voxel{at.x - 1 + (i & 1), at.y - 1 + (i >> 1 & 1), at.z - 1 + (i >> 2)};
+    out.around[static_cast<std::size_t>(i)] =
+        box.contains(voxel) ? rows[static_cast<std::size_t>(i >> 1)][voxel.x] : kExterior;
+  }
+  return out;
+}
+
+void touch(const MixedCorner& corner, unsigned half, TouchedLabels& out) {
+  for (const Neighbours& n : kNeighbours) {
+    const bool has_sample = (n.low & half) == half && (half >> n.axis & 1U) == 0;
+    if (!has_sample) continue;
+    const Label a = corner.around[n.low];
+    const Label b = corner.around[n.low | 1U << n.axis];
+    if (!is_interface(a, b)) continue;
+    out.add(a);
+    out.add(b);
+  }
+}
+
+}  // namespace mw::audit

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Tets, vertices and samples of the leaves of a block.
+#include "kernels/lattice/graded_start.h"
+
+#include <algorithm>
+
+#include "kernels/lattice/cell_faces.h"
+#include "kernels/lattice/corner_quadric.h"
+
+namespace mw {
+namespace {
+
+template <typename Visit>
+void each_index(Index3 lo, Index3 hi, Visit visit) {
+  for (Index3 i = lo; i.z < hi.z; ++i.z) {
+    for (i.y = lo.y; i.y < hi.y; ++i.y) {
+      for (i.x = lo.x; i.x < hi.x; ++i.x) visit(i);
+    }
+  }
+}
+
+Point lattice_point(Index3 corner) {
+  return {static_cast<std::int32_t>(corner.x * kUnitsPerVoxel),
+          static_cast<std::int32_t>(corner.y * kUnitsPerVoxel),
+          static_cast<std::int32_t>(corner.z * kUnitsPerVoxel)};
+}
+
+/// In-plane test with whole numbers: is sample point p (lattice units) on the triangle?
+bool on_triangle(Point p, const CornerTriangle& t, unsigned axis) {
+  const auto flat = [axis](Point q) {
+    return axis == 0 ? std::array<std::int64_t, 2>{q.y, q.z}
+           : axis == 1 ? std::array<std::int64_t, 2>{q.x, q.z}
+                       : std::array<std::int64_t, 2>{q.x, q.y};
+  };
+  int left = 0, right = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto a = flat(lattice_point(t[i])), b = flat(lattice_point(t[(i + 1) % 3])), c = flat(p);
+    const std::int64_t turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    left += turn > 0 ? 1 : 0;
+    right += turn < 0 ? 1 : 0;
+  }
+  return left == 0 || right == 0;
+}
+
+class StartBuilder {
+ public:
+  StartBuilder(const LabelBox& labels, const Box3& block, Index3 volume,
+               const StartOptions& options)
+      : labels_(labels),
+        block_(block),
+        corners_{block.lo, block.hi + Index3{1, 1, 1}},
+        volume_(volume),
+        options_(options),
+        levels_(labels, volume, options.max_level),
+        faces_(levels_, volume),
+        used_(static_cast<std::size_t>(corners_.voxels()), 0) {}
+
+  BlockMesh build() {
+    each_index(block_.lo, block_.hi, [&](Index3 voxel) {
+      const Cell cell{voxel, levels_.level_at(voxel)};
+      const std::int64_t mask = cell.size() - 1;
+      if (((voxel.x | voxel.y | voxel.z) & mask) == 0) add_cell(cell);
+    });
+    number_vertices();
+    std::sort(mesh_.tets.begin(), mesh_.tets.end());
+    std::sort(mesh_.samples.begin(), mesh_.samples.end());
+    return std::move(mesh_);
+  }
+
+ private:
+  /// Position of a corner among those of the block: ascending with the id, but not yet a row.
+  std::uint32_t place(Index3 corner) {
+    const std::int64_t at = corners_.offset(corner);
+    used_[static_cast<std::size_t>(at)] = 1;
+    return static_cast<std::uint32_t>(at);
+  }
+
+  void add_tet(std::array<std::uint32_t, 4> places, Label label) {
+    std::sort(places.begin(), places.end());
+    mesh_.tets.push_back({places, label});
+  }
+
+  void add_cell(const Cell& cell) {
+    const Label label = labels_.at(cell.lo);
+    if (faces_.has_hanging_nodes(cell)) {
+      add_cone(cell, label);
+    } else {
+      add_five(cell, label);
+    }
+    if (!options_.with_samples) return;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      add_samples(cell, {axis, false}, label);
+      add_samples(cell, {axis, true}, label);
+    }
+  }
+
+  void add_five(const Cell& cell, Label label) {
+    std::array<std::uint32_t, 4> centre{};
+    std::size_t found = 0;
+    for (unsigned i = 0; i < 8; ++i) {
+      const Index3 corner = cell_corner(cell, i);
+      if (!is_odd(corner, cell.level)) {
+        centre[found++] = place(corner);
+        continue;
+      }
+      add_tet({place(corner), place(cell_corner(cell, i ^ 1U)), place(cell_corner(cell, i ^ 2U)),
+               place(cell_corner(cell, i ^ 4U))},
+              label);
+    }
+    add_tet(centre, label);
+  }
+
+  void add_cone(const Cell& cell, Label label) {
+    const std::int64_t half = cell.size() / 2;
+    const std::uint32_t centre = place(cell.lo + Index3{half, half, half});
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      for (bool high : {false, true}) {
+        faces_.triangles(cell, {axis, high}, triangles_);
+        for (const CornerTriangle& t : triangles_) {
+          add_tet({centre, place(t[0]), place(t[1]), place(t[2])}, label);
+        }
+      }
+    }
+  }
+
+  void add_samples(const Cell& cell, CellFace face, Label label) {
+    const std::int64_t s = cell.size();
+    const Index3 outward = axis_vector(face.axis, face.high ? 1 : -1);
+    const Index3 lo = cell.lo + axis_vector(face.axis, face.high ? s - 1 : 0);
+    const Index3 across = Index3{s, s, s} - axis_vector(face.axis, s - 1);
+    bool triangulated = false;
+    each_index(lo, lo + across, [&](Index3 voxel) {
+      const Label beyond = labels_.at(voxel + outward);
+      if (beyond == kExterior || beyond <= label) return;
+      if (!triangulated) faces_.triangles(cell, face, triangles_);
+      triangulated = true;
+      const Index3 lower = face.high ? voxel : voxel + outward;
+      for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+        add_sample(face_sample(lower, face.axis, quarter, volume_), face.axis, label);
+      }
+    });
+  }
+
+  void add_sample(FaceSample sample, unsigned axis, Label label) {
+    const Point p = position(sample, volume_);
+    const auto found = std::find_if(
+        triangles_.begin(), triangles_.end(),
+        [&](const CornerTriangle& t) { return on_triangle(p, t, axis); });
+    MW_ASSERT(found != triangles_.end());
+    std::array<std::uint32_t, 3> places{place((*found)[0]), place((*found)[1]),
+                                        place((*found)[2])};
+    std::sort(places.begin(), places.end());
+    mesh_.samples.push_back({places, label, sample});
+  }
+
+  /// Turns places into rows and lists the vertices.
+  void number_vertices() {
+    std::vector<std::uint32_t> row(used_.size());
+    std::size_t at = 0;
+    each_index(corners_.lo, corners_.hi, [&](Index3 corner) {
+      if (used_[at] != 0) {
+        row[at] = static_cast<std::uint32_t>(mesh_.vertices.size());
+        const auto id = static_cast<VertexId>(
+            (corner.z * (volume_.y + 1) + corner.y) * (volume_.x + 1) + corner.x);
+        mesh_.vertices.push_back({id, lattice_point(corner),
+                                  corner_quadric(labels_, corner, options_.weights)});
+      }
+      ++at;
+    });
+    for (BlockTet& t : mesh_.tets) {
+      for (std::uint32_t& v : t.vertices) v = row[v];
+    }
+    for (BlockSample& s : mesh_.samples) {
+      for (std::uint32_t& v : s.triangle) v = row[v];
+    }
+  }
+
+  const LabelBox& labels_;
+  Box3 block_;
+  Box3 corners_;
+  Index3 volume_;
+  StartOptions options_;
+  CellLevels levels_;
+  CellFaces faces_;
+  std::vector<std::uint8_t> used_;
+  std::vector<CornerTriangle> triangles_;
+  BlockMesh mesh_;
+};
+
+}  // namespace
+
+BlockMesh graded_start(const LabelBox& labels, const Box3& block, Index3 volume,
+                       const StartOptions& options) {
+  return StartBuilder(labels, block, volume, options).build();
+}
+
+}  // namespace mw
