@@ -40,9 +40,9 @@ void write_block(const BlockMesh& block, const std::vector<FinalVertex>& vertice
   std::vector<std::uint64_t> rows;
   std::vector<Point> positions;
   for (const BlockVertex& v : block.vertices) {
-    const auto found = std::lower_bound(
-        vertices.begin(), vertices.end(), v.id,
-        [](const FinalVertex& a, VertexId id) { return a.id < id; });
+    const auto found =
+        std::lower_bound(vertices.begin(), vertices.end(), v.id,
+                         [](const FinalVertex& a, VertexId id) { return a.id < id; });
     rows.push_back(static_cast<std::uint64_t>(found - vertices.begin()));
     positions.push_back(v.position);
   }

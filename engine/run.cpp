@@ -41,11 +41,11 @@ LabelBox read_labels(const io::DenseVolume& volume, const Box3& box) {
   const Index3 shape = volume.info().shape;
   LabelBox out{box, {}};
   out.labels.assign(static_cast<std::size_t>(out.box.voxels()), kExterior);
-  const Box3 inside{{std::max<std::int64_t>(out.box.lo.x, 0),
-                     std::max<std::int64_t>(out.box.lo.y, 0),
-                     std::max<std::int64_t>(out.box.lo.z, 0)},
-                    {std::min(out.box.hi.x, shape.x), std::min(out.box.hi.y, shape.y),
-                     std::min(out.box.hi.z, shape.z)}};
+  const Box3 inside{
+      {std::max<std::int64_t>(out.box.lo.x, 0), std::max<std::int64_t>(out.box.lo.y, 0),
+       std::max<std::int64_t>(out.box.lo.z, 0)},
+      {std::min(out.box.hi.x, shape.x), std::min(out.box.hi.y, shape.y),
+       std::min(out.box.hi.z, shape.z)}};
   std::vector<Label> read(static_cast<std::size_t>(inside.voxels()));
   volume.read(inside, read);
   auto row = read.begin();
@@ -86,8 +86,8 @@ std::unique_ptr<BlockStore> regroup(BlockStore& before, Index3 blocks_before, In
 /// Visits windows: gathers blocks, runs the kernels, scatters.
 class WindowVisitor {
  public:
-  WindowVisitor(const io::DenseVolume& volume, const MeshSettings& settings,
-                const WindowGrid& grid, BlockStore& store, RunReport& report)
+  WindowVisitor(const io::DenseVolume& volume, const MeshSettings& settings, const WindowGrid& grid,
+                BlockStore& store, RunReport& report)
       : volume_(volume),
         grid_(grid),
         store_(store),
@@ -95,8 +95,7 @@ class WindowVisitor {
         metric_(volume.info().spacing),
         start_{.max_level = settings.start == StartMesh::kOctree ? max_level(settings.window) : 0,
                .with_samples = settings.max_distance.has_value()},
-        simplify_{.quality_floor = settings.quality_floor,
-                  .edge_variance = settings.edge_variance},
+        simplify_{.quality_floor = settings.quality_floor, .edge_variance = settings.edge_variance},
         optimise_{.sweeps = settings.optimise ? 1 : 0, .quality_floor = settings.quality_floor},
         max_distance_(settings.max_distance) {}
 

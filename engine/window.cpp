@@ -90,10 +90,8 @@ BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row
 void take_samples(const WindowContent& content, const BlockTet& tet, Share& share) {
   if (content.samples.empty()) return;
   const auto& v = tet.vertices;
-  const std::array<TriangleKey, 4> faces{{{v[1], v[2], v[3]},
-                                          {v[0], v[2], v[3]},
-                                          {v[0], v[1], v[3]},
-                                          {v[0], v[1], v[2]}}};
+  const std::array<TriangleKey, 4> faces{
+      {{v[1], v[2], v[3]}, {v[0], v[2], v[3]}, {v[0], v[1], v[3]}, {v[0], v[1], v[2]}}};
   const auto may_carry = [&](LocalVertex w) {
     return !content.mesh.is_free(w) || content.mesh.on_interface(w);
   };

@@ -8,9 +8,13 @@
 namespace mw::engine {
 namespace {
 
-std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
+std::int64_t ceil_div(std::int64_t a, std::int64_t b) {
+  return (a + b - 1) / b;
+}
 
-std::int64_t windows_along(std::int64_t blocks) { return std::max<std::int64_t>(1, blocks - 1); }
+std::int64_t windows_along(std::int64_t blocks) {
+  return std::max<std::int64_t>(1, blocks - 1);
+}
 
 }  // namespace
 

@@ -27,19 +27,28 @@ ordered_json name_json(Label label, const io::LabelTable& table) {
 }
 
 std::string name_text(Label label, const io::LabelTable& table) {
-  if (label == audit::kUnknown) return "that the volume does not have";
+  if (label == audit::kUnknown) return "one that the volume does not have";
   return format_label(table.raw(label), table.is_signed());
 }
 
-/// "infinite for 2 labels (the first: 7), others "; empty when all is finite.
+/// "infinite for 2 labels with an interface on one side only (the first: 7)"; empty when all is
+/// finite.
 std::string infinite_text(const audit::DistanceReport& distance, const io::LabelTable& table) {
   const std::size_t count = distance.only_in_volume.size() + distance.only_in_mesh.size();
   if (count == 0) return "";
   const Label first = distance.only_in_volume.empty() ? distance.only_in_mesh.front()
                                                       : distance.only_in_volume.front();
   return "infinite for " + std::to_string(count) + (count == 1 ? " label" : " labels") +
-         " without interface in " + (distance.only_in_volume.empty() ? "the volume" : "the mesh") +
-         " (label " + name_text(first, table) + "); else ";
+         " with an interface on one side only (the first: " + name_text(first, table) + ")";
+}
+
+std::string finite_text(const audit::DistanceReport& distance, const io::LabelTable& table) {
+  const auto* farthest = distance.farthest();
+  if (farthest == nullptr) return "";
+  std::string text = format_fixed(farthest->max(), 2) + " voxels at most (label " +
+                     name_text(farthest->label, table) + ")";
+  if (!distance.is_finite()) return text + " for the others";
+  return text + ", " + format_fixed(distance.mean_voxels, 2) + " on average";
 }
 
 }  // namespace
@@ -62,18 +71,13 @@ ordered_json distance_json(const audit::DistanceReport& distance, const io::Labe
 }
 
 void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table) {
-  std::cout << "distance      " << infinite_text(distance, table);
-  const auto* farthest = distance.farthest();
-  if (farthest == nullptr) {
-    std::cout << "no interface to measure\n";
-    return;
-  }
-  std::cout << format_fixed(farthest->max(), 2) << " voxels at most (label "
-            << name_text(farthest->label, table) << ")";
-  if (distance.is_finite()) {
-    std::cout << ", " << format_fixed(distance.mean_voxels, 2) << " on average";
-  }
-  std::cout << "; " << audit::sampling_text(distance) << "\n";
+  const std::string infinite = infinite_text(distance, table);
+  const std::string finite = finite_text(distance, table);
+  std::cout << "distance      " << infinite << (infinite.empty() || finite.empty() ? "" : "; ")
+            << finite;
+  if (distance.per_label.empty()) std::cout << "no interface to measure";
+  if (!finite.empty()) std::cout << "; " << audit::sampling_text(distance);
+  std::cout << "\n";
 }
 
 }  // namespace mw::cli

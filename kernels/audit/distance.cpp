@@ -110,10 +110,14 @@ class DistanceMeasurement {
     const std::uint64_t parts = parts_of_edge(t.corners, report_.mesh_covering_radius);
     const auto edge = static_cast<double>(parts);
     const double weight = area(t.corners) / ((edge + 1) * (edge + 2) / 2);
+    const CloseFaces close(volume_);
     visit_triangle_samples(t.corners, parts, [&](const VoxelPoint& p) {
-      for (const Label label : t.labels) {
+      const std::array<double, 2> squared = close.squared_distances(p, t.labels);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Label label = t.labels[i];
         if (!in_volume_[label]) continue;
-        to_input_[label].add(finder.distance(label, p), weight);
+        const bool is_close = squared[i] <= CloseFaces::kReach * CloseFaces::kReach;
+        to_input_[label].add(is_close ? std::sqrt(squared[i]) : finder.distance(label, p), weight);
       }
     });
   }
@@ -198,9 +202,9 @@ DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_cou
 }
 
 std::string sampling_text(const DistanceReport& report) {
-  return std::to_string(report.samples_a_face) + " samples a voxel face (exact to " +
-         number(report.input_covering_radius) + "), triangles sampled to " +
-         number(report.mesh_covering_radius);
+  return "sampled to " + number(report.input_covering_radius) + " on voxel faces (" +
+         std::to_string(report.samples_a_face) + " points each) and " +
+         number(report.mesh_covering_radius) + " on triangles";
 }
 
 }  // namespace mw::audit

@@ -64,7 +64,7 @@ struct DistanceReport {
 [[nodiscard]] DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
                                               const AuditMesh& mesh, const Frame& frame);
 
-/// How exact the figures are, in words.
+/// The covering radii, in words: how much larger the true distances may be.
 [[nodiscard]] std::string sampling_text(const DistanceReport& report);
 
 }  // namespace mw::audit

@@ -130,6 +130,64 @@ MixedCorner MixedCorners::corner(Index3 at, const std::array<const Label*, 4>& r
   return out;
 }
 
+CloseFaces::Voxel CloseFaces::voxel_of(const VoxelPoint& p) const {
+  const Voxel shape{volume_.shape.x, volume_.shape.y, volume_.shape.z};
+  Voxel out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double last = static_cast<double>(shape[k] - 1);
+    out[k] = static_cast<std::int64_t>(std::clamp(p[k], 0.0, last));
+  }
+  return out;
+}
+
+CloseFaces::Block CloseFaces::block_around(const Voxel& voxel) const {
+  const Index3 s = volume_.shape;
+  const Box3 box{{0, 0, 0}, s};
+  Block out{};
+  for (std::int64_t i = 0; i < 27; ++i) {
+    const Index3 v{voxel[0] + i % 3 - 1, voxel[1] + i / 3 % 3 - 1, voxel[2] + i / 9 - 1};
+    out[static_cast<std::size_t>(i)] =
+        box.contains(v) ? volume_.labels[static_cast<std::size_t>(box.offset(v))] : kExterior;
+  }
+  return out;
+}
+
+/// The box cut to the block is convex, so from a point outside the box other faces are no nearer
+/// than from its nearest point inside, which has the whole block around it.
+std::array<double, 2> CloseFaces::squared_distances(const VoxelPoint& p,
+                                                    const LabelPair& labels) const {
+  const Voxel voxel = voxel_of(p);
+  const Block block = block_around(voxel);
+  const auto square = [](double x) { return x * x; };
+  std::array<std::array<double, 3>, 3> to_slab{};   // of voxels, along each axis
+  std::array<std::array<double, 2>, 3> to_plane{};  // between them
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double at = p[k] - static_cast<double>(voxel[k]);
+    to_plane[k] = {square(at), square(at - 1)};
+    to_slab[k] = {square(std::max(at, 0.0)), square(std::max({-at, at - 1, 0.0})),
+                  square(std::max(1 - at, 0.0))};
+  }
+  constexpr std::array<std::size_t, 3> kStep{1, 3, 9};
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::array<double, 2> nearest{kFar, kFar};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t u = (axis + 1) % 3;
+    const std::size_t v = (axis + 2) % 3;
+    for (std::size_t i = 0; i < 18; ++i) {
+      const std::size_t plane = i / 9;
+      const std::size_t below = plane * kStep[axis] + i % 3 * kStep[u] + i / 3 % 3 * kStep[v];
+      const Label a = block[below];
+      const Label b = block[below + kStep[axis]];
+      if (!is_interface(a, b)) continue;
+      const double squared = to_plane[axis][plane] + to_slab[u][i % 3] + to_slab[v][i / 3 % 3];
+      for (std::size_t n = 0; n < 2; ++n) {
+        if (a == labels[n] || b == labels[n]) nearest[n] = std::min(nearest[n], squared);
+      }
+    }
+  }
+  return nearest;
+}
+
 void touch(const MixedCorner& corner, unsigned half, TouchedLabels& out) {
   for (const Neighbours& n : kNeighbours) {
     const bool has_sample = (n.low & half) == half && (half >> n.axis & 1U) == 0;

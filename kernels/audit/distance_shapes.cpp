@@ -4,8 +4,15 @@
 // inside (Ericson, Real-Time Collision Detection, 5.1.5).
 #include "kernels/audit/distance_shapes.h"
 
+#include <limits>
+
 namespace mw::audit {
 namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// Squared sine of the angle between two edges below which their plane is in doubt.
+constexpr double kFlatness = 1e-6;
 
 VoxelPoint minus(const VoxelPoint& a, const VoxelPoint& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -63,12 +70,14 @@ double squared_distance(const VoxelPoint& p, const VoxelTriangle& t) {
   const double at_c = d1 * d4 - d3 * d2;
   const double at_b = d5 * d2 - d1 * d6;
   const double at_a = d3 * d6 - d5 * d4;
-  if (at_a > 0 && at_b > 0 && at_c > 0) {
-    const double whole = at_a + at_b + at_c;
-    return squared_rest(ap, ab, at_b / whole, ac, at_c / whole);
-  }
-  return std::min(
-      {squared_to_edge(ap, ab), squared_to_edge(ap, ac), squared_to_edge(bp, minus(t[2], t[1]))});
+  const double whole = at_a + at_b + at_c;
+  const bool is_inside = at_a > 0 && at_b > 0 && at_c > 0;
+  const double inside = is_inside ? squared_rest(ap, ab, at_b / whole, ac, at_c / whole) : kFar;
+  // In flat triangles the areas are rounding, and all points are near an edge.
+  const bool is_flat = whole <= kFlatness * dot(ab, ab) * dot(ac, ac);
+  if (is_inside && !is_flat) return inside;
+  return std::min({inside, squared_to_edge(ap, ab), squared_to_edge(ap, ac),
+                   squared_to_edge(bp, minus(t[2], t[1]))});
 }
 
 std::uint64_t curve_position(const std::array<std::uint32_t, 3>& cell) {

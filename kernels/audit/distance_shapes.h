@@ -32,7 +32,7 @@ struct Extent {
 }
 
 /// To the nearest point of the triangle, degenerate ones included.  Always the distance to some
-/// point of it up to rounding, so thin triangles never seem nearer than they are.
+/// point of it, up to rounding, so no triangle ever seems nearer than it is.
 [[nodiscard]] double squared_distance(const VoxelPoint& p, const VoxelTriangle& t);
 
 [[nodiscard]] inline Extent extent_of(const VoxelTriangle& t) {

@@ -21,8 +21,7 @@ inline constexpr unsigned kSamplesPerFace = 4;
 
 [[nodiscard]] inline FaceSample face_sample(Index3 lower_voxel, unsigned axis, unsigned quarter,
                                             Index3 volume) {
-  const std::int64_t voxel =
-      (lower_voxel.z * volume.y + lower_voxel.y) * volume.x + lower_voxel.x;
+  const std::int64_t voxel = (lower_voxel.z * volume.y + lower_voxel.y) * volume.x + lower_voxel.x;
   return (static_cast<FaceSample>(voxel) * 3 + axis) * kSamplesPerFace + quarter;
 }
 

@@ -34,32 +34,30 @@ class CarriedSamples {
   [[nodiscard]] bool empty() const { return lists_.empty(); }
 
   void add(const TriangleKey& key, Label side, FaceSample sample) {
-    List& list = lists_[pack(key)];
+    List& list = lists_[key];
     list.side = side;
     list.samples.push_back(sample);
   }
 
   /// The list of a triangle; null when it carries none.
   [[nodiscard]] const List* find(const TriangleKey& key) const {
-    const auto found = lists_.find(pack(key));
+    const auto found = lists_.find(key);
     return found == lists_.end() ? nullptr : &found->second;
   }
 
-  void erase(const TriangleKey& key) { lists_.erase(pack(key)); }
+  void erase(const TriangleKey& key) { lists_.erase(key); }
 
  private:
-  /// Three local vertices of 21 bits each.
-  [[nodiscard]] static std::uint64_t pack(const TriangleKey& key) {
-    return std::uint64_t{key[0]} << 42 | std::uint64_t{key[1]} << 21 | key[2];
-  }
-  struct Mix {
-    std::size_t operator()(std::uint64_t key) const {
-      key *= 0x9E3779B97F4A7C15ULL;
-      return static_cast<std::size_t>(key ^ key >> 29);
+  struct Hash {
+    std::size_t operator()(const TriangleKey& key) const {
+      constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;
+      std::uint64_t h = (std::uint64_t{key[0]} << 32 | key[1]) * kOdd;
+      h = (h ^ h >> 29 ^ key[2]) * kOdd;
+      return static_cast<std::size_t>(h ^ h >> 32);
     }
   };
 
-  std::unordered_map<std::uint64_t, List, Mix> lists_;
+  std::unordered_map<TriangleKey, List, Hash> lists_;
 };
 
 }  // namespace mw

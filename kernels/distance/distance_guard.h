@@ -18,8 +18,8 @@ namespace mw {
 /// proves all of the face.  A change hands the samples of the triangles that it replaces to the
 /// nearest new ones between the same labels, and is refused when one ends too far.
 ///
-/// Contractions of an inner vertex and flips inside a label change no interface triangle; everything
-/// else comes here.
+/// Contractions of an inner vertex and flips inside a label change no interface triangle;
+/// everything else comes here.
 class DistanceGuard {
  public:
   /// `labels` as LabelReach asks; `volume` is the shape of the whole volume; keeps references.

@@ -13,8 +13,8 @@ void InterfaceFan::collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTr
   out.clear();
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior) continue;
-    for (const auto& [a, b] : {std::minmax(t.a, t.b), std::minmax(t.b, t.c),
-                               std::minmax(t.c, t.a)}) {
+    for (const auto& [a, b] :
+         {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)}) {
       sides_.push_back({a, b, t.label});
     }
   }

@@ -71,8 +71,7 @@ bool CellFaces::has_hanging_nodes(const Cell& cell) const {
   return false;
 }
 
-void CellFaces::triangles(const Cell& cell, CellFace face,
-                          std::vector<CornerTriangle>& out) const {
+void CellFaces::triangles(const Cell& cell, CellFace face, std::vector<CornerTriangle>& out) const {
   out.clear();
   const Plane p = plane_of(cell, face);
   const std::int64_t s = cell.size();

@@ -8,7 +8,9 @@
 namespace mw {
 namespace {
 
-std::int64_t floor_shift(std::int64_t v, int level) { return v >> level; }
+std::int64_t floor_shift(std::int64_t v, int level) {
+  return v >> level;
+}
 
 Index3 cell_at(Index3 voxel, int level) {
   return {floor_shift(voxel.x, level), floor_shift(voxel.y, level), floor_shift(voxel.z, level)};
@@ -30,10 +32,10 @@ bool inside(const Box3& a, const Box3& b) {
 CellLevels::CellLevels(const LabelBox& labels, Index3 volume, int max_level)
     : labels_(labels), volume_(volume) {
   const Box3& box = labels.box;
-  known_ = {{std::max<std::int64_t>(box.lo.x, 0), std::max<std::int64_t>(box.lo.y, 0),
-             std::max<std::int64_t>(box.lo.z, 0)},
-            {std::min(box.hi.x, volume.x), std::min(box.hi.y, volume.y),
-             std::min(box.hi.z, volume.z)}};
+  known_ = {
+      {std::max<std::int64_t>(box.lo.x, 0), std::max<std::int64_t>(box.lo.y, 0),
+       std::max<std::int64_t>(box.lo.z, 0)},
+      {std::min(box.hi.x, volume.x), std::min(box.hi.y, volume.y), std::min(box.hi.z, volume.z)}};
   for (int k = 1; k <= max_level; ++k) {
     Level level = cells_of(k);
     std::size_t i = 0;

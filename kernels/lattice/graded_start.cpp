@@ -29,7 +29,7 @@ Point lattice_point(Index3 corner) {
 /// In-plane test with whole numbers: is sample point p (lattice units) on the triangle?
 bool on_triangle(Point p, const CornerTriangle& t, unsigned axis) {
   const auto flat = [axis](Point q) {
-    return axis == 0 ? std::array<std::int64_t, 2>{q.y, q.z}
+    return axis == 0   ? std::array<std::int64_t, 2>{q.y, q.z}
            : axis == 1 ? std::array<std::int64_t, 2>{q.x, q.z}
                        : std::array<std::int64_t, 2>{q.x, q.y};
   };
@@ -144,12 +144,11 @@ class StartBuilder {
 
   void add_sample(FaceSample sample, unsigned axis, Label label) {
     const Point p = position(sample, volume_);
-    const auto found = std::find_if(
-        triangles_.begin(), triangles_.end(),
-        [&](const CornerTriangle& t) { return on_triangle(p, t, axis); });
+    const auto found =
+        std::find_if(triangles_.begin(), triangles_.end(),
+                     [&](const CornerTriangle& t) { return on_triangle(p, t, axis); });
     MW_ASSERT(found != triangles_.end());
-    std::array<std::uint32_t, 3> places{place((*found)[0]), place((*found)[1]),
-                                        place((*found)[2])};
+    std::array<std::uint32_t, 3> places{place((*found)[0]), place((*found)[1]), place((*found)[2])};
     std::sort(places.begin(), places.end());
     mesh_.samples.push_back({places, label, sample});
   }
@@ -163,8 +162,8 @@ class StartBuilder {
         row[at] = static_cast<std::uint32_t>(mesh_.vertices.size());
         const auto id = static_cast<VertexId>(
             (corner.z * (volume_.y + 1) + corner.y) * (volume_.x + 1) + corner.x);
-        mesh_.vertices.push_back({id, lattice_point(corner),
-                                  corner_quadric(labels_, corner, options_.weights)});
+        mesh_.vertices.push_back(
+            {id, lattice_point(corner), corner_quadric(labels_, corner, options_.weights)});
       }
       ++at;
     });

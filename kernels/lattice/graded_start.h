@@ -8,12 +8,11 @@
 
 namespace mw {
 
-/// Weights of the quadrics of Sec 5.2.  The paper has 1, 1, 1; light point terms keep interfaces
-/// where they are and inner vertices from crowding the result (kernel studies).
+/// Weights of the quadrics of Sec 5.2; the paper's by default.
 struct QuadricWeights {
   double plane = 1.0;           ///< Eq (1), for each interface voxel face at the vertex
-  double boundary_point = 0.1;  ///< Eq (2), vertices on an interface or on the box
-  double inner_point = 0.2;     ///< Eq (2), all others
+  double boundary_point = 1.0;  ///< Eq (2), vertices on an interface or on the box
+  double inner_point = 1.0;     ///< Eq (2), all others
 };
 
 struct StartOptions {

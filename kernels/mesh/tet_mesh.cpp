@@ -169,8 +169,7 @@ void TetMesh::merge_stars(LocalVertex keep, LocalVertex drop) {
   stars_[drop].size = 0;
 }
 
-void TetMesh::contract(LocalVertex keep, LocalVertex drop, Point position,
-                       const Quadric& quadric) {
+void TetMesh::contract(LocalVertex keep, LocalVertex drop, Point position, const Quadric& quadric) {
   MW_ASSERT(is_free(keep) && is_free(drop));
   replace_in_link(keep, drop);
   merge_stars(keep, drop);

@@ -141,10 +141,14 @@ class TetMesh {
 [[nodiscard]] constexpr LinkTriangle link_triangle(const LocalTet& t, int i) {
   const auto& v = t.vertices;
   switch (i) {
-    case 0: return {v[1], v[2], v[3], t.label};
-    case 1: return {v[0], v[3], v[2], t.label};
-    case 2: return {v[0], v[1], v[3], t.label};
-    default: return {v[0], v[2], v[1], t.label};
+    case 0:
+      return {v[1], v[2], v[3], t.label};
+    case 1:
+      return {v[0], v[3], v[2], t.label};
+    case 2:
+      return {v[0], v[1], v[3], t.label};
+    default:
+      return {v[0], v[2], v[1], t.label};
   }
 }
 

@@ -125,8 +125,8 @@ bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
   }
   if (!surface_allows(p, q)) return false;
   replace();
-  const bool on_guarded_surface = polygons_.size() == 2 && polygons_[0].label != kExterior &&
-                                  polygons_[1].label != kExterior;
+  const bool on_guarded_surface =
+      polygons_.size() == 2 && polygons_[0].label != kExterior && polygons_[1].label != kExterior;
   if (guard_ != nullptr && on_guarded_surface) guard_->commit();
   return true;
 }

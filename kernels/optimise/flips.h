@@ -31,8 +31,7 @@ namespace mw {
 class Flipper {
  public:
   /// guard: keeps the distance bound; null: no bound.
-  Flipper(TetMesh& mesh, const Metric& metric, double quality_floor,
-          DistanceGuard* guard = nullptr)
+  Flipper(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard = nullptr)
       : mesh_(mesh), metric_(metric), quality_floor_(quality_floor), guard_(guard) {}
 
   /// Replaces the ring of edge (p, q) by the best triangulation of the ring's polygon, joined to

@@ -14,7 +14,9 @@ Eigen::Matrix3d matrix(const Quadric& q) {
   return m;
 }
 
-Vec3 linear(const Quadric& q) { return {q.b[0], q.b[1], q.b[2]}; }
+Vec3 linear(const Quadric& q) {
+  return {q.b[0], q.b[1], q.b[2]};
+}
 
 }  // namespace
 

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kInnerToBoundaryFactor = 4.0;
 
-bool is_inner(const TetMesh& mesh, LocalVertex v) { return mesh.order(v) == 1; }
+bool is_inner(const TetMesh& mesh, LocalVertex v) {
+  return mesh.order(v) == 1;
+}
 
 Quadric sum_at(const TetMesh& mesh, const Metric& metric, LocalVertex p, LocalVertex q) {
   const Vec3 from_q_to_p = metric.vector(mesh.position(q), mesh.position(p));
@@ -24,8 +26,8 @@ std::optional<int> survivor(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
   const unsigned both = planes_p & planes_q;
   if (both != planes_p && both != planes_q) return std::nullopt;
   const int by_planes = (both == planes_q ? 1 : 0) - (both == planes_p ? 1 : 0);
-  const int by_order = (mesh.order(p) > mesh.order(q) ? 1 : 0) -
-                       (mesh.order(p) < mesh.order(q) ? 1 : 0);
+  const int by_order =
+      (mesh.order(p) > mesh.order(q) ? 1 : 0) - (mesh.order(p) < mesh.order(q) ? 1 : 0);
   if (by_planes * by_order < 0) return std::nullopt;
   return by_planes != 0 ? by_planes : by_order;
 }
@@ -39,8 +41,7 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
   if (!rank) return std::nullopt;
   Contraction c{.keep = *rank < 0 ? q : p, .drop = *rank < 0 ? p : q};
   if (*rank == 0) {
-    const QuadricMinimum best =
-        minimum(sum_at(mesh, metric, p, q), fixed_axes(mesh.planes(p)));
+    const QuadricMinimum best = minimum(sum_at(mesh, metric, p, q), fixed_axes(mesh.planes(p)));
     c.position = metric.moved(mesh.position(p), best.offset);
     c.cost = best.value;
     c.moves = true;

@@ -39,10 +39,9 @@ bool positive_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x)
 bool good_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other, Point x,
              double floor, const std::optional<double>& variance) {
   return each_survivor(mesh, v, other, [&](const LinkTriangle& t) {
-    const TetEdges edges = tet_edges(metric, x, mesh.position(t.a), mesh.position(t.b),
-                                     mesh.position(t.c));
-    return radius_ratio(edges) >= floor &&
-           (!variance || edge_length_variance(edges) < *variance);
+    const TetEdges edges =
+        tet_edges(metric, x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c));
+    return radius_ratio(edges) >= floor && (!variance || edge_length_variance(edges) < *variance);
   });
 }
 
@@ -60,8 +59,8 @@ ShapeVerdict judge_shape(const TetMesh& mesh, const Metric& metric, const Contra
             good_at(mesh, metric, c.keep, c.drop, c.position, floor, options.edge_variance));
   };
   const bool moves_inner = mesh.order(c.keep) == 1 || mesh.order(c.drop) == 1;
-  const double floor = moves_inner ? std::max(options.quality_floor, options.inner_quality)
-                                   : options.quality_floor;
+  const double floor =
+      moves_inner ? std::max(options.quality_floor, options.inner_quality) : options.quality_floor;
   if (reaches(floor)) return ShapeVerdict::kGood;
   const double present =
       std::min(worst_of_star(mesh, metric, c.drop), worst_of_star(mesh, metric, c.keep));

@@ -135,9 +135,14 @@ class Simplifier {
   bool try_contraction(const Contraction& c) {
     ++stats_.tried;
     switch (judge_shape(mesh_, metric_, c, options_)) {
-      case ShapeVerdict::kInverted: ++stats_.inverted; return false;
-      case ShapeVerdict::kLowQuality: ++stats_.low_quality; return false;
-      case ShapeVerdict::kGood: break;
+      case ShapeVerdict::kInverted:
+        ++stats_.inverted;
+        return false;
+      case ShapeVerdict::kLowQuality:
+        ++stats_.low_quality;
+        return false;
+      case ShapeVerdict::kGood:
+        break;
     }
     const bool both_on_boundaries = mesh_.order(c.keep) > 1 && mesh_.order(c.drop) > 1;
     if (both_on_boundaries && !topology_.keeps_topology(mesh_, c.keep, c.drop)) {

@@ -42,8 +42,7 @@ class CollapseTest {
     std::array<Label, kMaxRing> beyond;        ///< label across face (end, ring i, ring i + 1)
   };
 
-  [[nodiscard]] bool look_from(const TetMesh& mesh, LocalVertex end, LocalVertex other,
-                               Side& side);
+  [[nodiscard]] bool look_from(const TetMesh& mesh, LocalVertex end, LocalVertex other, Side& side);
   [[nodiscard]] int label_index(Label label);
   [[nodiscard]] bool label_allows(std::size_t index) const;
 

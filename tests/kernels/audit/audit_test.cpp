@@ -203,7 +203,7 @@ TEST_F(BrokenMesh, LabelThatIsNotInTheVolume) {
 TEST_F(BrokenMesh, LostLabel) {
   std::fill(mesh_.labels.begin(), mesh_.labels.end(), 0);
   const AuditReport report = run();
-  EXPECT_EQ(failures(report), (Names{"P2 labels", "P1 topology"}));
+  EXPECT_EQ(failures(report), (Names{"P2 labels", "P1 topology", "P4 distance"}));
   EXPECT_NE(check(report, "P2 labels").detail.find("dense 1"), std::string::npos);
 }
 

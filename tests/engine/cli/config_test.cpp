@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where settings come from: defaults < config file < environment < flags.
+#include "tests/engine/cli/run_program.h"
+
+namespace mw::cli {
+namespace {
+
+class ConfigTest : public ProgramTest {
+ protected:
+  /// The effective line of a key.
+  std::string line(const std::string& key, const std::string& arguments,
+                   const std::string& prefix = {}) const {
+    const std::string out = "\n" + run("mesh --print-config " + arguments, prefix).out;
+    const std::size_t begin = out.find("\n" + key + " = ");
+    if (begin == std::string::npos) return {};
+    return out.substr(begin + 1, out.find('\n', begin + 1) - begin - 1);
+  }
+};
+
+TEST_F(ConfigTest, StrongestSourceWins) {
+  write("c.toml", "window = 40\n");
+  const std::string config = "--config c.toml ";
+  EXPECT_EQ(line("window", config), "window = 40");
+  EXPECT_EQ(line("window", config, "MW_WINDOW=24"), "window = 24");
+  EXPECT_EQ(line("window", config + "--window 16", "MW_WINDOW=24"), "window = 16");
+  EXPECT_EQ(line("window", "", "MW_WINDOW=24"), "window = 24");
+  EXPECT_EQ(line("window", config, "MW_WINDOW="), "window = 40");
+}
+
+TEST_F(ConfigTest, EveryKindOfValueSurvivesPrinting) {
+  write("c.toml",
+        "input = \"a \\\"b\\\".npy\"\noutput = \"o.vtu\"\nspacing = [1, 0.5, 2e-3]\n"
+        "edge_variance = 0.1\nmax_distance = \"none\"\nlabels = [-1, 7]\nshape = [4, 5, 6]\n"
+        "dtype = \"i16\"\nprogress = \"jsonl\"\nquality_floor = 0.25\nresume = false\n");
+  const std::string printed = run("mesh --config c.toml --print-config").out;
+  write("printed.toml", printed);
+  const ProgramRun again = run("mesh --config printed.toml --print-config");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(again.out, printed);
+  for (const char* expected :
+       {"input = \"a \\\"b\\\".npy\"\n", "spacing = [1,0.5,0.002]\n", "edge_variance = 0.1\n",
+        "max_distance = \"none\"\n", "labels = \"-1,7\"\n", "shape = [4,5,6]\n"}) {
+    EXPECT_NE(printed.find(expected), std::string::npos) << expected << printed;
+  }
+}
+
+TEST_F(ConfigTest, FlagsTakeNegativeNumbers) {
+  EXPECT_EQ(line("origin", "--origin -1,-2.5,3"), "origin = [-1,-2.5,3]");
+  EXPECT_EQ(line("background", "--background -3"), "background = \"-3\"");
+}
+
+TEST_F(ConfigTest, NamesFileLineAndKey) {
+  const auto expect_refused = [&](const std::string& content, const std::string& piece) {
+    write("c.toml", content);
+    expect_failure(2, "mesh --print-config --config c.toml", piece);
+  };
+  expect_refused("# one\nwindow = 40\nwindwo = 3\n", "c.toml:3: windwo: unknown key");
+  expect_refused("[mesh]\nwindow = 40\n", "c.toml:1: mesh: unknown key");
+  expect_refused("\nwindow = \"40\"\n", "c.toml:2: window: wrong type; expected an integer");
+  expect_refused("window = 40.5\n", "c.toml:1: window: wrong type");
+  expect_refused("window = 41\n", "c.toml:1: window = 41: window must be");
+  expect_refused("spacing = [1, 2]\n", "c.toml:1: spacing");
+  expect_refused("spacing = [1, \"2\", 3]\n", "c.toml:1: spacing: wrong type");
+  expect_refused("edge_variance = \"some\"\n", "c.toml:1: edge_variance: wrong type");
+  expect_refused("edge_variance = nan\n", "c.toml:1: edge_variance");
+  expect_refused("resume = 1\n", "c.toml:1: resume: wrong type");
+  expect_refused("order = \"colour\"\n", "c.toml:1: order = colour is not available");
+  expect_refused("window = 40\nwindow = 32\n", "c.toml:2");
+  expect_refused("window = = 2\n", "c.toml:1");
+  expect_failure(2, "mesh --print-config --config missing.toml", "missing.toml");
+  expect_failure(2, "mesh --print-config --config .", "cannot read this config file");
+}
+
+TEST_F(ConfigTest, DefaultTomlSaysTheDefaults) {
+  const std::string file = MW_SOURCE_DIR "/configs/default.toml";
+  const ProgramRun with_file = run("mesh --print-config --config " + file);
+  EXPECT_EQ(with_file.code, 0) << with_file.err;
+  const std::string defaults = run("mesh --print-config").out;
+  EXPECT_EQ(with_file.out, defaults);
+  // Every key with a default is there.
+  const std::string content = content_of(file);
+  std::istringstream lines(defaults);
+  for (std::string text; std::getline(lines, text);) {
+    if (text.starts_with("#")) continue;
+    const std::string key = text.substr(0, text.find(' '));
+    EXPECT_NE(content.find("\n" + key + " = "), std::string::npos) << key;
+  }
+}
+
+TEST_F(ConfigTest, PaperTomlIsAccepted) {
+  const std::string file = MW_SOURCE_DIR "/configs/paper.toml";
+  EXPECT_EQ(line("window", "--config " + file), "window = 40");
+  EXPECT_EQ(line("edge_variance", "--config " + file), "edge_variance = 0.1");
+  EXPECT_EQ(line("max_distance", "--config " + file), "max_distance = \"none\"");
+}
+
+}  // namespace
+}  // namespace mw::cli

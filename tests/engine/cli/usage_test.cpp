@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Bad usage and bad input: exit codes, messages, nothing left behind.
+#include "tests/engine/cli/run_program.h"
+
+namespace mw::cli {
+namespace {
+
+class UsageTest : public ProgramTest {};
+
+TEST_F(UsageTest, SaysItsVersionAndHelp) {
+  EXPECT_EQ(run("--version").out.substr(0, 7), "mwmesh ");
+  EXPECT_EQ(run("mesh --version").code, 0);
+  const ProgramRun help = run("mesh --help");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_NE(help.out.find("--edge-variance"), std::string::npos);
+}
+
+TEST_F(UsageTest, RefusesUnknownWords) {
+  make_volume();
+  expect_failure(2, "", "subcommand");
+  expect_failure(2, "mash", "mash");
+  expect_failure(2, "mesh v.npy -o v.vtu --foo", "--foo");
+  expect_failure(2, "mesh v.npy -o v.vtu extra", "extra");
+  expect_failure(2, "synth cubes --shape 3,3,3 --labels 2 --seed 1 -o w.npy", "cubes");
+}
+
+TEST_F(UsageTest, RefusesBadValues) {
+  make_volume();
+  expect_failure(2, "mesh v.npy -o v.vtu --window 41", "--window 41: window must be an even");
+  expect_failure(2, "mesh v.npy -o v.vtu --window 4e1", "--window 4e1: expected an integer");
+  expect_failure(2, "mesh v.npy -o v.vtu --window 40", "MW_ORDER=x: expected one of", "MW_ORDER=x");
+  expect_failure(2, "mesh v.npy -o v.vtu --spacing nan,1,1",
+                 "--spacing nan,1,1: expected a finite");
+  expect_failure(2, "mesh v.npy -o v.vtu --spacing 1,1", "three numbers");
+  expect_failure(2, "mesh v.npy -o v.vtu --spacing 1,-1,1", "positive");
+  expect_failure(2, "mesh v.npy -o v.vtu --origin inf,0,0", "finite");
+  expect_failure(2, "mesh v.npy -o v.vtu --edge-variance 0", "--edge-variance 0");
+  expect_failure(2, "mesh v.npy -o v.vtu --quality-floor 0.9", "quality-floor");
+  expect_failure(2, "mesh v.npy -o v.vtu --max-distance -1", "--max-distance -1");
+  expect_failure(2, "mesh v.npy -o v.vtu --memory 4GB", "4GB");
+  expect_failure(2, "mesh v.npy -o v.vtu --threads 0", "at least 1");
+  expect_failure(2, "mesh v.npy -o v.vtu --labels 1,x", "label");
+  expect_failure(2, "mesh v.npy -o ''", "empty");
+}
+
+TEST_F(UsageTest, RefusesContradictions) {
+  make_volume();
+  expect_failure(2, "mesh v.npy -o v.vtu --window 8 --window 16", "--window");
+  expect_failure(2, "mesh v.npy -o v.npy", "this is the input");
+  expect_failure(2, "mesh v.npy -o w.vtu --report w.vtu", "used twice");
+  expect_failure(2, "mesh v.npy -o w.vtu --report v.npy", "used twice");
+  expect_failure(2, "mesh v.npy -o w.vtu --labels 1 --background 2", "one of them");
+  expect_failure(2, "mesh v.npy -o w.vtu --dtype u8", "--shape");
+  expect_failure(2, "mesh v.npy -o w.vtu --shape 20,20,20", "--dtype");
+  expect_failure(2, "mesh v.npy -o w.vtu --labels 1,99", "no label 99");
+}
+
+TEST_F(UsageTest, SaysWhatIsNotAvailableYet) {
+  make_volume();
+  const std::string mesh = "mesh v.npy -o v.vtu ";
+  expect_failure(2, mesh + "--order colour",
+                 "--order colour is not available in this version; raster is");
+  expect_failure(2, mesh + "--threads 4", "--threads 4 is not available in this version; 1 is");
+  for (const char* flag :
+       {"--memory 4GiB", "--workdir w", "--resume", "--start coarse", "--topology interfaces",
+        "--optimizer tetgen", "--target-reduction 0.1", "--dataset a"}) {
+    expect_failure(2, mesh + flag, "not available in this version");
+  }
+}
+
+TEST_F(UsageTest, RefusesUnwritableOutputBeforeWork) {
+  make_volume();
+  expect_failure(2, "mesh v.npy -o nowhere/v.vtu", "nowhere/v.vtu");
+  expect_failure(2, "mesh v.npy -o v.vtu --report nowhere/r.json", "nowhere/r.json");
+  expect_failure(2, "mesh v.npy -o v.xyz", "v.xyz");
+  expect_failure(2, "mesh v.npy", "OUTPUT");
+  expect_failure(2, "mesh -o v.vtu", "INPUT");
+}
+
+TEST_F(UsageTest, RefusesBadInput) {
+  make_volume();
+  const std::string whole = read("v.npy");
+  write("short.npy", whole.substr(0, whole.size() - 100));
+  std::string floats = whole;
+  floats.replace(floats.find("|u1"), 3, "<f4");
+  write("float.npy", floats);
+  write("empty.npy", "");
+  write("what.bin", "what is this");
+  expect_failure(3, "mesh missing.npy -o v.vtu", "missing.npy");
+  expect_failure(3, "mesh short.npy -o v.vtu", "short.npy");
+  expect_failure(3, "mesh float.npy -o v.vtu", "float.npy");
+  expect_failure(3, "mesh empty.npy -o v.vtu --report r.json", "empty");
+  expect_failure(3, "mesh what.bin -o v.vtu", "what.bin");
+  expect_failure(3, "mesh . -o v.vtu", ".");
+  expect_failure(3, "verify v.npy missing.vtu", "missing.vtu");
+  expect_failure(2, "verify v.npy what.bin", "what.bin");
+  write("bad.vtu", "<VTKFile>");
+  for (const char* command : {"digest bad.vtu", "info bad.vtu", "convert bad.vtu b.mesh"}) {
+    expect_failure(3, command, "bad.vtu");
+  }
+}
+
+TEST_F(UsageTest, EndsWithFourWhenTheDiskIsFull) {
+  make_volume();
+  expect_failure(4, "mesh v.npy -o v.vtu", "v.vtu", "ulimit -f 8 &&");
+  expect_failure(4, "info v.npy", "standard output", "sh -c '\"$0\" \"$@\" >/dev/full'");
+}
+
+TEST_F(UsageTest, EndsWith130AndCleanWhenInterrupted) {
+  expect_done("synth noise --shape 120,120,120 --labels 3 --seed 1 -o n.npy");
+  expect_failure(130, "mesh n.npy -o n.vtu --report r.json --window 8", "interrupted",
+                 "timeout --preserve-status -s INT 1");
+}
+
+}  // namespace
+}  // namespace mw::cli

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Output to input: what LabelReach proves holds at every point of the triangle.
+#include "kernels/distance/label_reach.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/kernels/distance/random_points.h"
+#include "tests/kernels/mesh/dense_mesh.h"
+
+namespace mw::test {
+namespace {
+
+double distance_to_label(const Vec3& x, const SmallVolume& volume, Label label) {
+  double best = 1e9;
+  const Box3 all{{0, 0, 0}, volume.shape};
+  for (Index3 v; v.z < all.hi.z; ++v.z) {
+    for (v.y = 0; v.y < all.hi.y; ++v.y) {
+      for (v.x = 0; v.x < all.hi.x; ++v.x) {
+        if (volume.labels[static_cast<std::size_t>(all.offset(v))] != label) continue;
+        const Vec3 lo(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+        const Vec3 near = x.cwiseMax(lo).cwiseMin(lo + Vec3::Ones());
+        best = std::min(best, (x - near).norm());
+      }
+    }
+  }
+  return best;
+}
+
+/// Largest distance to the farther of two labels over a grid of the triangle.
+double farthest(const std::array<Vec3, 3>& t, const SmallVolume& volume) {
+  constexpr int kSteps = 12;
+  double worst = 0.0;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; i + j <= kSteps; ++j) {
+      const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
+      const Vec3 x = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+      worst = std::max({worst, distance_to_label(x, volume, 0), distance_to_label(x, volume, 1)});
+    }
+  }
+  return worst;
+}
+
+TEST(Promise4Distance, ATriangleThatPassesLiesWithinTheBound) {
+  std::mt19937 random(911);
+  int passed = 0, refused_near = 0;
+  for (std::size_t i = 0; i < 400; ++i) {
+    const SmallVolume volume = random_volume_of(random, VolumeKind::kBlobs, {5, 5, 5}, 2);
+    const double bound = std::array{0.8, 1.0, 1.5, 2.4}[i % 4];
+    const std::int64_t halo = LabelReach::search_reach(bound);
+    const LabelBox labels =
+        labels_in(volume, {{-halo, -halo, -halo}, {5 + halo, 5 + halo, 5 + halo}});
+    const LabelReach reach(labels, bound);
+    const Vec3 corner = random_point(random, 4.0);
+    const std::array<Vec3, 3> t{corner, corner + random_point(random, 1.0),
+                                corner + random_point(random, 1.0)};
+    const double worst = farthest(t, volume);
+    if (reach.within(t, 0, 1)) {
+      EXPECT_LE(worst, bound);
+      ++passed;
+    } else if (worst < 0.5 * bound) {
+      ++refused_near;
+    }
+  }
+  EXPECT_GT(passed, 100);
+  EXPECT_EQ(refused_near, 0);
+}
+
+TEST(Promise4Distance, TrianglesOfTheStartMeshPassAnyBound) {
+  const SmallVolume volume = volume_from({4, 4, 4}, 2, [](auto x, auto, auto) { return x / 2; });
+  const LabelBox labels = labels_in(volume, {{-1, -1, -1}, {5, 5, 5}});
+  const LabelReach reach(labels, 0.71);
+  EXPECT_TRUE(reach.within({Vec3(2, 1, 1), Vec3(2, 2, 1), Vec3(2, 1, 2)}, 0, 1));
+  EXPECT_FALSE(reach.within({Vec3(3, 1, 1), Vec3(3, 2, 1), Vec3(3, 1, 2)}, 0, 1));
+}
+
+}  // namespace
+}  // namespace mw::test

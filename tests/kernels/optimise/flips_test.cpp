@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Flips: same region, same labels seen from outside, better shapes, and an end to them.
+#include "kernels/optimise/flips.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/optimise/optimise.h"
+#include "kernels/quality/mesh_quality.h"
+#include "kernels/simplify/simplify.h"
+#include "tests/kernels/mesh/dense_mesh.h"
+
+namespace mw::test {
+namespace {
+
+/// Virtual tets included.
+std::set<TetKey> tet_keys(const TetMesh& mesh) {
+  std::set<TetKey> out;
+  for (const auto& [key, stars] : tets_by_stars(mesh)) out.insert(key);
+  return out;
+}
+
+LocalTet positive(const TetKey& key) {
+  LocalTet t{key.vertices, key.label};
+  if (key.odd) std::swap(t.vertices[0], t.vertices[1]);
+  return t;
+}
+
+/// What is in the first only.
+std::vector<LocalTet> missing(const std::set<TetKey>& from, const std::set<TetKey>& in) {
+  std::vector<LocalTet> out;
+  for (const TetKey& key : from) {
+    if (in.count(key) == 0) out.push_back(positive(key));
+  }
+  return out;
+}
+
+using Face = std::array<LocalVertex, 3>;
+
+/// Directed faces of tets that no other of the tets has the other way round, with the label inside:
+/// the region's surface.
+std::map<Face, Label> surface(const std::vector<LocalTet>& tets) {
+  const auto rotated = [](Face f) {
+    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+    return f;
+  };
+  std::map<Face, Label> out;
+  for (const LocalTet& t : tets) {
+    const auto [a, b, c, d] = t.vertices;
+    for (const Face& f : {Face{b, c, d}, {a, d, c}, {a, b, d}, {a, c, b}}) {
+      if (out.erase(rotated({f[0], f[2], f[1]})) == 0) out.emplace(rotated(f), t.label);
+    }
+  }
+  return out;
+}
+
+std::set<Label> labels_of(const std::vector<LocalTet>& tets) {
+  std::set<Label> out;
+  for (const LocalTet& t : tets) out.insert(t.label);
+  return out;
+}
+
+constexpr double kFloor = 0.1;
+
+/// Of real tets, all of which are positive.
+struct Measures {
+  std::int64_t volume6 = 0;
+  double worst = 1.0;   ///< least radius ratio
+  double energy = 0.0;  ///< sum of 1 / radius ratio
+};
+
+Measures measure(const TetMesh& mesh, const Metric& metric, const std::vector<LocalTet>& tets) {
+  Measures out;
+  for (const LocalTet& t : tets) {
+    if (t.label == kExterior) continue;
+    EXPECT_GT(volume6_of(mesh, t), 0);
+    const double r = radius_ratio(mesh, metric, t);
+    out.volume6 += volume6_of(mesh, t);
+    out.worst = std::min(out.worst, r);
+    out.energy += 1.0 / r;
+  }
+  return out;
+}
+
+/// The old tets and the new ones fill the same region, look the same from outside, label by label,
+/// and the new ones are better: less energy, and none bad where there was none before.
+void expect_sound(const TetMesh& mesh, const Metric& metric, const std::vector<LocalTet>& gone,
+                  const std::vector<LocalTet>& added) {
+  const Measures before = measure(mesh, metric, gone), after = measure(mesh, metric, added);
+  EXPECT_EQ(before.volume6, after.volume6);
+  EXPECT_LT(after.energy, before.energy);
+  EXPECT_GE(after.worst, std::min(before.worst, 0.3));
+  EXPECT_TRUE(surface(gone) == surface(added));
+  EXPECT_EQ(labels_of(gone), labels_of(added));
+  EXPECT_LE(labels_of(gone).size(), 2U);
+}
+
+/// A mesh with bad tets, whole or cut out.
+TetMesh bad_mesh(std::mt19937& random, std::uint32_t labels) {
+  const auto kind = below(random, 2) == 0 ? VolumeKind::kBlobs : VolumeKind::kSpecks;
+  const SmallVolume volume = random_volume_of(random, kind, {5, 5, 5}, labels);
+  TetMesh mesh =
+      below(random, 2) == 0 ? dense_mesh(volume) : dense_cutout(volume, {{0, 1, 1}, {5, 5, 4}});
+  simplify(mesh, Metric(), {.quality_floor = 0.0});
+  disturb(mesh, random);
+  return mesh;
+}
+
+/// Tries a random edge, or a random face named from a tet on it.
+bool random_flip(const TetMesh& mesh, Flipper& flipper, std::mt19937& random) {
+  const auto tets = mesh.tets();
+  auto [a, b, c, d] = tets[below(random, static_cast<std::uint32_t>(tets.size()))].vertices;
+  // Even permutations bring each corner to the front.
+  switch (below(random, 4)) {
+    case 1:
+      std::swap(a, b), std::swap(c, d);
+      break;
+    case 2:
+      std::swap(a, c), std::swap(b, d);
+      break;
+    case 3:
+      std::swap(a, d), std::swap(b, c);
+      break;
+    default:
+      break;
+  }
+  switch (below(random, 6)) {
+    case 0:
+      return flipper.remove_edge(a, b);
+    case 1:
+      return flipper.remove_edge(a, c);
+    case 2:
+      return flipper.remove_edge(a, d);
+    default:
+      return flipper.remove_face(a, b, c, d);
+  }
+}
+
+TEST(Flips, FillTheSameRegionWithBetterTets) {
+  std::mt19937 random(801);
+  int flips = 0, surface_flips = 0;
+  for (int i = 0; i < 150 && !HasFailure(); ++i) {
+    const Metric metric = i % 3 == 0 ? Metric({1.0, 2.0, 3.0}) : Metric();
+    TetMesh mesh = bad_mesh(random, 1 + below(random, 3));
+    Flipper flipper(mesh, metric, kFloor);
+    std::set<TetKey> before = tet_keys(mesh);
+    for (int k = 0; k < 150; ++k) {
+      const bool flipped = random_flip(mesh, flipper, random);
+      std::set<TetKey> after = tet_keys(mesh);
+      ASSERT_EQ(flipped, after != before);
+      if (!flipped) continue;
+      const auto gone = missing(before, after);
+      expect_sound(mesh, metric, gone, missing(after, before));
+      surface_flips += labels_of(gone).size() == 2 ? 1 : 0;
+      before = std::move(after);
+      ++flips;
+    }
+    for (const auto& [key, stars] : tets_by_stars(mesh)) {
+      ASSERT_EQ(stars, key.label == kExterior ? 3 : 4);
+    }
+  }
+  EXPECT_GT(flips, 300);
+  EXPECT_GT(surface_flips, 100);
+}
+
+/// Every edge and face of the mesh once; number of flips.
+int flip_everywhere(TetMesh& mesh, const Metric& metric) {
+  Flipper flipper(mesh, metric, kFloor);
+  int flips = 0;
+  for (const LocalTet& t : mesh.tets()) {
+    const auto [a, b, c, d] = t.vertices;
+    const auto is_there = [&] {
+      const auto star = mesh.star(a);
+      return std::any_of(star.begin(), star.end(), [&](const LinkTriangle& u) {
+        return u.has(b) && u.has(c) && u.has(d) && u.label != kExterior;
+      });
+    };
+    for (const auto& [p, q] : {std::pair(a, b), {a, c}, {a, d}, {b, c}, {c, d}, {d, b}}) {
+      if (is_there()) flips += flipper.remove_edge(p, q) ? 1 : 0;
+    }
+    if (is_there()) flips += flipper.remove_face(a, b, c, d) ? 1 : 0;
+    if (is_there()) flips += flipper.remove_face(b, a, d, c) ? 1 : 0;
+    if (is_there()) flips += flipper.remove_face(c, a, b, d) ? 1 : 0;
+    if (is_there()) flips += flipper.remove_face(d, a, c, b) ? 1 : 0;
+  }
+  return flips;
+}
+
+/// Symmetric configurations have flips that change nothing but the last bits of a radius ratio;
+/// taken for gains, they went back and forth for ever.
+TEST(Flips, EndOnSymmetricLattices) {
+  for (const std::int64_t edge : {2, 3, 4, 6}) {
+    for (const auto& spacing : {std::array{1.0, 1.0, 1.0}, {1.0, 1.0, 2.0}, {3.0, 2.0, 1.0}}) {
+      const Metric metric(spacing);
+      TetMesh mesh =
+          dense_mesh(volume_from({edge, edge, edge}, 1, [](auto, auto, auto) { return 0; }));
+      int sweeps = 0;
+      while (flip_everywhere(mesh, metric) > 0) ASSERT_LT(++sweeps, 50);
+    }
+  }
+}
+
+/// Four tets around edge (0, 1) of an octahedron that is its own mirror image when x and y change
+/// places; that image has edge (2, 3) in its middle, with the same four radius ratios but for the
+/// last bits.
+TetMesh symmetric_octahedron(std::mt19937& random) {
+  const auto about = [&](std::int32_t centre) {
+    return centre + static_cast<std::int32_t>(below(random, 601)) - 300;
+  };
+  const auto mirrored = [](Point p) { return Point{p.y, p.x, p.z}; };
+  const Point p{about(1800), about(1000), about(1000)}, q{about(200), about(1000), about(1000)};
+  const std::int32_t top = about(1000), bottom = about(1000);
+  const std::array<Point, 6> corners{
+      {p, q, mirrored(p), mirrored(q), {top, top, about(2000)}, {bottom, bottom, about(0)}}};
+  std::vector<BlockVertex> vertices;
+  for (const Point& x : corners) {
+    vertices.push_back({vertices.size(), {x.x + 5000, x.y + 5000, x.z + 5000}, {}});
+  }
+  const std::array<BlockTet, 4> tets{
+      {{{0, 1, 2, 4}, 0}, {{0, 1, 2, 5}, 0}, {{0, 1, 3, 4}, 0}, {{0, 1, 3, 5}, 0}}};
+  return {vertices, tets, {1 << 30, 1 << 30, 1 << 30}};
+}
+
+TEST(Flips, EndOnSymmetricOctahedra) {
+  std::mt19937 random(803);
+  const Metric metric;
+  for (int i = 0; i < 3000; ++i) {
+    TetMesh mesh = symmetric_octahedron(random);
+    Flipper flipper(mesh, metric, kFloor);
+    int flips = 0;
+    for (int sweep = 0; sweep < 10; ++sweep) {
+      for (LocalVertex axis = 0; axis < 6; axis += 2) {
+        flips += flipper.remove_edge(axis, axis + 1) ? 1 : 0;
+      }
+    }
+    ASSERT_LE(flips, 2);
+  }
+}
+
+TEST(Flips, EndAfterSimplification) {
+  std::mt19937 random(802);
+  for (int i = 0; i < 60; ++i) {
+    const Metric metric = i % 2 == 0 ? Metric() : Metric({1.0, 2.0, 1.0});
+    TetMesh mesh = dense_mesh(
+        volume_from({6, 5, 4}, 2, [&](auto x, auto, auto) { return x < i % 6 ? 1 : 0; }));
+    simplify(mesh, metric, {.quality_floor = 0.05});
+    int sweeps = 0;
+    while (flip_everywhere(mesh, metric) > 0) ASSERT_LT(++sweeps, 50);
+  }
+}
+
+}  // namespace
+}  // namespace mw::test

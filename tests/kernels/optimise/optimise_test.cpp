@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Smoothing and whole sweeps: nothing gets worse, nothing leaves its place, and they end.
+#include "kernels/optimise/optimise.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/optimise/smooth.h"
+#include "kernels/quality/mesh_quality.h"
+#include "kernels/simplify/simplify.h"
+#include "tests/kernels/mesh/dense_mesh.h"
+
+namespace mw::test {
+namespace {
+
+TetMesh random_mesh(std::mt19937& random, const Metric& metric, const SmallVolume& volume) {
+  TetMesh mesh =
+      below(random, 2) == 0 ? dense_mesh(volume) : dense_cutout(volume, {{1, 0, 1}, {5, 4, 5}});
+  if (below(random, 3) != 0) simplify(mesh, metric, {.quality_floor = 0.05});
+  disturb(mesh, random);
+  return mesh;
+}
+
+SmallVolume random_five(std::mt19937& random) {
+  const auto kind = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
+  return random_volume_of(random, kind, {5, 5, 5}, 1 + below(random, 4));
+}
+
+constexpr double kFloor = 0.1;
+
+/// Least radius ratio of the tets at v, and the sum of 1 / radius ratio.
+std::pair<double, double> shape_at_vertex(const TetMesh& mesh, const Metric& metric,
+                                          LocalVertex v) {
+  std::pair<double, double> out{1.0, 0.0};
+  for (const LocalTet& t : mesh.tets()) {
+    if (!has(t, v)) continue;
+    const double r = radius_ratio(mesh, metric, t);
+    out.first = std::min(out.first, r);
+    out.second += 1.0 / r;
+  }
+  return out;
+}
+
+void expect_moved_well(const TetMesh& before, const TetMesh& mesh, const Metric& metric,
+                       LocalVertex v) {
+  // The same tet in another order differs in the last bits; that much is no loss.
+  const auto [old_worst, old_energy] = shape_at_vertex(before, metric, v);
+  const auto [new_worst, new_energy] = shape_at_vertex(mesh, metric, v);
+  EXPECT_GT(new_worst, std::min(old_worst, 0.3) - 1e-13);
+  EXPECT_LT(new_energy, old_energy + 1e-9);
+  for (const LocalTet& t : mesh.tets()) ASSERT_GT(volume6_of(mesh, t), 0);
+  const Point from = before.position(v), to = mesh.position(v);
+  const unsigned fixed = fixed_axes(mesh.planes(v));
+  EXPECT_TRUE((fixed & 1U) == 0 || from.x == to.x);
+  EXPECT_TRUE((fixed & 2U) == 0 || from.y == to.y);
+  EXPECT_TRUE((fixed & 4U) == 0 || from.z == to.z);
+  const Quadric& old = before.quadric(v);
+  const double error = old.value(metric.vector(from, to));
+  EXPECT_NEAR(mesh.quadric(v).c, error, 1e-9 * (1.0 + error));
+  if (!before.on_interface(v)) return;
+  EXPECT_LE(error, std::max(old.c, 0.25 * old.trace()) + 1e-9);
+}
+
+TEST(Smoothing, LowersTheEnergyWithinPlanesAndQuadrics) {
+  std::mt19937 random(811);
+  int moves = 0, on_box = 0, on_interface = 0;
+  for (int i = 0; i < 24 && !HasFailure(); ++i) {
+    const Metric metric = i % 3 == 0 ? Metric({1.0, 1.0, 3.0}) : Metric();
+    TetMesh mesh = random_mesh(random, metric, random_five(random));
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
+      const TetMesh before = mesh;
+      const bool moved = smooth_vertex(mesh, metric, v, kFloor);
+      ASSERT_EQ(moved, mesh.position(v) != before.position(v));
+      for (LocalVertex w = 0; w < mesh.vertex_count(); ++w) {
+        ASSERT_TRUE(std::ranges::equal(mesh.star(w), before.star(w)));
+        ASSERT_TRUE(w == v || mesh.vertex(w) == before.vertex(w));
+      }
+      if (!moved) continue;
+      expect_moved_well(before, mesh, metric, v);
+      ++moves;
+      on_box += mesh.planes(v) != 0 ? 1 : 0;
+      on_interface += mesh.on_interface(v) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(moves, 500);
+  EXPECT_GT(on_box, 100);
+  EXPECT_GT(on_interface, 100);
+}
+
+double worst_ratio(const TetMesh& mesh, const Metric& metric) {
+  double worst = 1.0;
+  for (const LocalTet& t : mesh.tets()) worst = std::min(worst, radius_ratio(mesh, metric, t));
+  return worst;
+}
+
+std::int64_t volume6_sum(const TetMesh& mesh) {
+  std::int64_t sum = 0;
+  for (const LocalTet& t : mesh.tets()) sum += volume6_of(mesh, t);
+  return sum;
+}
+
+TEST(Promise3Quality, OptimisingMakesNoTetBad) {
+  std::mt19937 random(812);
+  OptimiseStats stats;
+  for (int i = 0; i < 80 && !HasFailure(); ++i) {
+    const Metric metric = i % 3 == 0 ? Metric({1.0, 1.0, 3.0}) : Metric();
+    TetMesh mesh = random_mesh(random, metric, random_five(random));
+    const TetMesh before = mesh;
+    stats += optimise(mesh, metric, {.sweeps = 2});
+    EXPECT_GE(worst_ratio(mesh, metric), std::min(worst_ratio(before, metric), 0.3) - 1e-12);
+    EXPECT_EQ(volume6_sum(mesh), volume6_sum(before));
+    for (const LocalTet& t : mesh.tets()) ASSERT_GT(volume6_of(mesh, t), 0);
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      ASSERT_EQ(mesh.is_alive(v), before.is_alive(v));
+      ASSERT_TRUE(before.is_free(v) || mesh.vertex(v) == before.vertex(v));
+    }
+  }
+  EXPECT_GT(stats.flips, 200U);
+  EXPECT_GT(stats.moves, 1000U);
+}
+
+TEST(Promise1Topology, OptimisingKeepsIt) {
+  std::mt19937 random(813);
+  for (int i = 0; i < 40 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_volume(random);
+    SCOPED_TRACE(volume.text());
+    TetMesh mesh = dense_mesh(volume);
+    for (int round = 0; round < 2; ++round) {
+      simplify(mesh, Metric(), {.quality_floor = 0.02});
+      optimise(mesh, Metric(), {.sweeps = 2, .flip_below = 1.0, .smooth_below = 1.0});
+    }
+    EXPECT_TRUE(betti(mesh, volume.label_count) == betti(volume));
+  }
+}
+
+/// With every tet tried, symmetric lattices offer flips without gain; the test's time limit is what
+/// fails when they are taken.
+TEST(Flips, EndWhenEveryTetOfALatticeIsTried) {
+  for (const std::int64_t edge : {2, 4, 6}) {
+    for (const auto& spacing : {std::array{1.0, 1.0, 1.0}, {1.0, 1.0, 2.0}, {3.0, 2.0, 1.0}}) {
+      TetMesh mesh =
+          dense_mesh(volume_from({edge, edge, edge}, 1, [](auto, auto, auto) { return 0; }));
+      const OptimiseStats stats =
+          optimise(mesh, Metric(spacing), {.sweeps = 3, .flip_below = 1.0, .smooth_below = 0.0});
+      EXPECT_EQ(stats.moves, 0U);
+      EXPECT_EQ(volume6_sum(mesh), (edge * edge * edge * 6) << 30);
+    }
+  }
+}
+
+TEST(Optimise, DoesNothingWithoutSweepsOrBadTets) {
+  TetMesh mesh = dense_mesh(volume_from({4, 4, 4}, 2, [](auto x, auto, auto) { return x / 2; }));
+  for (const OptimiseOptions& options :
+       {OptimiseOptions{.sweeps = 0}, {.sweeps = 3, .flip_below = 0.7, .smooth_below = 0.7}}) {
+    const OptimiseStats stats = optimise(mesh, Metric(), options);
+    EXPECT_EQ(stats.flips + stats.moves, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace mw::test

@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sec 5.3.3: survivor, position and cost of planned contractions, and what their shape filter says.
+#include "kernels/simplify/contraction.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/quality/mesh_quality.h"
+#include "kernels/simplify/shape_filter.h"
+#include "tests/kernels/mesh/dense_mesh.h"
+
+namespace mw::test {
+namespace {
+
+/// Start meshes and simplified ones, disturbed.
+TetMesh random_mesh(std::mt19937& random, const Metric& metric) {
+  TetMesh mesh = dense_mesh(random_volume(random));
+  disturb(mesh, random);
+  if (below(random, 2) == 0) simplify(mesh, metric, {.quality_floor = 0.2});
+  return mesh;
+}
+
+Metric random_metric(std::mt19937& random) {
+  return below(random, 2) == 0 ? Metric() : Metric({1.0, 2.0, 1.5});
+}
+
+/// Calls visit(mesh, metric, p, q) for a few thousand edges.
+template <typename Visit>
+void each_random_edge(unsigned seed, Visit visit) {
+  std::mt19937 random(seed);
+  for (int i = 0; i < 200 && !::testing::Test::HasFailure(); ++i) {
+    const Metric metric = random_metric(random);
+    const TetMesh mesh = random_mesh(random, metric);
+    for (int k = 0; k < 100; ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p != q) visit(mesh, metric, p, q);
+    }
+  }
+}
+
+bool is_inner(const TetMesh& mesh, LocalVertex v) {
+  const auto star = mesh.star(v);
+  return std::all_of(star.begin(), star.end(), [&](const LinkTriangle& t) {
+    return t.label == star[0].label && t.label != kExterior;
+  });
+}
+
+bool includes(unsigned planes, unsigned others) {
+  return (planes & others) == others;
+}
+
+/// Q_p + Q_q at a lattice point.
+double joint_error(const TetMesh& mesh, const Metric& metric, LocalVertex p, LocalVertex q,
+                   Point x) {
+  return mesh.quadric(p).value(metric.vector(mesh.position(p), x)) +
+         mesh.quadric(q).value(metric.vector(mesh.position(q), x));
+}
+
+TEST(Sec533Contraction, IsPlannedAlikeFromBothEnds) {
+  int planned = 0;
+  each_random_edge(711, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    const auto a = plan_contraction(mesh, metric, p, q), b = plan_contraction(mesh, metric, q, p);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (!a) return;
+    EXPECT_EQ(std::tie(a->keep, a->drop, a->cost, a->moves),
+              std::tie(b->keep, b->drop, b->cost, b->moves));
+    EXPECT_EQ(a->position, b->position);
+    EXPECT_EQ(std::minmax(a->keep, a->drop), std::minmax(p, q));
+    ++planned;
+  });
+  EXPECT_GT(planned, 1000);
+}
+
+/// Cost and place of a contraction to the optimum, within the planes of its ends.
+void expect_optimum(const TetMesh& mesh, const Metric& metric, const Contraction& c) {
+  EXPECT_LT(c.keep, c.drop);
+  EXPECT_TRUE(c.moves);
+  const auto error = [&](Point x) { return joint_error(mesh, metric, c.keep, c.drop, x); };
+  const double rounding = 1e-9 * (1.0 + c.cost);
+  EXPECT_GE(error(c.position), c.cost - rounding);
+  EXPECT_LE(error(c.position), c.cost + 1e-4);
+  const unsigned fixed = fixed_axes(mesh.planes(c.keep));
+  for (std::int32_t step : {-40, -4, 4, 40}) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      Point x = c.position;
+      std::int32_t& moved = axis == 0 ? x.x : axis == 1 ? x.y : x.z;
+      if ((fixed >> axis & 1U) == 0) {
+        moved += step;
+        EXPECT_GE(error(x), error(c.position) - rounding);
+      } else {
+        const Point old = mesh.position(c.keep);
+        EXPECT_EQ(moved, axis == 0 ? old.x : axis == 1 ? old.y : old.z);
+      }
+    }
+  }
+}
+
+TEST(Sec533Case1, InnerVerticesMeetAtTheOptimumUnderTheSmallerId) {
+  int seen = 0;
+  each_random_edge(712, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    if (!is_inner(mesh, p) || !is_inner(mesh, q)) return;
+    const auto c = plan_contraction(mesh, metric, p, q);
+    ASSERT_TRUE(c.has_value());
+    expect_optimum(mesh, metric, *c);
+    ++seen;
+  });
+  EXPECT_GT(seen, 100);
+}
+
+TEST(Sec533Case2, TheBoundaryVertexStaysWhereItIs) {
+  int seen = 0;
+  each_random_edge(713, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    if (is_inner(mesh, p) == is_inner(mesh, q)) return;
+    const LocalVertex boundary = is_inner(mesh, p) ? q : p;
+    const auto c = plan_contraction(mesh, metric, p, q);
+    ASSERT_TRUE(c.has_value());
+    EXPECT_EQ(c->keep, boundary);
+    EXPECT_FALSE(c->moves);
+    EXPECT_EQ(c->position, mesh.position(boundary));
+    const Vec3 way = metric.vector(mesh.position(c->drop), c->position);
+    EXPECT_NEAR(c->cost, 4.0 * mesh.quadric(c->drop).value(way), 1e-9 * (1.0 + c->cost));
+    EXPECT_EQ(contracted_quadric(mesh, metric, *c), mesh.quadric(boundary));
+    ++seen;
+  });
+  EXPECT_GT(seen, 100);
+}
+
+TEST(Sec533Case3, TheHigherOrderStaysAndEqualsMeetAtTheOptimum) {
+  int unequal = 0, equal = 0;
+  each_random_edge(714, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    if (is_inner(mesh, p) || is_inner(mesh, q) || mesh.planes(p) != mesh.planes(q)) return;
+    const auto c = plan_contraction(mesh, metric, p, q);
+    ASSERT_TRUE(c.has_value());
+    if (mesh.order(p) == mesh.order(q)) {
+      expect_optimum(mesh, metric, *c);
+      ++equal;
+      return;
+    }
+    EXPECT_EQ(c->keep, mesh.order(p) > mesh.order(q) ? p : q);
+    EXPECT_FALSE(c->moves);
+    EXPECT_EQ(c->position, mesh.position(c->keep));
+    EXPECT_NEAR(c->cost, joint_error(mesh, metric, p, q, c->position), 1e-9 * (1.0 + c->cost));
+    ++unequal;
+  });
+  EXPECT_GT(equal, 100);
+  EXPECT_GT(unequal, 100);
+}
+
+TEST(Sec533Box, VerticesKeepToTheirPlanes) {
+  int refused = 0, allowed = 0;
+  each_random_edge(715, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    const unsigned planes_p = mesh.planes(p), planes_q = mesh.planes(q);
+    if (planes_p == planes_q) return;
+    const auto c = plan_contraction(mesh, metric, p, q);
+    const bool comparable = includes(planes_p, planes_q) || includes(planes_q, planes_p);
+    const LocalVertex on_more = includes(planes_p, planes_q) ? p : q;
+    const LocalVertex on_less = on_more == p ? q : p;
+    // The end on more planes must survive; it cannot when the other one is of higher order.
+    const bool expected = comparable && mesh.order(on_more) >= mesh.order(on_less);
+    ASSERT_EQ(c.has_value(), expected);
+    (expected ? allowed : refused) += 1;
+    if (!c) return;
+    EXPECT_EQ(c->keep, on_more);
+    EXPECT_FALSE(c->moves);
+    EXPECT_EQ(c->position, mesh.position(on_more));
+  });
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(allowed, 100);
+}
+
+TEST(Sec52Quadrics, OfTheSurvivorAreTheSumOfBothButForCase2) {
+  std::mt19937 random(716);
+  each_random_edge(717, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    const auto c = plan_contraction(mesh, metric, p, q);
+    if (!c || is_inner(mesh, p) != is_inner(mesh, q)) return;
+    const Quadric sum = contracted_quadric(mesh, metric, *c);
+    Point x = c->position;
+    x.x += static_cast<std::int32_t>(below(random, 2000));
+    x.z -= static_cast<std::int32_t>(below(random, 2000));
+    const double expected = joint_error(mesh, metric, p, q, x);
+    EXPECT_NEAR(sum.value(metric.vector(c->position, x)), expected, 1e-9 * (1.0 + expected));
+  });
+}
+
+double ratio(const TetMesh& mesh, const Metric& metric, const LocalTet& t) {
+  return radius_ratio(mesh, metric, t);
+}
+
+/// By the list of tets: what changes, judged as the header says.
+ShapeVerdict expected_verdict(const TetMesh& mesh, const Metric& metric, const Contraction& c,
+                              const SimplifyOptions& options) {
+  double present = 1.0, worst = 1.0, variance = 0.0;
+  bool inverted = false;
+  for (const LocalTet& t : mesh.tets()) {
+    if (!has(t, c.keep) && !has(t, c.drop)) continue;
+    present = std::min(present, ratio(mesh, metric, t));
+    if (has(t, c.keep) && (has(t, c.drop) || !c.moves)) continue;
+    std::array<Point, 4> x;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const LocalVertex v = t.vertices[i];
+      x[i] = v == c.keep || v == c.drop ? c.position : mesh.position(v);
+    }
+    inverted |= volume6(x[0], x[1], x[2], x[3]) <= 0;
+    const TetEdges edges = tet_edges(metric, x[0], x[1], x[2], x[3]);
+    worst = std::min(worst, radius_ratio(edges));
+    variance = std::max(variance, edge_length_variance(edges));
+  }
+  if (inverted) return ShapeVerdict::kInverted;
+  const bool inner = mesh.order(c.keep) == 1 || mesh.order(c.drop) == 1;
+  const double asked =
+      inner ? std::max(options.quality_floor, options.inner_quality) : options.quality_floor;
+  const double floor = std::min(asked, present);
+  const bool regular = !options.edge_variance || variance < *options.edge_variance;
+  // Ratios of one tet differ in the last bits with the order of its vertices.
+  if (std::abs(worst - floor) < 1e-12) return judge_shape(mesh, metric, c, options);
+  return worst >= floor && regular ? ShapeVerdict::kGood : ShapeVerdict::kLowQuality;
+}
+
+TEST(Sec54Filters, JudgeTheTetsThatChange) {
+  std::map<ShapeVerdict, int> seen;
+  std::mt19937 random(718);
+  each_random_edge(719, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    const auto c = plan_contraction(mesh, metric, p, q);
+    if (!c) return;
+    SimplifyOptions options{.quality_floor = 0.1 * below(random, 5),
+                            .inner_quality = 0.1 * below(random, 5)};
+    if (below(random, 2) == 0) options.edge_variance = 0.1;
+    const ShapeVerdict verdict = judge_shape(mesh, metric, *c, options);
+    ASSERT_EQ(verdict, expected_verdict(mesh, metric, *c, options));
+    ++seen[verdict];
+  });
+  EXPECT_GT(seen[ShapeVerdict::kGood], 200);
+  EXPECT_GT(seen[ShapeVerdict::kInverted], 200);
+  EXPECT_GT(seen[ShapeVerdict::kLowQuality], 200);
+}
+
+}  // namespace
+}  // namespace mw::test

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// simplify() on windows cut out of larger volumes: what it must leave alone and what it must keep.
+#include "kernels/simplify/simplify.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/quality/mesh_quality.h"
+#include "tests/kernels/mesh/dense_mesh.h"
+
+namespace mw::test {
+namespace {
+
+SmallVolume random_of(std::mt19937& random, std::int64_t edge, std::uint32_t labels) {
+  const auto kind = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
+  return random_volume_of(random, kind, {edge, edge, edge}, labels);
+}
+
+double worst_ratio(const TetMesh& mesh, const Metric& metric) {
+  double worst = 1.0;
+  for (const LocalTet& t : mesh.tets()) worst = std::min(worst, radius_ratio(mesh, metric, t));
+  return worst;
+}
+
+std::int64_t volume6_sum(const TetMesh& mesh) {
+  std::int64_t sum = 0;
+  for (const LocalTet& t : mesh.tets()) {
+    EXPECT_GT(volume6_of(mesh, t), 0);
+    sum += volume6_of(mesh, t);
+  }
+  return sum;
+}
+
+TEST(Sec41FreeVertices, SimplifyLeavesFixedVerticesUntouched) {
+  std::mt19937 random(721);
+  std::uint64_t contractions = 0;
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_of(random, 7, 1 + below(random, 4));
+    TetMesh mesh = dense_cutout(volume, {{1, 0, 2}, {6, 5, 7}});
+    const TetMesh before = mesh;
+    contractions += simplify(mesh, Metric(), {}).contracted;
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      if (before.is_free(v)) continue;
+      ASSERT_TRUE(mesh.is_alive(v));
+      ASSERT_FALSE(mesh.is_free(v));
+      ASSERT_EQ(mesh.vertex(v), before.vertex(v));
+    }
+    EXPECT_EQ(volume6_sum(mesh), volume6_sum(before));
+  }
+  EXPECT_GT(contractions, 2000U);
+}
+
+TEST(Promise3Quality, SimplifyNeverGoesBelowTheFloor) {
+  std::mt19937 random(722);
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    const Metric metric = i % 2 == 0 ? Metric() : Metric({1.0, 1.0, 6.0});
+    TetMesh mesh = dense_mesh(random_of(random, 5, 1 + below(random, 4)));
+    const double floor = 0.05 * (1 + below(random, 6));
+    const double promised = std::min(floor, worst_ratio(mesh, metric));
+    simplify(mesh, metric, {.quality_floor = floor});
+    EXPECT_GE(worst_ratio(mesh, metric), promised - 1e-12);
+  }
+}
+
+TEST(Promise1Topology, SimplifyAndItsRepetitionKeepIt) {
+  std::mt19937 random(723);
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_of(random, 4, 1 + below(random, 8));
+    SCOPED_TRACE(volume.text());
+    TetMesh mesh = dense_mesh(volume);
+    const std::int64_t before = volume6_sum(mesh);
+    for (int round = 0; round < 2; ++round) {
+      simplify(mesh, Metric(), {.quality_floor = 0.02});
+      disturb(mesh, random);
+    }
+    EXPECT_TRUE(betti(mesh, volume.label_count) == betti(volume));
+    EXPECT_EQ(volume6_sum(mesh), before);
+  }
+}
+
+TEST(Simplify, CountsEveryTryOnceAndRepeatsExactly) {
+  std::mt19937 random(724);
+  for (int i = 0; i < 20; ++i) {
+    const SmallVolume volume = random_of(random, 5, 3);
+    TetMesh mesh = dense_mesh(volume), again = dense_mesh(volume);
+    const SimplifyStats s = simplify(mesh, Metric(), {});
+    EXPECT_EQ(s.tried, s.contracted + s.inverted + s.low_quality + s.topology + s.distance);
+    std::size_t alive = 0;
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) alive += mesh.is_alive(v) ? 1U : 0U;
+    EXPECT_EQ(alive + s.contracted, mesh.vertex_count());
+    simplify(again, Metric(), {});
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      EXPECT_EQ(again.vertex(v), mesh.vertex(v));
+      EXPECT_TRUE(std::ranges::equal(again.star(v), mesh.star(v)));
+    }
+  }
+}
+
+/// An inside without interfaces has no reason to keep its vertices.
+TEST(Simplify, EmptiesTheInsideOfALabel) {
+  TetMesh mesh = dense_mesh(volume_from({8, 8, 8}, 1, [](auto, auto, auto) { return 0; }));
+  simplify(mesh, Metric(), {});
+  int inner = 0;
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    inner += mesh.is_alive(v) && mesh.planes(v) == 0 ? 1 : 0;
+  }
+  EXPECT_LT(inner, 7 * 7 * 7 / 5);
+}
+
+TEST(Sec54Filters, EdgeVarianceBindsTheChangedTets) {
+  std::mt19937 random(725);
+  for (int i = 0; i < 20; ++i) {
+    const SmallVolume volume = random_of(random, 5, 3);
+    TetMesh free = dense_mesh(volume), bound = dense_mesh(volume);
+    const auto more = simplify(free, Metric(), {}).contracted;
+    EXPECT_LE(simplify(bound, Metric(), {.edge_variance = 0.08}).contracted, more);
+    for (const LocalTet& t : bound.tets()) {
+      const auto& v = t.vertices;
+      EXPECT_LT(edge_length_variance(tet_edges(Metric(), bound.position(v[0]), bound.position(v[1]),
+                                               bound.position(v[2]), bound.position(v[3]))),
+                0.08 + 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mw::test

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which file may include what.
+#include "tests/layers/rules.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <regex>
+#include <sstream>
+#include <string_view>
+
+namespace mw::layers {
+namespace {
+
+using Names = std::initializer_list<std::string_view>;
+
+bool is_any(const std::string& name, Names names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A name that ends in '/' stands for everything below it.
+bool is_below(const std::string& name, Names folders) {
+  return std::any_of(folders.begin(), folders.end(), [&](std::string_view folder) {
+    return folder.ends_with('/') ? name.starts_with(folder) : name == folder;
+  });
+}
+
+std::string folder_of(const std::string& path) {
+  return path.substr(0, path.rfind('/') + 1);
+}
+
+/// <vector>, <cstdint>; not <unistd.h> or <zlib.h>.
+bool is_standard(const std::string& name) {
+  return name.find_first_of("./") == name.npos;
+}
+
+bool is_posix(const std::string& name) {
+  return name.starts_with("sys/") || is_any(name, {"errno.h", "fcntl.h", "poll.h", "pthread.h",
+                                                   "signal.h", "spawn.h", "stdlib.h", "unistd.h"});
+}
+
+bool touches_files_or_clocks(const std::string& name) {
+  return is_any(name, {"chrono", "cstdio", "ctime", "filesystem", "fstream", "iostream"});
+}
+
+/// Headers of io that name concrete formats though they lie beside the interfaces.
+bool is_concrete_io(const std::string& name) {
+  if (is_any(name, {"io/volume/open_volume.h", "io/volume/npy_writer.h", "io/mesh/open_mesh.h"})) {
+    return true;
+  }
+  const std::string folder = folder_of(name);
+  return (folder.starts_with("io/volume/") && folder != "io/volume/") ||
+         (folder.starts_with("io/mesh/") && folder != "io/mesh/");
+}
+
+bool kernels_may(const std::string& file, const Include& include) {
+  const std::string& name = include.name;
+  const bool is_audit = file.starts_with("kernels/audit/");
+  if (include.quoted) {
+    if (file.starts_with("kernels/core/")) return is_below(name, {"kernels/core/"});
+    if (is_audit) return is_below(name, {"kernels/core/", "kernels/audit/"});
+    return is_below(name, {"kernels/"}) && !is_below(name, {"kernels/audit/"});
+  }
+  if (is_audit && is_below(name, {"boost/multiprecision/"})) return true;
+  if (is_below(name, {"Eigen/"})) return true;
+  if (file == "kernels/core/assert.h" && name == "cstdio") return true;  // its last words
+  return is_standard(name) && !touches_files_or_clocks(name);
+}
+
+bool io_may(const Include& include) {
+  const std::string& name = include.name;
+  if (include.quoted) return is_below(name, {"io/", "kernels/core/"});
+  return is_standard(name) || is_posix(name) ||
+         is_below(name, {"zlib.h", "openssl/", "pugixml.hpp", "nlohmann/"});
+}
+
+bool engine_may(const Include& include) {
+  const std::string& name = include.name;
+  if (!include.quoted) {
+    return is_standard(name) || is_posix(name) ||
+           is_below(name, {"tbb/", "oneapi/", "boost/interprocess/"});
+  }
+  if (is_below(name, {"engine/cli/"}) || is_concrete_io(name)) return false;
+  return is_below(name, {"kernels/", "io/", "engine/"});
+}
+
+bool cli_may(const Include& include) {
+  return !include.quoted || is_below(include.name, {"kernels/", "io/", "engine/"});
+}
+
+bool may(const std::string& file, const Include& include) {
+  if (file.starts_with("kernels/")) return kernels_may(file, include);
+  if (file.starts_with("io/")) return io_may(include);
+  if (file.starts_with("engine/cli/")) return cli_may(include);
+  return file.starts_with("engine/") && engine_may(include);
+}
+
+}  // namespace
+
+std::vector<Include> includes_of(const std::string& text) {
+  static const std::regex kLine(R"(^\s*#\s*include\s*(["<])([^">]+)[">])");
+  std::vector<Include> out;
+  std::istringstream lines(text);
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);) {
+    if (!std::regex_search(line, match, kLine)) continue;
+    out.push_back({.name = match[2], .quoted = match[1] == "\""});
+  }
+  return out;
+}
+
+std::optional<std::string> why_forbidden(const std::string& file, const Include& include) {
+  if (file.ends_with(".h") && is_any(include.name, {"tetgen.h"})) {
+    return file + " is a header and includes tetgen.h";
+  }
+  if (may(file, include)) return std::nullopt;
+  return file + " may not include " + include.name;
+}
+
+}  // namespace mw::layers
