@@ -177,7 +177,7 @@ void check(const MeshSettings& s) {
     refuse("marches", "from 1 to " + std::to_string(kMaxMarches));
   }
   if (!(s.quality_floor >= 0.0 && s.quality_floor <= 0.5)) {
-    refuse("quality-floor", "from 0 to 0.5 (the start mesh has 0.73)");
+    refuse("quality-floor", "from 0 to 0.5");
   }
   if (s.edge_variance && !(*s.edge_variance > 0.0)) {
     refuse("edge-variance", "positive, or none");

@@ -152,8 +152,9 @@ CloseFaces::Block CloseFaces::block_around(const Voxel& voxel) const {
   return out;
 }
 
-/// The box cut to the block is convex, so from a point outside the box other faces are no nearer
-/// than from its nearest point inside, which has the whole block around it.
+/// From a point of the middle voxel, faces outside the block are at least a voxel away.  A point
+/// outside the box is no nearer to anything in the box, which is convex, than the point of the box
+/// that is nearest to it; and that one lies in the middle voxel.
 std::array<double, 2> CloseFaces::squared_distances(const VoxelPoint& p,
                                                     const LabelPair& labels) const {
   const Voxel voxel = voxel_of(p);

@@ -36,17 +36,6 @@ LabelTrees::Box LabelTrees::joined(const Box& a, const Box& b) {
   return out;
 }
 
-double LabelTrees::squared_distance_to_box(const VoxelPoint& p, const Box& box) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double below = static_cast<double>(box.lo[k]) - p[k];
-    const double above = p[k] - static_cast<double>(box.hi[k]);
-    const double away = std::max(std::max(below, above), 0.0);
-    sum += away * away;
-  }
-  return sum;
-}
-
 void LabelTrees::add_levels() {
   if (level_begin_.back() == levels_.size()) return;
   while (levels_.back().count > 1) {
@@ -59,23 +48,6 @@ void LabelTrees::add_levels() {
       boxes_.push_back(all);
     }
     levels_.push_back(level);
-  }
-}
-
-void LabelTrees::push_children(const Waiting& parent, std::span<const Level> levels,
-                               const VoxelPoint& p, double limit, Stack& stack) const {
-  const Level& level = levels[parent.level - 1];
-  const std::uint64_t first = parent.node * kFan;
-  const std::uint64_t end = std::min(first + kFan, level.count);
-  const std::size_t bottom = stack.size;
-  for (std::uint64_t i = first; i < end; ++i) {
-    const double squared = squared_distance_to_box(p, boxes_[level.begin + i]);
-    if (squared >= limit) continue;
-    std::size_t at = stack.size++;
-    for (; at > bottom && stack.nodes[at - 1].squared < squared; --at) {
-      stack.nodes[at] = stack.nodes[at - 1];
-    }
-    stack.nodes[at] = {squared, i, parent.level - 1};
   }
 }
 

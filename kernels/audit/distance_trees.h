@@ -3,6 +3,7 @@
 // The nearest of the things that bound a label: one tree of boxes for every label.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -86,6 +87,34 @@ class LabelTrees {
   std::vector<Level> levels_;
   std::vector<std::uint64_t> level_begin_;  ///< of each label's levels
 };
+
+inline double LabelTrees::squared_distance_to_box(const VoxelPoint& p, const Box& box) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double below = static_cast<double>(box.lo[k]) - p[k];
+    const double above = p[k] - static_cast<double>(box.hi[k]);
+    const double away = std::max(std::max(below, above), 0.0);
+    sum += away * away;
+  }
+  return sum;
+}
+
+inline void LabelTrees::push_children(const Waiting& parent, std::span<const Level> levels,
+                                      const VoxelPoint& p, double limit, Stack& stack) const {
+  const Level& level = levels[parent.level - 1];
+  const std::uint64_t first = parent.node * kFan;
+  const std::uint64_t end = std::min(first + kFan, level.count);
+  const std::size_t bottom = stack.size;
+  for (std::uint64_t i = first; i < end; ++i) {
+    const double squared = squared_distance_to_box(p, boxes_[level.begin + i]);
+    if (squared >= limit) continue;
+    std::size_t at = stack.size++;
+    for (; at > bottom && stack.nodes[at - 1].squared < squared; --at) {
+      stack.nodes[at] = stack.nodes[at - 1];
+    }
+    stack.nodes[at] = {squared, i, parent.level - 1};
+  }
+}
 
 template <class LabelsOf, class ExtentOf>
 LabelTrees::LabelTrees(std::size_t label_count, std::size_t items, LabelsOf&& labels_of,
