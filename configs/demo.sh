@@ -41,6 +41,7 @@ print_table() {
     ["radius ratio, mean", ($run.quality.radius_ratio_mean | digits3)],
     ["slivers (below 0.1)", ($run.quality.sliver_fraction | percent)],
     ["labels changed", ($check.topology.labels_changed // "not known")],
+    ["distance, voxels at most", ($check.distance.max_voxels | digits3)],
     ["all checks hold", (if $check.passed then "yes" else "NO" end)],
     ["seconds", ($run.performance.wall_s * 10 | round / 10)],
     ["voxels/s", ($run.performance.voxels_per_s | round)],
@@ -49,7 +50,7 @@ print_table() {
 }
 
 main() {
-  local input name verdict=0
+  local input name bound verdict=0
   bash "$root/configs/setup.sh"
   input="${1:-$(find_atlas)}"
   name="demo/$(stem "$input")"
@@ -57,7 +58,9 @@ main() {
   echo "demo: meshing $input"
   "$program" mesh "$input" -o "$name.vtu" --report "$name.run.json" >"$name.log"
   echo "demo: verifying $name.vtu"
-  "$program" verify "$input" "$name.vtu" --report "$name.verify.json" >>"$name.log" || verdict=$?
+  bound="$(jq -r .settings.max_distance "$name.run.json")"
+  "$program" verify "$input" "$name.vtu" --max-distance "$bound" --report "$name.verify.json" \
+    >>"$name.log" || verdict=$?
   [[ -s "$name.verify.json" ]] || die "verify gave no result (exit $verdict)"
   echo
   print_table "$name.run.json" "$name.verify.json"
