@@ -9,6 +9,9 @@
 
 namespace mw::engine {
 
+/// Largest window edge: keeps every tetrahedron within the range of exact arithmetic.
+inline constexpr int kMaxWindow = 256;
+
 enum class StartMesh {
   kOctree,  ///< larger cells inside labels
   kDense,   ///< the paper's: five tets a voxel

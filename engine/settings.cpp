@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which settings make sense.
+#include "engine/settings.h"
+
+#include <string>
+
+#include "kernels/distance/distance_guard.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr int kMaxMarches = 4;
+constexpr double kMaxDistance = 16.0;
+
+[[noreturn]] void refuse(const std::string& setting, const std::string& allowed) {
+  throw Error(ErrorKind::kUsage, setting + " must be " + allowed);
+}
+
+}  // namespace
+
+void check(const MeshSettings& s) {
+  if (s.window < 4 || s.window > kMaxWindow || s.window % 2 != 0) {
+    refuse("window", "an even number from 4 to " + std::to_string(kMaxWindow));
+  }
+  if (s.marches < 1 || s.marches > kMaxMarches) {
+    refuse("marches", "from 1 to " + std::to_string(kMaxMarches));
+  }
+  if (!(s.quality_floor >= 0.0 && s.quality_floor <= 0.5)) {
+    refuse("quality-floor", "from 0 to 0.5");
+  }
+  if (s.edge_variance && !(*s.edge_variance > 0.0)) {
+    refuse("edge-variance", "positive, or none");
+  }
+  if (s.max_distance &&
+      !(*s.max_distance >= DistanceGuard::least_distance() && *s.max_distance <= kMaxDistance)) {
+    refuse("max-distance", "from 0.71 to 16 voxels, or none (the samples are 0.71 voxels apart)");
+  }
+}
+
+}  // namespace mw::engine
