@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Speed of the kernels on one window of a synthetic polycrystal: start mesh, contraction, sweeps.
+#include <benchmark/benchmark.h>
+
+#include "kernels/lattice/graded_start.h"
+#include "kernels/optimise/optimise.h"
+#include "kernels/simplify/simplify.h"
+#include "kernels/synth/synth.h"
+
+namespace mw {
+namespace {
+
+constexpr std::int64_t kEdge = 32;
+constexpr Index3 kShape{kEdge, kEdge, kEdge};
+constexpr Box3 kBlock{{0, 0, 0}, kShape};
+
+LabelBox grains(int max_level) {
+  const std::int64_t halo = start_halo(max_level);
+  std::vector<RawLabel> raw(static_cast<std::size_t>(kBlock.voxels()));
+  synth_slab({.kind = SynthKind::kVoronoi, .shape = kShape, .labels = 40, .seed = 1}, 0, kEdge,
+             raw);
+  LabelBox out{{{-halo, -halo, -halo}, {kEdge + halo, kEdge + halo, kEdge + halo}}, {}};
+  out.labels.assign(static_cast<std::size_t>(out.box.voxels()), kExterior);
+  for (Index3 v; v.z < kEdge; ++v.z) {
+    for (v.y = 0; v.y < kEdge; ++v.y) {
+      for (v.x = 0; v.x < kEdge; ++v.x) {
+        out.labels[static_cast<std::size_t>(out.box.offset(v))] =
+            static_cast<Label>(raw[static_cast<std::size_t>(kBlock.offset(v))]);
+      }
+    }
+  }
+  return out;
+}
+
+TetMesh window(int max_level) {
+  BlockMesh start = graded_start(grains(max_level), kBlock, kShape, {.max_level = max_level});
+  constexpr auto kFar = static_cast<std::int32_t>(kEdge * kUnitsPerVoxel);
+  return TetMesh(std::move(start.vertices), start.tets, {kFar, kFar, kFar});
+}
+
+void start_mesh(benchmark::State& state) {
+  const int level = static_cast<int>(state.range(0));
+  const LabelBox labels = grains(level);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(graded_start(labels, kBlock, kShape, {.max_level = level}));
+  }
+  state.SetItemsProcessed(state.iterations() * kBlock.voxels());
+}
+BENCHMARK(start_mesh)->Arg(0)->Arg(3)->Unit(benchmark::kMillisecond);
+
+/// Items are contractions.
+void contraction(benchmark::State& state) {
+  const TetMesh start = window(static_cast<int>(state.range(0)));
+  std::uint64_t contracted = 0;
+  for (auto _ : state) {
+    TetMesh mesh = start;
+    contracted += simplify(mesh, Metric(), {}).contracted;
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(contracted));
+}
+BENCHMARK(contraction)->Arg(0)->Arg(3)->Unit(benchmark::kMillisecond);
+
+/// Items are flips and moves.
+void sweep(benchmark::State& state) {
+  TetMesh simplified = window(3);
+  simplify(simplified, Metric(), {});
+  std::uint64_t steps = 0;
+  for (auto _ : state) {
+    TetMesh mesh = simplified;
+    const OptimiseStats stats = optimise(mesh, Metric(), {});
+    steps += stats.flips + stats.moves;
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(steps));
+}
+BENCHMARK(sweep)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace mw
