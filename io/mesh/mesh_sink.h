@@ -22,7 +22,7 @@ struct MeshHeader {
 
 /// Receives a mesh: begin, all vertices in row order, all tets, finish.
 /// Nothing appears under the final name before finish() returns; a sink destroyed earlier leaves
-/// no file behind.  ERRORS: mw::Error(kResource) on a full disk, kInput when the path cannot be
+/// no file behind.  ERRORS: mw::Error(kResource) on a full disk, kUsage when the path cannot be
 /// written.
 class MeshSink {
  public:
