@@ -19,7 +19,7 @@ std::unique_ptr<BlockStore> regroup(BlockStore& before, Index3 blocks_before, In
   auto store = std::make_unique<MemoryBlockStore>(blocks);
   each_index(blocks, [&](Index3 b) {
     std::vector<BlockMesh> parts;
-    each_index({2, 2, 2}, [&](Index3 i) {
+    each_index(Index3{2, 2, 2}, [&](Index3 i) {
       const Index3 part{2 * b.x + i.x, 2 * b.y + i.y, 2 * b.z + i.z};
       if (!Box3{{0, 0, 0}, blocks_before}.contains(part)) return;
       parts.push_back(before.take(part).value());

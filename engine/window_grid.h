@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "kernels/core/index.h"
+#include "kernels/core/each_index.h"
 #include "kernels/core/lattice.h"
 
 namespace mw::engine {
@@ -46,16 +46,6 @@ class WindowGrid {
   Index3 blocks_;
   Index3 windows_;
 };
-
-/// Calls visit for every index of an array of shape s, x fastest.
-template <typename Visit>
-void each_index(Index3 s, Visit visit) {
-  for (Index3 i; i.z < s.z; ++i.z) {
-    for (i.y = 0; i.y < s.y; ++i.y) {
-      for (i.x = 0; i.x < s.x; ++i.x) visit(i);
-    }
-  }
-}
 
 /// Position of i in an x-fastest array of shape s.
 [[nodiscard]] inline std::size_t raster(Index3 i, Index3 s) {

@@ -5,20 +5,12 @@
 
 #include <algorithm>
 
+#include "kernels/core/each_index.h"
 #include "kernels/lattice/cell_faces.h"
 #include "kernels/lattice/corner_quadric.h"
 
 namespace mw {
 namespace {
-
-template <typename Visit>
-void each_index(Index3 lo, Index3 hi, Visit visit) {
-  for (Index3 i = lo; i.z < hi.z; ++i.z) {
-    for (i.y = lo.y; i.y < hi.y; ++i.y) {
-      for (i.x = lo.x; i.x < hi.x; ++i.x) visit(i);
-    }
-  }
-}
 
 Point lattice_point(Index3 corner) {
   return {static_cast<std::int32_t>(corner.x * kUnitsPerVoxel),
@@ -57,7 +49,7 @@ class StartBuilder {
         used_(static_cast<std::size_t>(corners_.voxels()), 0) {}
 
   BlockMesh build() {
-    each_index(block_.lo, block_.hi, [&](Index3 voxel) {
+    each_index(block_, [&](Index3 voxel) {
       const Cell cell{voxel, levels_.level_at(voxel)};
       const std::int64_t mask = cell.size() - 1;
       if (((voxel.x | voxel.y | voxel.z) & mask) == 0) add_cell(cell);
@@ -130,7 +122,7 @@ class StartBuilder {
     const Index3 lo = cell.lo + axis_vector(face.axis, face.high ? s - 1 : 0);
     const Index3 across = Index3{s, s, s} - axis_vector(face.axis, s - 1);
     bool triangulated = false;
-    each_index(lo, lo + across, [&](Index3 voxel) {
+    each_index(Box3{lo, lo + across}, [&](Index3 voxel) {
       const Label beyond = labels_.at(voxel + outward);
       if (beyond == kExterior || beyond <= label) return;
       if (!triangulated) faces_.triangles(cell, face, triangles_);
@@ -157,7 +149,7 @@ class StartBuilder {
   void number_vertices() {
     std::vector<std::uint32_t> row(used_.size());
     std::size_t at = 0;
-    each_index(corners_.lo, corners_.hi, [&](Index3 corner) {
+    each_index(corners_, [&](Index3 corner) {
       if (used_[at] != 0) {
         row[at] = static_cast<std::uint32_t>(mesh_.vertices.size());
         const auto id = static_cast<VertexId>(

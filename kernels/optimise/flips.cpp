@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "kernels/quality/mesh_quality.h"
 
@@ -132,24 +133,22 @@ bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
 }
 
 bool Flipper::remove_face(LocalVertex a, LocalVertex b, LocalVertex c, LocalVertex d) {
-  const LocalTet* found = nullptr;
-  LocalTet beyond;
+  std::optional<LocalTet> other;
   Label label = kExterior;
   for (const LinkTriangle& t : mesh_.star(b)) {
     if (!t.has(c) || !t.has(d)) continue;
     if (t.has(a)) {
       label = t.label;
     } else {
-      beyond = {{b, t.a, t.b, t.c}, t.label};
-      found = &beyond;
+      other = LocalTet{{b, t.a, t.b, t.c}, t.label};
     }
   }
-  if (found == nullptr || label != beyond.label || label == kExterior) return false;
-  LocalVertex e = beyond.vertices[1];
-  for (LocalVertex v : beyond.vertices) {
+  if (!other || label != other->label || label == kExterior) return false;
+  LocalVertex e = other->vertices[1];
+  for (LocalVertex v : other->vertices) {
     if (v != b && v != c && v != d) e = v;
   }
-  old_tets_.assign({LocalTet{{a, b, c, d}, label}, beyond});
+  old_tets_.assign({LocalTet{{a, b, c, d}, label}, *other});
   new_tets_.assign({LocalTet{{e, a, b, d}, label}, LocalTet{{e, a, d, c}, label},
                     LocalTet{{e, a, c, b}, label}});
   double gain = energy_of_old_tets();

@@ -13,15 +13,6 @@
 namespace mw::engine {
 namespace {
 
-template <typename Visit>
-void each_index(Index3 shape, Visit visit) {
-  for (Index3 i; i.z < shape.z; ++i.z) {
-    for (i.y = 0; i.y < shape.y; ++i.y) {
-      for (i.x = 0; i.x < shape.x; ++i.x) visit(i);
-    }
-  }
-}
-
 /// before[w][v]: v must be finished before w starts.
 using Relation = std::vector<std::vector<bool>>;
 
@@ -76,7 +67,7 @@ WindowGrid grid_of(Index3 windows, int window = 4) {
 }
 
 TEST(Sec41MarchOrder, PredecessorsAreTheThirteenEarlierNeighboursClosedTransitively) {
-  each_index({5, 5, 4}, [](Index3 i) {
+  each_index(Index3{5, 5, 4}, [](Index3 i) {
     const WindowGrid grid = grid_of(i + Index3{1, 1, 1});
     ASSERT_EQ(grid.windows(), (i + Index3{1, 1, 1}));
     EXPECT_TRUE(transitive_closure(by_predecessors(grid)) ==
@@ -85,7 +76,7 @@ TEST(Sec41MarchOrder, PredecessorsAreTheThirteenEarlierNeighboursClosedTransitiv
 }
 
 TEST(Sec41MarchOrder, WindowsThatShareABlockAreOrdered) {
-  each_index({4, 4, 3}, [](Index3 i) {
+  each_index(Index3{4, 4, 3}, [](Index3 i) {
     const WindowGrid grid = grid_of(i + Index3{1, 1, 1});
     const Relation before = transitive_closure(by_predecessors(grid));
     std::vector<std::set<std::size_t>> blocks(before.size());

@@ -12,8 +12,10 @@
 namespace mw::engine {
 namespace {
 
+using mw::test::add_global;
 using mw::test::below;
 using mw::test::dense_block;
+using mw::test::GlobalTets;
 using mw::test::SmallVolume;
 using mw::test::VolumeKind;
 
@@ -45,17 +47,6 @@ void expect_same_mesh(const TetMesh& actual, const TetMesh& expected) {
     ASSERT_EQ(actual.vertex(v), expected.vertex(v));
     ASSERT_EQ(actual.is_free(v), expected.is_free(v));
     ASSERT_TRUE(std::ranges::equal(actual.star(v), expected.star(v)));
-  }
-}
-
-/// Tets by ids, with the label.
-using GlobalTets = std::multiset<std::pair<std::array<VertexId, 4>, Label>>;
-
-void add_global(GlobalTets& out, const BlockMesh& block) {
-  for (const BlockTet& t : block.tets) {
-    std::array<VertexId, 4> ids{};
-    for (std::size_t i = 0; i < 4; ++i) ids[i] = block.vertices[t.vertices[i]].id;
-    out.insert({ids, t.label});
   }
 }
 

@@ -75,24 +75,6 @@ TEST(Promise1Topology, HoldsInGradedStartMeshes) {
   }
 }
 
-TEST(Sec51GradedStart, LevelZeroIsTheDenseStart) {
-  std::mt19937 random(513);
-  for (int i = 0; i < 20; ++i) {
-    const SmallVolume volume = random_volume(random);
-    EXPECT_EQ(graded_whole(volume, 0), dense_block(volume, {{0, 0, 0}, volume.shape}));
-  }
-}
-
-using GlobalTets = std::multiset<std::pair<std::array<VertexId, 4>, Label>>;
-
-void add_global(GlobalTets& out, const BlockMesh& block) {
-  for (const BlockTet& t : block.tets) {
-    std::array<VertexId, 4> ids{};
-    for (std::size_t i = 0; i < 4; ++i) ids[i] = block.vertices[t.vertices[i]].id;
-    out.insert({ids, t.label});
-  }
-}
-
 TEST(Sec51GradedStart, IsTheSameHoweverItIsCutIntoBlocks) {
   std::mt19937 random(514);
   for (int i = 0; i < 30 && !HasFailure(); ++i) {

@@ -49,6 +49,17 @@ using audit::test::VolumeKind;
                       options);
 }
 
+/// Tets by ids, with the label.
+using GlobalTets = std::multiset<std::pair<std::array<VertexId, 4>, Label>>;
+
+inline void add_global(GlobalTets& out, const BlockMesh& block) {
+  for (const BlockTet& t : block.tets) {
+    std::array<VertexId, 4> ids{};
+    for (std::size_t i = 0; i < 4; ++i) ids[i] = block.vertices[t.vertices[i]].id;
+    out.insert({ids, t.label});
+  }
+}
+
 [[nodiscard]] inline Point far_corner(Index3 shape) {
   return {static_cast<std::int32_t>(shape.x * kUnitsPerVoxel),
           static_cast<std::int32_t>(shape.y * kUnitsPerVoxel),
