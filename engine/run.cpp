@@ -46,6 +46,10 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
                       io::MeshSink& sink, const RunHooks& hooks) {
   check(settings);
   RunReport report;
+  Stopwatch preparing;
+  const PreparedLabels labels(volume, settings);
+  preparing.lap(report.prepare_seconds);
+  const Metric metric(volume.info().spacing);
   const std::vector<WindowGrid> grids = march_grids(volume.info().shape, settings);
   std::uint64_t total = 0;
   for (const WindowGrid& g : grids) total += static_cast<std::uint64_t>(g.windows().product());
@@ -53,7 +57,7 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const WindowGrid& grid = grids[i];
     if (i > 0) store = regroup(*store, grids[i - 1].blocks(), grid.blocks());
-    WindowVisitor visitor(volume, settings, grid, *store, report);
+    WindowVisitor visitor(labels, metric, settings, grid, *store, report);
     const VisitWindow visit = [&](Index3 window) {
       visitor.visit(window);
       if (hooks.progress) hooks.progress(report.windows, total);

@@ -21,6 +21,7 @@ struct RunReport {
   std::uint64_t tets = 0;
   SimplifyStats simplify;
   OptimiseStats optimise;
+  double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
   double start_seconds = 0.0;
   double simplify_seconds = 0.0;
   double optimise_seconds = 0.0;

@@ -13,6 +13,7 @@ namespace mw::engine {
 inline constexpr int kMaxWindow = 256;
 
 enum class StartMesh {
+  kCoarse,  ///< labels coarsened first, then as kOctree
   kOctree,  ///< larger cells inside labels
   kDense,   ///< the paper's: five tets a voxel
 };

@@ -10,31 +10,7 @@
 namespace mw::engine {
 namespace {
 
-constexpr int kMaxLevel = 3;
-
-/// Labels of a box that may reach outside the volume.
-LabelBox read_labels(const io::DenseVolume& volume, const Box3& box) {
-  const Index3 shape = volume.info().shape;
-  LabelBox out{box, {}};
-  out.labels.assign(static_cast<std::size_t>(out.box.voxels()), kExterior);
-  const Box3 inside{
-      {std::max<std::int64_t>(out.box.lo.x, 0), std::max<std::int64_t>(out.box.lo.y, 0),
-       std::max<std::int64_t>(out.box.lo.z, 0)},
-      {std::min(out.box.hi.x, shape.x), std::min(out.box.hi.y, shape.y),
-       std::min(out.box.hi.z, shape.z)}};
-  std::vector<Label> read(static_cast<std::size_t>(inside.voxels()));
-  volume.read(inside, read);
-  auto row = read.begin();
-  for (Index3 v = inside.lo; v.z < inside.hi.z; ++v.z) {
-    for (v.y = inside.lo.y; v.y < inside.hi.y; ++v.y) {
-      v.x = inside.lo.x;
-      const auto end = row + inside.shape().x;
-      std::copy(row, end, out.labels.begin() + out.box.offset(v));
-      row = end;
-    }
-  }
-  return out;
-}
+constexpr int kMaxLevel = 4;
 
 /// The largest cells of the octree: blocks must start at multiples of their size.
 int max_level(int window) {
@@ -46,15 +22,18 @@ int max_level(int window) {
 
 }  // namespace
 
-WindowVisitor::WindowVisitor(const io::DenseVolume& volume, const MeshSettings& settings,
-                             const WindowGrid& grid, BlockStore& store, RunReport& report)
-    : volume_(volume),
+WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
+                             const MeshSettings& settings, const WindowGrid& grid,
+                             BlockStore& store, RunReport& report)
+    : labels_(labels),
       grid_(grid),
       store_(store),
       report_(report),
-      metric_(volume.info().spacing),
-      start_{.max_level = settings.start == StartMesh::kOctree ? max_level(settings.window) : 0,
-             .with_samples = settings.max_distance.has_value()},
+      metric_(metric),
+      start_{.max_level = settings.start == StartMesh::kDense ? 0 : max_level(settings.window),
+             .coarse = labels.is_coarse(),
+             .with_samples = settings.max_distance.has_value(),
+             .max_distance = settings.max_distance.value_or(kMostCoarseDistance)},
       simplify_{.quality_floor = settings.quality_floor, .edge_variance = settings.edge_variance},
       optimise_{.sweeps = settings.optimise ? 1 : 0, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance) {}
@@ -80,7 +59,7 @@ void WindowVisitor::work_on(WindowContent& content) {
   std::optional<DistanceGuard> guard;
   if (max_distance_) {
     const std::int64_t halo = LabelReach::search_reach(*max_distance_);
-    labels = read_labels(volume_, voxels_around(content.mesh, halo));
+    labels = labels_.original(voxels_around(content.mesh, halo));
     guard.emplace(labels, grid_.volume(), *max_distance_, content.samples);
   }
   DistanceGuard* const keep_distance = guard ? &*guard : nullptr;
@@ -94,10 +73,16 @@ void WindowVisitor::work_on(WindowContent& content) {
 BlockMesh WindowVisitor::take(Index3 block) {
   if (auto stored = store_.take(block)) return std::move(*stored);
   const Box3 box = grid_.block_box(block);
-  const std::int64_t halo = start_halo(start_.max_level);
-  const Index3 around{halo, halo, halo};
-  const LabelBox labels = read_labels(volume_, {box.lo - around, box.hi + around});
-  return graded_start(labels, box, grid_.volume(), start_);
+  const Index3 around{kStartHalo, kStartHalo, kStartHalo};
+  const Box3 wide{box.lo - around, box.hi + around};
+  const LabelBox original = labels_.original(wide);
+  if (!start_.coarse) {
+    return graded_start({.shape = original, .original = original}, labels_.levels(), box,
+                        grid_.volume(), start_);
+  }
+  const LabelBox shape = labels_.shape(wide);
+  return graded_start({.shape = shape, .original = original}, labels_.levels(), box, grid_.volume(),
+                      start_);
 }
 
 }  // namespace mw::engine

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/block_store.h"
+#include "engine/prepared_labels.h"
 #include "engine/run.h"
 #include "engine/window.h"
 #include "kernels/lattice/graded_start.h"
@@ -16,8 +17,8 @@ namespace mw::engine {
 /// REQUIRES: windows are visited in an order that respects predecessors; the references outlive it.
 class WindowVisitor {
  public:
-  WindowVisitor(const io::DenseVolume& volume, const MeshSettings& settings, const WindowGrid& grid,
-                BlockStore& store, RunReport& report);
+  WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
+                const WindowGrid& grid, BlockStore& store, RunReport& report);
 
   void visit(Index3 window);
 
@@ -25,7 +26,7 @@ class WindowVisitor {
   void work_on(WindowContent& content);
   [[nodiscard]] BlockMesh take(Index3 block);
 
-  const io::DenseVolume& volume_;
+  const PreparedLabels& labels_;
   const WindowGrid& grid_;
   BlockStore& store_;
   RunReport& report_;

@@ -16,4 +16,16 @@ using Label = std::uint32_t;
 /// Everything outside the volume's box counts as one more label.
 inline constexpr Label kExterior = 0xffffffffU;
 
+/// Two labels that meet, low < high.
+struct LabelPair {
+  Label low = 0;
+  Label high = 0;
+
+  friend bool operator==(const LabelPair&, const LabelPair&) = default;
+};
+
+[[nodiscard]] constexpr LabelPair label_pair(Label a, Label b) {
+  return a < b ? LabelPair{a, b} : LabelPair{b, a};
+}
+
 }  // namespace mw

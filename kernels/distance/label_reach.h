@@ -13,30 +13,44 @@ namespace mw {
 /// Decides whether all of a triangle between labels A and B lies within D of the input's boundary
 /// of A and of B.
 ///
-/// A ball that holds points of A and of B holds points of both boundaries, so at a point x the
-/// larger of the distances to the nearest A voxel and to the nearest B voxel bounds both.  That
-/// function is 1-Lipschitz: when its value at the centroid plus the distance to the farthest corner
-/// is at most D, the whole triangle is proved; otherwise the longest edge is halved.
-/// Coordinates are in voxels.  Voxels farther than the search reach are not seen, so the proof may
-/// fail where a bound holds, never the other way round.
+/// A ball that holds points of A and of B holds points of both boundaries, so it is enough that
+/// each point of the triangle has an A voxel and a B voxel within D.  The distance to one voxel is
+/// a convex function: when the three corners are within D of the same voxel, so is the whole
+/// triangle.  Otherwise the longest edge is halved, and each half finds voxels of its own.
+/// Coordinates are in voxels.
 class LabelReach {
  public:
-  /// REQUIRES: max_distance > 0; `labels` covers every triangle asked for and the search reach
-  /// around it (voxels outside it count as neither label).
+  using Triangle = std::array<Vec3, 3>;
+
+  /// REQUIRES: max_distance > 0; `labels` covers every triangle asked for and search_reach() around
+  /// it (voxels outside it count as neither label).
   LabelReach(const LabelBox& labels, double max_distance);
 
   /// How far around a triangle voxels are looked at.
   [[nodiscard]] static std::int64_t search_reach(double max_distance);
 
-  [[nodiscard]] bool within(const std::array<Vec3, 3>& triangle, Label a, Label b) const;
+  /// ENSURES: never true where the bound does not hold; false within a small fraction of the bound
+  /// where it does.
+  [[nodiscard]] bool within(const Triangle& triangle, Label a, Label b) const;
 
  private:
-  [[nodiscard]] bool prove(const Vec3& p, const Vec3& q, const Vec3& r, Label a, Label b) const;
-  [[nodiscard]] double distance(const Vec3& x, Label a, Label b) const;
+  /// Labels still to be found near a piece; kExterior: none.
+  struct Wanted {
+    Label a = kExterior;
+    Label b = kExterior;
+    [[nodiscard]] bool nothing() const { return a == kExterior && b == kExterior; }
+  };
+
+  [[nodiscard]] bool prove(const Triangle& t, Wanted wanted) const;
+  /// What is left when labels of voxels near all three corners are taken away.
+  [[nodiscard]] Wanted unseen(const Triangle& t, Wanted wanted) const;
+  [[nodiscard]] Box3 voxels_near(const Triangle& t) const;
+  [[nodiscard]] bool is_near(const Triangle& t, Index3 voxel) const;
 
   const LabelBox& labels_;
   double max_distance_;
-  std::int64_t reach_;
+  double squared_distance_;
+  double squared_smallest_;
 };
 
 }  // namespace mw

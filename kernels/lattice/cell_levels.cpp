@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "kernels/core/each_index.h"
+
 namespace mw {
 namespace {
 
@@ -30,22 +32,27 @@ bool inside(const Box3& a, const Box3& b) {
 }  // namespace
 
 CellLevels::CellLevels(const LabelBox& labels, Index3 volume, int max_level)
-    : labels_(labels), volume_(volume) {
-  const Box3& box = labels.box;
-  known_ = {
-      {std::max<std::int64_t>(box.lo.x, 0), std::max<std::int64_t>(box.lo.y, 0),
-       std::max<std::int64_t>(box.lo.z, 0)},
-      {std::min(box.hi.x, volume.x), std::min(box.hi.y, volume.y), std::min(box.hi.z, volume.z)}};
-  for (int k = 1; k <= max_level; ++k) {
+    : labels_(labels), volume_(volume), max_level_(max_level) {
+  find_levels(max_level);
+}
+
+CellLevels::CellLevels(const LabelBox& labels, Index3 volume, int max_level, const LevelMap& large)
+    : labels_(labels), volume_(volume), large_(&large), max_level_(max_level) {
+  find_levels(std::min(max_level, 2));
+}
+
+void CellLevels::find_levels(int highest) {
+  const Box3& box = labels_.box;
+  known_ = {{std::max<std::int64_t>(box.lo.x, 0), std::max<std::int64_t>(box.lo.y, 0),
+             std::max<std::int64_t>(box.lo.z, 0)},
+            {std::min(box.hi.x, volume_.x), std::min(box.hi.y, volume_.y),
+             std::min(box.hi.z, volume_.z)}};
+  for (int k = 1; k <= highest; ++k) {
     Level level = cells_of(k);
     std::size_t i = 0;
-    for (Index3 c = level.cells.lo; c.z < level.cells.hi.z; ++c.z) {
-      for (c.y = level.cells.lo.y; c.y < level.cells.hi.y; ++c.y) {
-        for (c.x = level.cells.lo.x; c.x < level.cells.hi.x; ++c.x) {
-          level.allowed[i++] = finer_allowed(c, k) && is_uniform(c, k) ? 1 : 0;
-        }
-      }
-    }
+    each_index(level.cells, [&](Index3 c) {
+      level.allowed[i++] = is_uniform(c, k) && finer_allowed(c, k) ? 1 : 0;
+    });
     levels_.push_back(std::move(level));
   }
 }
@@ -60,7 +67,7 @@ CellLevels::Level CellLevels::cells_of(int level) const {
 bool CellLevels::is_uniform(Index3 cell, int level) const {
   const Box3 voxels = voxels_of(cell, level);
   if (!inside(voxels, known_)) return false;
-  // Children are uniform already; one voxel of each decides.
+  // Whether the children are uniform, finer_allowed() tells; one voxel of each decides.
   const std::int64_t half = std::int64_t{1} << (level - 1);
   const Label first = labels_.at(voxels.lo);
   for (std::int64_t i = 1; i < 8; ++i) {
@@ -88,6 +95,9 @@ bool CellLevels::finer_allowed(Index3 cell, int level) const {
 }
 
 int CellLevels::level_at(Index3 voxel) const {
+  for (int k = large_ != nullptr ? max_level_ : 0; k > 2; --k) {
+    if (large_->is_allowed(voxel, k)) return k;
+  }
   for (auto k = static_cast<int>(levels_.size()); k > 0; --k) {
     const Level& level = levels_[static_cast<std::size_t>(k - 1)];
     const Index3 cell = cell_at(voxel, k);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/core/label_box.h"
+#include "kernels/lattice/level_map.h"
 
 namespace mw {
 
@@ -19,10 +20,14 @@ namespace mw {
 /// own size: every block sees the same leaves.
 class CellLevels {
  public:
-  /// Leaves have at most 2^max_level voxels an axis.
-  /// ENSURES: level_at() is exact for voxels at least 2^(max_level+1) inside labels.box, or nearer
-  ///          to its sides where they are those of the volume; for max_level 0 everywhere.
+  /// Leaves have at most 2^max_level voxels an axis; all levels are found from the labels.
+  /// ENSURES: level_at() is exact for voxels at least 2^(max_level+1) - 2 inside labels.box, or
+  ///          nearer to its sides where they are those of the volume; for max_level 0 everywhere.
   CellLevels(const LabelBox& labels, Index3 volume, int max_level);
+
+  /// The same, with levels above 2 taken from `large`, so that 6 voxels are enough.
+  /// REQUIRES: max_level <= 4; large is of this volume and outlives the object.
+  CellLevels(const LabelBox& labels, Index3 volume, int max_level, const LevelMap& large);
 
   /// Level k of the leaf that contains the voxel.  REQUIRES: voxel in labels.box and the volume.
   [[nodiscard]] int level_at(Index3 voxel) const;
@@ -34,6 +39,7 @@ class CellLevels {
     std::vector<std::uint8_t> allowed;
   };
 
+  void find_levels(int highest);
   [[nodiscard]] Level cells_of(int level) const;
   [[nodiscard]] bool is_uniform(Index3 cell, int level) const;
   [[nodiscard]] bool finer_allowed(Index3 cell, int level) const;
@@ -42,6 +48,8 @@ class CellLevels {
   Box3 known_;  ///< part of labels.box that is inside the volume
   Index3 volume_;
   std::vector<Level> levels_;  ///< levels_[k - 1] holds level k
+  const LevelMap* large_ = nullptr;
+  int max_level_ = 0;
 };
 
 }  // namespace mw

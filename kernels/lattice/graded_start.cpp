@@ -4,8 +4,12 @@
 #include "kernels/lattice/graded_start.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "kernels/coarsen/carrier_faces.h"
 #include "kernels/core/each_index.h"
+#include "kernels/core/error.h"
 #include "kernels/lattice/cell_faces.h"
 #include "kernels/lattice/corner_quadric.h"
 
@@ -35,16 +39,30 @@ bool on_triangle(Point p, const CornerTriangle& t, unsigned axis) {
   return left == 0 || right == 0;
 }
 
+/// The point of a voxel face nearest to p.
+Point nearest_on(const VoxelFace& face, Point p) {
+  const Point lo = lattice_point(face.lower), hi = lattice_point(face.upper() + Index3{1, 1, 1});
+  // `hi` is one voxel too far along the face's axis; there only its lower side, `upper`, counts.
+  const Point upper = lattice_point(face.upper());
+  const auto within = [&face](unsigned axis, std::int32_t v, std::int32_t from, std::int32_t to,
+                              std::int32_t plane) {
+    return axis == face.axis ? plane : std::clamp(v, from, to);
+  };
+  return {within(0, p.x, lo.x, hi.x, upper.x), within(1, p.y, lo.y, hi.y, upper.y),
+          within(2, p.z, lo.z, hi.z, upper.z)};
+}
+
 class StartBuilder {
  public:
-  StartBuilder(const LabelBox& labels, const Box3& block, Index3 volume,
+  StartBuilder(const StartLabels& labels, const LevelMap& large, const Box3& block, Index3 volume,
                const StartOptions& options)
       : labels_(labels),
         block_(block),
         corners_{block.lo, block.hi + Index3{1, 1, 1}},
         volume_(volume),
         options_(options),
-        levels_(labels, volume, options.max_level),
+        carriers_(options.max_distance),
+        levels_(labels.shape, volume, options.max_level, large),
         faces_(levels_, volume),
         used_(static_cast<std::size_t>(corners_.voxels()), 0) {}
 
@@ -54,6 +72,7 @@ class StartBuilder {
       const std::int64_t mask = cell.size() - 1;
       if (((voxel.x | voxel.y | voxel.z) & mask) == 0) add_cell(cell);
     });
+    if (options_.with_samples) add_samples();
     number_vertices();
     std::sort(mesh_.tets.begin(), mesh_.tets.end());
     std::sort(mesh_.samples.begin(), mesh_.samples.end());
@@ -74,16 +93,11 @@ class StartBuilder {
   }
 
   void add_cell(const Cell& cell) {
-    const Label label = labels_.at(cell.lo);
+    const Label label = labels_.shape.at(cell.lo);
     if (faces_.has_hanging_nodes(cell)) {
       add_cone(cell, label);
     } else {
       add_five(cell, label);
-    }
-    if (!options_.with_samples) return;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      add_samples(cell, {axis, false}, label);
-      add_samples(cell, {axis, true}, label);
     }
   }
 
@@ -116,29 +130,55 @@ class StartBuilder {
     }
   }
 
-  void add_samples(const Cell& cell, CellFace face, Label label) {
-    const std::int64_t s = cell.size();
-    const Index3 outward = axis_vector(face.axis, face.high ? 1 : -1);
-    const Index3 lo = cell.lo + axis_vector(face.axis, face.high ? s - 1 : 0);
-    const Index3 across = Index3{s, s, s} - axis_vector(face.axis, s - 1);
-    bool triangulated = false;
-    each_index(Box3{lo, lo + across}, [&](Index3 voxel) {
-      const Label beyond = labels_.at(voxel + outward);
-      if (beyond == kExterior || beyond <= label) return;
-      if (!triangulated) faces_.triangles(cell, face, triangles_);
-      triangulated = true;
-      const Index3 lower = face.high ? voxel : voxel + outward;
-      for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-        add_sample(face_sample(lower, face.axis, quarter, volume_), face.axis, label);
+  /// Goes over all input faces that this block's triangles may carry.
+  void add_samples() {
+    const std::int64_t reach = options_.coarse ? 1 : 0;
+    const Index3 lo = block_.lo - Index3{reach + 1, reach + 1, reach + 1};
+    each_index(Box3{lo, block_.hi + Index3{reach, reach, reach}}, [&](Index3 lower) {
+      const Label label = labels_.original.at(lower);
+      if (label == kExterior) return;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        const Label beyond = labels_.original.at(lower + axis_vector(axis));
+        if (beyond != label && beyond != kExterior) add_samples({lower, axis});
       }
     });
   }
 
-  void add_sample(FaceSample sample, unsigned axis, Label label) {
-    const Point p = position(sample, volume_);
+  void add_samples(const VoxelFace& face) {
+    const LabelPair pair = labels_beside(labels_.original, face);
+    const VoxelFace carrier = carrier_of(face, pair);
+    const bool low_is_lower = labels_.shape.at(carrier.lower) == pair.low;
+    const Index3 owner = low_is_lower ? carrier.lower : carrier.upper();
+    if (!block_.contains(owner)) return;
+    triangulate(owner, {carrier.axis, low_is_lower});
+    for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+      add_sample(face_sample(face.lower, face.axis, quarter, volume_), carrier, pair.low);
+    }
+  }
+
+  /// Puts the triangles of the cell face at a voxel into triangles_, unless they are there already.
+  void triangulate(Index3 voxel, CellFace face) {
+    const int level = levels_.level_at(voxel);
+    const auto floor = [level](std::int64_t v) { return v >> level << level; };
+    const Cell cell{{floor(voxel.x), floor(voxel.y), floor(voxel.z)}, level};
+    if (triangulated_ && cell == triangulated_->first && face == triangulated_->second) return;
+    triangulated_ = {cell, face};
+    faces_.triangles(cell, face, triangles_);
+  }
+
+  [[nodiscard]] VoxelFace carrier_of(const VoxelFace& face, LabelPair pair) const {
+    for (const VoxelFace& c : carriers_.of(face.axis)) {
+      const VoxelFace carrier{face.lower + c.lower, c.axis};
+      if (labels_beside(labels_.shape, carrier) == pair) return carrier;
+    }
+    throw Error(ErrorKind::kInternal, "coarsening left an interface face without a carrier");
+  }
+
+  void add_sample(FaceSample sample, const VoxelFace& carrier, Label label) {
+    const Point p = nearest_on(carrier, position(sample, volume_));
     const auto found =
         std::find_if(triangles_.begin(), triangles_.end(),
-                     [&](const CornerTriangle& t) { return on_triangle(p, t, axis); });
+                     [&](const CornerTriangle& t) { return on_triangle(p, t, carrier.axis); });
     MW_ASSERT(found != triangles_.end());
     std::array<std::uint32_t, 3> places{place((*found)[0]), place((*found)[1]), place((*found)[2])};
     std::sort(places.begin(), places.end());
@@ -154,8 +194,7 @@ class StartBuilder {
         row[at] = static_cast<std::uint32_t>(mesh_.vertices.size());
         const auto id = static_cast<VertexId>(
             (corner.z * (volume_.y + 1) + corner.y) * (volume_.x + 1) + corner.x);
-        mesh_.vertices.push_back(
-            {id, lattice_point(corner), corner_quadric(labels_, corner, options_.weights)});
+        mesh_.vertices.push_back({id, lattice_point(corner), quadric_of(corner)});
       }
       ++at;
     });
@@ -167,23 +206,30 @@ class StartBuilder {
     }
   }
 
-  const LabelBox& labels_;
+  [[nodiscard]] Quadric quadric_of(Index3 corner) const {
+    return options_.coarse ? wide_quadric(labels_, corner, options_.weights)
+                           : corner_quadric(labels_.original, corner, options_.weights);
+  }
+
+  StartLabels labels_;
   Box3 block_;
   Box3 corners_;
   Index3 volume_;
   StartOptions options_;
+  CarrierFaces carriers_;
   CellLevels levels_;
   CellFaces faces_;
   std::vector<std::uint8_t> used_;
   std::vector<CornerTriangle> triangles_;
+  std::optional<std::pair<Cell, CellFace>> triangulated_;  ///< what triangles_ belong to
   BlockMesh mesh_;
 };
 
 }  // namespace
 
-BlockMesh graded_start(const LabelBox& labels, const Box3& block, Index3 volume,
-                       const StartOptions& options) {
-  return StartBuilder(labels, block, volume, options).build();
+BlockMesh graded_start(const StartLabels& labels, const LevelMap& levels, const Box3& block,
+                       Index3 volume, const StartOptions& options) {
+  return StartBuilder(labels, levels, block, volume, options).build();
 }
 
 }  // namespace mw

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/core/label_box.h"
+#include "kernels/lattice/level_map.h"
 #include "kernels/mesh/block_mesh.h"
 
 namespace mw {
@@ -17,14 +18,20 @@ struct QuadricWeights {
 
 struct StartOptions {
   int max_level = 0;          ///< cells of at most 2^max_level voxels; 0: the paper's start mesh
+  bool coarse = false;        ///< shape labels may differ from the input's
   bool with_samples = false;  ///< samples for the distance bound
+  double max_distance = 1.5;  ///< with samples: that bound, in voxels
   QuadricWeights weights;
 };
 
-/// Voxels around a block that its start mesh depends on.
-[[nodiscard]] constexpr std::int64_t start_halo(int max_level) {
-  return max_level == 0 ? 1 : std::int64_t{2} << max_level;
-}
+/// Voxels around a block whose labels its start mesh depends on.
+inline constexpr std::int64_t kStartHalo = LevelMap::kHalo;
+
+/// What a start mesh is made from.  Both cover the same box.
+struct StartLabels {
+  const LabelBox& shape;     ///< labels of the cells: the input's, or coarsened ones (coarsen.h)
+  const LabelBox& original;  ///< the input's: quadrics and samples come from them
+};
 
 /// Start mesh of a block.
 ///
@@ -36,12 +43,16 @@ struct StartOptions {
 /// Eq (1) sums over interface triangles; here over interface voxel faces at the vertex, which is
 /// the same sum freed from the accident of the pattern.
 ///
-/// REQUIRES: labels cover `block` and start_halo(max_level) around it; the block is inside the
-///           volume and starts at a multiple of 2^max_level.
+/// Samples of an input face go to the triangles on the nearest face between the same two labels
+/// (CarrierFaces); without coarsening that is the face itself.
+///
+/// REQUIRES: labels cover `block` and kStartHalo around it; the block is inside the volume and
+///           starts at a multiple of 2^max_level; levels is of the shape labels (not looked at for
+///           max_level <= 2).
 /// ENSURES: canonical; a local function of the labels: all blocks give a shared vertex the same id,
-///          position and quadric.  Each voxel face between two labels whose smaller label is in the
-///          block has its samples on the start triangle that they lie on.
-[[nodiscard]] BlockMesh graded_start(const LabelBox& labels, const Box3& block, Index3 volume,
-                                     const StartOptions& options);
+///          position and quadric.  Each sample of each voxel face between two labels is with the
+///          one block that holds the tet on the smaller label's side of its triangle.
+[[nodiscard]] BlockMesh graded_start(const StartLabels& labels, const LevelMap& levels,
+                                     const Box3& block, Index3 volume, const StartOptions& options);
 
 }  // namespace mw

@@ -25,6 +25,18 @@ void Quadric::add_axis_plane(int axis, double weight) {
   a[kDiagonal[static_cast<std::size_t>(axis)]] += weight;
 }
 
+void Quadric::add_plane(const Vec3& n, const Vec3& through, double weight) {
+  const double d = -n.dot(through);
+  a[0] += weight * n[0] * n[0];
+  a[1] += weight * n[0] * n[1];
+  a[2] += weight * n[0] * n[2];
+  a[3] += weight * n[1] * n[1];
+  a[4] += weight * n[1] * n[2];
+  a[5] += weight * n[2] * n[2];
+  for (std::size_t i = 0; i < 3; ++i) b[i] += weight * d * n[static_cast<int>(i)];
+  c += weight * d * d;
+}
+
 void Quadric::add_point(double weight) {
   a[0] += weight;
   a[3] += weight;

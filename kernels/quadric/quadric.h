@@ -22,6 +22,8 @@ struct Quadric {
 
   /// Eq (1): squared distance to a plane through the owner with the given unit normal axis.
   void add_axis_plane(int axis, double weight);
+  /// Eq (1) for any plane, through a point at an offset from the owner.
+  void add_plane(const Vec3& unit_normal, const Vec3& through, double weight);
   /// Eq (2): squared distance to the owner's position.
   void add_point(double weight);
 

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Three passes over bricks: read, coarsen, find the large cells.
+#include "engine/prepared_labels.h"
+
+#include <algorithm>
+
+#include "kernels/core/each_index.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
+/// Bricks that are read from the volume at once, along x: long rows, bounded memory.
+constexpr std::int64_t kBricksPerRead = 32;
+/// Bricks along an axis of a tile that is coarsened at once; the halo is one brick.
+constexpr std::int64_t kBricksPerTile = 4;
+static_assert(kCoarsenHalo <= kBrick);
+static_assert(LevelMap::kCube == kBrick);
+
+Box3 clipped(const Box3& box, Index3 shape) {
+  return {{std::max<std::int64_t>(box.lo.x, 0), std::max<std::int64_t>(box.lo.y, 0),
+           std::max<std::int64_t>(box.lo.z, 0)},
+          {std::min(box.hi.x, shape.x), std::min(box.hi.y, shape.y), std::min(box.hi.z, shape.z)}};
+}
+
+Box3 grown(const Box3& box, std::int64_t by) {
+  return {box.lo - Index3{by, by, by}, box.hi + Index3{by, by, by}};
+}
+
+Index3 scaled(Index3 v, std::int64_t by) {
+  return {v.x * by, v.y * by, v.z * by};
+}
+
+LabelBox read(const io::BrickVolume& volume, const Box3& box) {
+  LabelBox out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()))};
+  volume.read(box, out.labels);
+  return out;
+}
+
+/// Copies the voxels of a brick out of a larger box.
+void cut_brick(const LabelBox& from, const Box3& brick, std::vector<Label>& out) {
+  out.clear();
+  for (Index3 v = brick.lo; v.z < brick.hi.z; ++v.z) {
+    for (v.y = brick.lo.y; v.y < brick.hi.y; ++v.y) {
+      const auto row = from.labels.begin() + from.box.offset({brick.lo.x, v.y, v.z});
+      out.insert(out.end(), row, row + brick.shape().x);
+    }
+  }
+}
+
+}  // namespace
+
+PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings)
+    : original_(volume.info().shape, volume.table().size()) {
+  read_bricks(volume);
+  if (settings.start == StartMesh::kCoarse) {
+    coarse_.emplace(original_.shape(), volume.table().size());
+    coarsen_tiles(settings.max_distance.value_or(kMostCoarseDistance));
+    fprintf(stderr,"coarse: mixed %lu uniform %lu = %.3f\n",stats_.mixed_cubes,stats_.made_uniform,double(stats_.made_uniform)/double(stats_.mixed_cubes));
+  }
+  if (settings.start != StartMesh::kDense) find_levels();
+}
+
+LabelBox PreparedLabels::original(const Box3& box) const {
+  return read(original_, box);
+}
+
+LabelBox PreparedLabels::shape(const Box3& box) const {
+  return read(shapes(), box);
+}
+
+void PreparedLabels::read_bricks(const io::DenseVolume& volume) {
+  const Index3 bricks = original_.bricks();
+  std::vector<Label> one;
+  each_index(
+      Index3{(bricks.x + kBricksPerRead - 1) / kBricksPerRead, bricks.y, bricks.z},
+      [&](Index3 run) {
+        const Index3 first{run.x * kBricksPerRead, run.y, run.z};
+        const Index3 last{std::min(first.x + kBricksPerRead, bricks.x), run.y + 1, run.z + 1};
+        LabelBox labels{clipped({scaled(first, kBrick), scaled(last, kBrick)}, original_.shape()),
+                        {}};
+        labels.labels.resize(static_cast<std::size_t>(labels.box.voxels()));
+        volume.read(labels.box, labels.labels);
+        each_index(Box3{first, last}, [&](Index3 brick) {
+          cut_brick(labels, original_.box_of(brick), one);
+          original_.write(brick, one);
+        });
+      });
+}
+
+bool PreparedLabels::all_uniform(const Box3& bricks) const {
+  bool uniform = true;
+  each_index(clipped(bricks, shapes().bricks()),
+             [&](Index3 b) { uniform = uniform && shapes().uniform_label(b) != kExterior; });
+  return uniform;
+}
+
+void PreparedLabels::coarsen_tiles(double max_distance) {
+  const Index3 bricks = original_.bricks();
+  const auto tiles_along = [](std::int64_t n) { return (n + kBricksPerTile - 1) / kBricksPerTile; };
+  each_index(
+      Index3{tiles_along(bricks.x), tiles_along(bricks.y), tiles_along(bricks.z)}, [&](Index3 t) {
+        const Index3 lo = scaled(t, kBricksPerTile);
+        coarsen_tile(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
+      });
+}
+
+void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
+  const Box3 tile =
+      clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
+  const LabelBox before = read(original_, grown(tile, kCoarsenHalo));
+  LabelBox after = before;
+  stats_ += coarsen(before, after, tile, original_.shape(), max_distance);
+  std::vector<Label> one;
+  each_index(bricks, [&](Index3 brick) {
+    cut_brick(after, original_.box_of(brick), one);
+    coarse_->write(brick, one);
+  });
+}
+
+void PreparedLabels::find_levels() {
+  const Index3 volume = original_.shape();
+  levels_ = LevelMap(volume);
+  const auto is_whole = [&](Index3 cube) {
+    return shapes().box_of(cube).voxels() == kBrick * kBrick * kBrick;
+  };
+  each_index(levels_.cubes(), [&](Index3 cube) {
+    const Box3 around = clipped(grown({cube, cube + Index3{1, 1, 1}}, 1), levels_.cubes());
+    if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) && all_uniform(around)) {
+      levels_.set_eighths(cube, 0xff);
+      return;
+    }
+    const Box3 box{scaled(cube, kBrick), scaled(cube + Index3{1, 1, 1}, kBrick)};
+    levels_.set_eighths(
+        cube, LevelMap::allowed_eighths(shape(grown(box, LevelMap::kHalo)), volume, cube));
+  });
+  levels_.find_cubes(
+      [&](Index3 cube) { return is_whole(cube) && shapes().uniform_label(cube) != kExterior; });
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The labels that windows work from, made once before the march.
+#pragma once
+
+#include "engine/settings.h"
+#include "io/labels/brick_volume.h"
+#include "io/labels/label_table.h"
+#include "kernels/coarsen/carrier_faces.h"
+#include "kernels/coarsen/coarsen.h"
+#include "kernels/core/label_box.h"
+#include "kernels/lattice/level_map.h"
+
+namespace mw::engine {
+
+/// The input's labels, the labels that the start mesh takes its shape from, and its large cells.
+/// A pure function of the volume and the settings.
+/// Thread safety: const members may be called from many threads.
+class PreparedLabels {
+ public:
+  /// Reads the volume once, and coarsens it when the start mesh asks for that.
+  /// ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
+  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings);
+
+  /// Boxes may reach outside the volume; voxels there are kExterior.
+  [[nodiscard]] LabelBox original(const Box3& box) const;
+  [[nodiscard]] LabelBox shape(const Box3& box) const;
+  [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
+  [[nodiscard]] const LevelMap& levels() const { return levels_; }
+  [[nodiscard]] const CoarsenStats& coarsen_stats() const { return stats_; }
+
+ private:
+  void read_bricks(const io::DenseVolume& volume);
+  void coarsen_tiles(double max_distance);
+  void coarsen_tile(const Box3& tile, double max_distance);
+  void find_levels();
+  [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
+  [[nodiscard]] bool all_uniform(const Box3& bricks) const;
+
+  io::BrickVolume original_;
+  std::optional<io::BrickVolume> coarse_;
+  LevelMap levels_;
+  CoarsenStats stats_;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Dense labels in cubes: uniform cubes as one number, the others in a temporary file.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "io/file/scratch_file.h"
+#include "kernels/core/index.h"
+#include "kernels/core/label.h"
+
+namespace mw::io {
+
+/// A volume of dense labels that is read many times in small boxes.
+///
+/// Cut into bricks of 16^3 voxels.  A uniform brick costs no file access, which makes the large
+/// empty parts of a CT nearly free; another is one read of 4 to 16 KiB.  In memory it holds 8 bytes
+/// a brick (2 KiB a million voxels).
+/// Thread safety: different bricks may be written at once; reading goes on after writing.
+class BrickVolume {
+ public:
+  static constexpr std::int64_t kEdge = 16;
+
+  /// REQUIRES: labels > 0, all labels below it.
+  BrickVolume(Index3 shape, std::size_t labels);
+
+  [[nodiscard]] Index3 shape() const { return shape_; }
+  [[nodiscard]] Index3 bricks() const { return bricks_; }
+  /// The brick's voxels that are in the volume.
+  [[nodiscard]] Box3 box_of(Index3 brick) const;
+
+  /// REQUIRES: voxels of box_of(brick), x fastest; not written before.
+  void write(Index3 brick, std::span<const Label> voxels);
+
+  /// The brick's only label, or kExterior when it has several.
+  [[nodiscard]] Label uniform_label(Index3 brick) const;
+
+  /// Reads a box that may reach outside the volume, where voxels are kExterior.
+  /// REQUIRES: all bricks written; out.size() == box.voxels().
+  void read(const Box3& box, std::span<Label> out) const;
+
+ private:
+  static constexpr std::uint64_t kInFile = std::uint64_t{1} << 63;
+
+  [[nodiscard]] std::size_t row(Index3 brick) const;
+  void copy_part(Index3 brick, const Box3& part, const Box3& box, std::span<Label> out) const;
+
+  Index3 shape_;
+  Index3 bricks_;
+  std::size_t label_bytes_;
+  std::vector<std::uint64_t> places_;  ///< label of a uniform brick, or kInFile + offset
+  std::atomic<std::uint64_t> file_size_ = 0;
+  ScratchFile file_;
+};
+
+}  // namespace mw::io

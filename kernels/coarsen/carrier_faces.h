@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Voxel faces near a voxel face: which of them can carry its samples.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernels/core/face_sample.h"
+#include "kernels/core/label_box.h"
+
+namespace mw {
+
+/// The face between `lower` and the next voxel along the axis.
+struct VoxelFace {
+  Index3 lower;
+  unsigned axis = 0;
+
+  friend bool operator==(const VoxelFace&, const VoxelFace&) = default;
+  [[nodiscard]] Index3 upper() const {
+    return lower + Index3{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
+  }
+};
+
+/// The labels on its two sides.
+[[nodiscard]] inline LabelPair labels_beside(const LabelBox& labels, const VoxelFace& face) {
+  return label_pair(labels.at(face.lower), labels.at(face.upper()));
+}
+
+/// The largest bound that coarsening makes use of, in voxels.
+inline constexpr double kMostCoarseDistance = 1.5;
+
+/// For a face f, the faces g on which all four samples of f (kernels/core/face_sample.h) have a
+/// point within D less the covering radius: if one of them lies between the same labels as f does
+/// in the input, it carries the samples of f, and the distance bound holds there.  (A carrier for
+/// each sample by itself lets no more cubes become uniform.)
+class CarrierFaces {
+ public:
+  /// REQUIRES: max_distance > 0; larger ones than kMostCoarseDistance count as that.
+  /// ENSURES: every face listed differs by at most one voxel along each axis.
+  explicit CarrierFaces(double max_distance);
+
+  /// Faces relative to f = ({0, 0, 0}, axis): f itself first, then by distance; ties in a fixed
+  /// order.
+  [[nodiscard]] const std::vector<VoxelFace>& of(unsigned axis) const { return carriers_[axis]; }
+  /// The faces f, relative to g, that g = ({0, 0, 0}, axis) can carry.
+  [[nodiscard]] const std::vector<VoxelFace>& carried_by(unsigned axis) const {
+    return carried_[axis];
+  }
+
+ private:
+  void find_carriers(unsigned axis, double reach);
+
+  std::array<std::vector<VoxelFace>, 3> carriers_;
+  std::array<std::vector<VoxelFace>, 3> carried_;
+};
+
+}  // namespace mw

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The large cells of the start mesh's octree, for the whole volume.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/core/label_box.h"
+
+namespace mw {
+
+/// Which cells of 8 and of 16 voxels an axis are allowed (CellLevels has the rule).  A block's
+/// start mesh depends on such cells as far as 32 voxels away; looking them up here spares reading
+/// labels from so far.  One byte for 16^3 voxels.
+class LevelMap {
+ public:
+  /// Voxels around a cube of 16 voxels that allowed_eighths() depends on.
+  static constexpr std::int64_t kHalo = 6;
+  static constexpr std::int64_t kCube = 16;
+
+  LevelMap() = default;
+  /// No cell is allowed yet.
+  explicit LevelMap(Index3 volume);
+
+  [[nodiscard]] Index3 cubes() const { return cubes_; }
+
+  /// The eight cells of 8 voxels in cube `cube` that are allowed, as bits (x lowest).
+  /// REQUIRES: labels cover the cube and kHalo around it.
+  [[nodiscard]] static std::uint8_t allowed_eighths(const LabelBox& labels, Index3 volume,
+                                                    Index3 cube);
+
+  /// Thread safety: different cubes may be set at once.
+  void set_eighths(Index3 cube, std::uint8_t eighths) { eighths_[row(cube)] = eighths; }
+
+  /// Decides on the cells of 16 voxels.  REQUIRES: all eighths set; is_uniform says whether a cube
+  /// lies inside the volume and inside one label.
+  template <typename IsUniform>
+  void find_cubes(IsUniform is_uniform) {
+    for (Index3 c{0, 0, 0}; c.z < cubes_.z; ++c.z) {
+      for (c.y = 0; c.y < cubes_.y; ++c.y) {
+        for (c.x = 0; c.x < cubes_.x; ++c.x) {
+          whole_[row(c)] = is_uniform(c) && eighths_around_allowed(c) ? 1 : 0;
+        }
+      }
+    }
+  }
+
+  /// Is the cell of 2^level voxels that contains the voxel allowed?  Outside the volume: no.
+  /// REQUIRES: level 3 or 4.
+  [[nodiscard]] bool is_allowed(Index3 voxel, int level) const;
+
+ private:
+  [[nodiscard]] std::size_t row(Index3 cube) const {
+    return static_cast<std::size_t>((cube.z * cubes_.y + cube.y) * cubes_.x + cube.x);
+  }
+  [[nodiscard]] bool eighths_around_allowed(Index3 cube) const;
+
+  Index3 volume_;
+  Index3 cubes_;
+  std::vector<std::uint8_t> eighths_;
+  std::vector<std::uint8_t> whole_;
+};
+
+}  // namespace mw
