@@ -49,6 +49,14 @@ void cut_brick(const LabelBox& from, const Box3& brick, std::vector<Label>& out)
   }
 }
 
+/// True when each of the bricks has one label, though not all the same.
+bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
+  bool uniform = true;
+  each_index(clipped(bricks, volume.bricks()),
+             [&](Index3 b) { uniform = uniform && volume.uniform_label(b) != kExterior; });
+  return uniform;
+}
+
 }  // namespace
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings)
@@ -57,7 +65,6 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
   if (settings.start == StartMesh::kCoarse) {
     coarse_.emplace(original_.shape(), volume.table().size());
     coarsen_tiles(settings.max_distance.value_or(kMostCoarseDistance));
-    fprintf(stderr,"coarse: mixed %lu uniform %lu = %.3f\n",stats_.mixed_cubes,stats_.made_uniform,double(stats_.made_uniform)/double(stats_.mixed_cubes));
   }
   if (settings.start != StartMesh::kDense) find_levels();
 }
@@ -89,13 +96,6 @@ void PreparedLabels::read_bricks(const io::DenseVolume& volume) {
       });
 }
 
-bool PreparedLabels::all_uniform(const Box3& bricks) const {
-  bool uniform = true;
-  each_index(clipped(bricks, shapes().bricks()),
-             [&](Index3 b) { uniform = uniform && shapes().uniform_label(b) != kExterior; });
-  return uniform;
-}
-
 void PreparedLabels::coarsen_tiles(double max_distance) {
   const Index3 bricks = original_.bricks();
   const auto tiles_along = [](std::int64_t n) { return (n + kBricksPerTile - 1) / kBricksPerTile; };
@@ -107,12 +107,20 @@ void PreparedLabels::coarsen_tiles(double max_distance) {
 }
 
 void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
+  std::vector<Label> one;
+  if (all_uniform(original_, grown(bricks, 1))) {
+    each_index(bricks, [&](Index3 b) {
+      one.assign(static_cast<std::size_t>(original_.box_of(b).voxels()),
+                 original_.uniform_label(b));
+      coarse_->write(b, one);
+    });
+    return;
+  }
   const Box3 tile =
       clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
   const LabelBox before = read(original_, grown(tile, kCoarsenHalo));
   LabelBox after = before;
   stats_ += coarsen(before, after, tile, original_.shape(), max_distance);
-  std::vector<Label> one;
   each_index(bricks, [&](Index3 brick) {
     cut_brick(after, original_.box_of(brick), one);
     coarse_->write(brick, one);
@@ -127,7 +135,8 @@ void PreparedLabels::find_levels() {
   };
   each_index(levels_.cubes(), [&](Index3 cube) {
     const Box3 around = clipped(grown({cube, cube + Index3{1, 1, 1}}, 1), levels_.cubes());
-    if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) && all_uniform(around)) {
+    if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) &&
+        all_uniform(shapes(), around)) {
       levels_.set_eighths(cube, 0xff);
       return;
     }

@@ -35,7 +35,6 @@ class PreparedLabels {
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels();
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
-  [[nodiscard]] bool all_uniform(const Box3& bricks) const;
 
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;

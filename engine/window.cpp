@@ -55,6 +55,31 @@ std::int32_t lattice(std::int64_t voxels) {
   return static_cast<std::int32_t>(voxels * kUnitsPerVoxel);
 }
 
+LocalVertex first_vertex(const BlockTet& t) {
+  return t.vertices[0];
+}
+
+LocalVertex first_vertex(const BlockSample& s) {
+  return s.triangle[0];
+}
+
+/// Sorts by counting first vertices, then inside the small groups.
+template <typename Item>
+void sort_rows(std::vector<Item>& items, std::size_t vertices) {
+  std::vector<std::uint32_t> end(vertices + 1, 0);
+  for (const Item& i : items) ++end[first_vertex(i) + 1];
+  for (std::size_t v = 0; v < vertices; ++v) end[v + 1] += end[v];
+  std::vector<Item> sorted(items.size());
+  for (const Item& i : items) sorted[end[first_vertex(i)]++] = i;
+  auto group = sorted.begin();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(end[v]);
+    std::sort(group, last);
+    group = last;
+  }
+  items = std::move(sorted);
+}
+
 /// Tets and samples of one block to be, still with rows of the window.
 struct Share {
   std::vector<BlockTet> tets;
@@ -79,8 +104,7 @@ BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row
   for (BlockSample& s : share.samples) {
     for (std::uint32_t& v : s.triangle) v = row[v];
   }
-  std::sort(share.tets.begin(), share.tets.end());
-  std::sort(share.samples.begin(), share.samples.end());
+  sort_rows(share.samples, used.size());
   out.tets = std::move(share.tets);
   out.samples = std::move(share.samples);
   return out;
@@ -97,9 +121,11 @@ void take_samples(const WindowContent& content, const BlockTet& tet, Share& shar
   };
   for (const TriangleKey& face : faces) {
     if (!may_carry(face[0]) || !may_carry(face[1]) || !may_carry(face[2])) continue;
-    const CarriedSamples::List* list = content.samples.find(face);
-    if (list == nullptr || list->side != tet.label) continue;
-    for (FaceSample s : list->samples) share.samples.push_back({face, list->side, s});
+    if (!content.samples.has(face, tet.label)) continue;
+    content.samples.each(face, [&](FaceSample s) {
+      share.samples.push_back({face, tet.label, s});
+      return true;
+    });
   }
 }
 
@@ -119,18 +145,18 @@ BlockMesh merge(std::span<const BlockMesh> blocks) {
       out.samples.push_back(s);
     }
   }
-  std::sort(out.tets.begin(), out.tets.end());
-  std::sort(out.samples.begin(), out.samples.end());
+  sort_rows(out.tets, out.vertices.size());
+  sort_rows(out.samples, out.vertices.size());
   return out;
 }
 
 WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume) {
-  BlockMesh merged = merge(blocks);
+  const BlockMesh merged = merge(blocks);
   for (const BlockTet& t : merged.tets) check_extent(t, merged.vertices);
   CarriedSamples samples;
   for (const BlockSample& s : merged.samples) samples.add(s.triangle, s.side, s.sample);
   const Point box{lattice(volume.x), lattice(volume.y), lattice(volume.z)};
-  return {TetMesh(std::move(merged.vertices), merged.tets, box), std::move(samples)};
+  return {TetMesh(merged.vertices, merged.tets, box), std::move(samples)};
 }
 
 std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,
@@ -138,7 +164,7 @@ std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& g
   const TetMesh& mesh = content.mesh;
   const std::vector<Index3> blocks = grid.blocks_of(window);
   std::vector<Share> shares(blocks.size());
-  for (const LocalTet& t : mesh.tets()) {
+  for (const BlockTet& t : mesh.sorted_tets()) {
     std::array<std::int64_t, 3> sum{};
     for (LocalVertex v : t.vertices) {
       const Point p = mesh.position(v);
@@ -149,10 +175,8 @@ std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& g
     const Index3 owner = grid.owner(window, sum);
     const auto place = std::find(blocks.begin(), blocks.end(), owner) - blocks.begin();
     Share& share = shares[static_cast<std::size_t>(place)];
-    BlockTet out{t.vertices, t.label};
-    std::sort(out.vertices.begin(), out.vertices.end());
-    share.tets.push_back(out);
-    take_samples(content, out, share);
+    share.tets.push_back(t);
+    take_samples(content, t, share);
   }
   std::vector<std::uint32_t> row(mesh.vertex_count());
   std::vector<BlockMesh> out;

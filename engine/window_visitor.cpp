@@ -60,7 +60,7 @@ void WindowVisitor::work_on(WindowContent& content) {
   if (max_distance_) {
     const std::int64_t halo = LabelReach::search_reach(*max_distance_);
     labels = labels_.original(voxels_around(content.mesh, halo));
-    guard.emplace(labels, grid_.volume(), *max_distance_, content.samples);
+    guard.emplace(labels, *max_distance_, content.samples);
   }
   DistanceGuard* const keep_distance = guard ? &*guard : nullptr;
   Stopwatch watch;

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Input to output: the samples of the input's interface, each carried by one interface triangle.
+// Which interface triangle of a window carries which samples of the input's interfaces.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "kernels/core/face_sample.h"
@@ -14,50 +13,67 @@
 
 namespace mw {
 
-/// Local vertices of a triangle, ascending.
+/// A triangle by its local vertices, ascending.
 using TriangleKey = std::array<LocalVertex, 3>;
 
 [[nodiscard]] inline TriangleKey triangle_key(LocalVertex a, LocalVertex b, LocalVertex c) {
-  TriangleKey key{a, b, c};
-  std::sort(key.begin(), key.end());
-  return key;
+  if (a > b) std::swap(a, b);
+  if (b > c) std::swap(b, c);
+  if (a > b) std::swap(a, b);
+  return {a, b, c};
 }
 
-/// The samples of a window by triangle.  The table behind it is looked up, never iterated.
+/// Lists of samples by triangle: a hash table with linear probing over chains in one pool, so that
+/// nothing is allocated while a window is worked on, but when the pool grows.
+/// Lookups only: nothing depends on the order of triangles in the table, nor on that of the samples
+/// in a list.
 class CarriedSamples {
  public:
-  struct List {
-    Label side = 0;  ///< the smaller label at the triangle
-    std::vector<FaceSample> samples;
-  };
-
-  [[nodiscard]] bool empty() const { return lists_.empty(); }
-
-  void add(const TriangleKey& key, Label side, FaceSample sample) {
-    List& list = lists_[key];
-    list.side = side;
-    list.samples.push_back(sample);
+  [[nodiscard]] bool empty() const { return used_ == 0; }
+  /// True when the triangle carries samples and `side` is the smaller label at it.
+  [[nodiscard]] bool has(const TriangleKey& key, Label side) const {
+    if (used_ == 0) return false;
+    const Slot& slot = slots_[find(key)];
+    return slot.head != kNone && slot.side == side;
   }
 
-  /// The list of a triangle; null when it carries none.
-  [[nodiscard]] const List* find(const TriangleKey& key) const {
-    const auto found = lists_.find(key);
-    return found == lists_.end() ? nullptr : &found->second;
-  }
+  void add(const TriangleKey& key, Label side, FaceSample sample);
+  void erase(const TriangleKey& key);
 
-  void erase(const TriangleKey& key) { lists_.erase(key); }
+  /// Calls visit(sample) for each sample of the triangle, until it returns false.
+  /// ENSURES: false when visit did.
+  template <typename Visit>
+  bool each(const TriangleKey& key, Visit visit) const {
+    if (used_ == 0) return true;
+    for (std::uint32_t n = slots_[find(key)].head; n != kNone; n = pool_[n].next) {
+      if (!visit(pool_[n].sample)) return false;
+    }
+    return true;
+  }
 
  private:
-  struct Hash {
-    std::size_t operator()(const TriangleKey& key) const {
-      constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;
-      std::uint64_t h = (std::uint64_t{key[0]} << 32 | key[1]) * kOdd;
-      h = (h ^ h >> 29 ^ key[2]) * kOdd;
-      return static_cast<std::size_t>(h ^ h >> 32);
-    }
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+
+  struct Slot {
+    TriangleKey key{};
+    Label side = 0;
+    std::uint32_t head = kNone;  ///< kNone: the slot is free
+  };
+  struct Node {
+    FaceSample sample = 0;
+    std::uint32_t next = kNone;
   };
 
-  std::unordered_map<TriangleKey, List, Hash> lists_;
+  [[nodiscard]] std::size_t home(const TriangleKey& key) const;
+  /// Where the triangle is, or the free slot where it would be.  REQUIRES: slots_ not empty.
+  [[nodiscard]] std::size_t find(const TriangleKey& key) const;
+  void grow();
+  void close_gap(std::size_t gap);
+
+  std::vector<Slot> slots_;
+  std::size_t used_ = 0;
+  std::vector<Node> pool_;
+  std::uint32_t free_nodes_ = kNone;
 };
 
 }  // namespace mw

@@ -5,15 +5,10 @@
 
 #include <algorithm>
 
-#include "kernels/distance/point_triangle.h"
-
 namespace mw {
 namespace {
 
 constexpr double kRoundingGuard = 1e-9;
-
-/// A sample stays with the successor of its triangle up to this distance, without a search.
-constexpr double kNearEnough = 0.5;
 
 Vec3 in_voxels(Point p) {
   return Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
@@ -21,10 +16,8 @@ Vec3 in_voxels(Point p) {
 
 }  // namespace
 
-DistanceGuard::DistanceGuard(const LabelBox& labels, Index3 volume, double max_distance,
-                             CarriedSamples& samples)
+DistanceGuard::DistanceGuard(const LabelBox& labels, double max_distance, CarriedSamples& samples)
     : reach_(labels, max_distance),
-      volume_(volume),
       placing_distance_(max_distance - kSampleCoveringRadius - kRoundingGuard),
       samples_(samples) {}
 
@@ -38,8 +31,8 @@ void DistanceGuard::add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex 
     if (vanishes && v != survivor) continue;
     changed_.push_back({.before = triangle_key(v, t.a, t.b),
                         .after = triangle_key(survivor, t.a, t.b),
-                        .corners = {in_voxels(target), in_voxels(mesh.position(t.a)),
-                                    in_voxels(mesh.position(t.b))},
+                        .shape = DistanceTriangle({in_voxels(target), in_voxels(mesh.position(t.a)),
+                                                   in_voxels(mesh.position(t.b))}),
                         .low = t.low,
                         .high = t.high,
                         .vanishes = vanishes,
@@ -68,57 +61,54 @@ bool DistanceGuard::allows_flip(const TetMesh& mesh, const std::array<LocalVerte
     const TriangleKey old = triangle_key(pq[0], pq[1], a);
     changed_.push_back({.before = old,
                         .after = old,
-                        .corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()},
+                        .shape = DistanceTriangle({Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}),
                         .low = low,
                         .high = high,
                         .vanishes = true});
   }
   for (LocalVertex p : pq) {
     const TriangleKey fresh = triangle_key(ab[0], ab[1], p);
-    changed_.push_back({.before = fresh,
-                        .after = fresh,
-                        .corners = {in_voxels(mesh.position(p)), in_voxels(mesh.position(ab[0])),
-                                    in_voxels(mesh.position(ab[1]))},
-                        .low = low,
-                        .high = high});
+    changed_.push_back(
+        {.before = fresh,
+         .after = fresh,
+         .shape = DistanceTriangle({in_voxels(mesh.position(p)), in_voxels(mesh.position(ab[0])),
+                                    in_voxels(mesh.position(ab[1]))}),
+         .low = low,
+         .high = high});
   }
   return keeps_bound();
 }
 
 bool DistanceGuard::keeps_bound() {
+  for (const Changed& t : changed_) {
+    const bool fresh = !t.stays && !t.vanishes;
+    if (fresh && !reach_.within(t.shape.corners(), t.low, t.high)) return false;
+  }
   handovers_.clear();
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     if (!changed_[i].stays && !place_samples(i)) return false;
-  }
-  for (const Changed& t : changed_) {
-    if (!t.stays && !t.vanishes && !reach_.within(t.corners, t.low, t.high)) return false;
   }
   return true;
 }
 
 bool DistanceGuard::place_samples(std::size_t from) {
-  const CarriedSamples::List* list = samples_.find(changed_[from].before);
-  if (list == nullptr) return true;
-  for (FaceSample s : list->samples) {
-    if (!place(s, from)) return false;
-  }
-  return true;
+  return samples_.each(changed_[from].before, [&](FaceSample s) { return place(s, from); });
 }
 
 bool DistanceGuard::place(FaceSample sample, std::size_t from) {
-  const Vec3 p = in_voxels(position(sample, volume_));
+  const Vec3 p = in_voxels(position(sample));
   const Changed& old = changed_[from];
-  const double near = std::min(kNearEnough, placing_distance_);
-  if (!old.vanishes && squared_distance(p, old.corners) <= near * near) {
+  const double limit = placing_distance_ * placing_distance_;
+  if (!old.vanishes && old.shape.squared_distance(p) <= limit) {
     handovers_.push_back({from, sample});
     return true;
   }
-  double best = placing_distance_ * placing_distance_;
+  double best = limit;
   std::size_t to = changed_.size();
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     const Changed& t = changed_[i];
     if (t.vanishes || t.low != old.low || t.high != old.high) continue;
-    const double d = squared_distance(p, t.corners);
+    const double d = t.shape.squared_distance(p);
     if (d <= best && (to == changed_.size() || d < best)) {
       best = d;
       to = i;

@@ -6,6 +6,7 @@
 #include "kernels/distance/carried_samples.h"
 #include "kernels/distance/interface_fan.h"
 #include "kernels/distance/label_reach.h"
+#include "kernels/distance/point_triangle.h"
 
 namespace mw {
 
@@ -22,9 +23,8 @@ namespace mw {
 /// everything else comes here.
 class DistanceGuard {
  public:
-  /// `labels` as LabelReach asks; `volume` is the shape of the whole volume; keeps references.
-  DistanceGuard(const LabelBox& labels, Index3 volume, double max_distance,
-                CarriedSamples& samples);
+  /// `labels` as LabelReach asks; keeps references.
+  DistanceGuard(const LabelBox& labels, double max_distance, CarriedSamples& samples);
 
   /// Smallest bound that the samples can prove anything for.
   [[nodiscard]] static constexpr double least_distance() { return 2.0 * kSampleCoveringRadius; }
@@ -47,7 +47,7 @@ class DistanceGuard {
   struct Changed {
     TriangleKey before;
     TriangleKey after;
-    std::array<Vec3, 3> corners;  ///< after the change, in voxels
+    DistanceTriangle shape;  ///< after the change, in voxels
     Label low = 0;
     Label high = 0;
     bool vanishes = false;
@@ -65,7 +65,6 @@ class DistanceGuard {
   [[nodiscard]] bool place(FaceSample sample, std::size_t from);
 
   LabelReach reach_;
-  Index3 volume_;
   double placing_distance_;
   CarriedSamples& samples_;
   InterfaceFan fan_;

@@ -15,6 +15,7 @@ void InterfaceFan::collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTr
     if (t.label == kExterior) continue;
     for (const auto& [a, b] :
          {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)}) {
+      if (!mesh.on_interface(a) || !mesh.on_interface(b)) continue;
       sides_.push_back({a, b, t.label});
     }
   }

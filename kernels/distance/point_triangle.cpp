@@ -10,33 +10,39 @@ namespace mw {
 namespace {
 
 /// Triangles narrower than this share of their longest edge count as their edges: their normal is
-/// noise, and the edges are as near as it gets.
+/// noise.
 constexpr double kNarrow = 1e-9;
-
-double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 way = b - a;
-  const double length = way.squaredNorm();
-  const double t = length > 0.0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0.0;
-  return (p - (a + t * way)).squaredNorm();
-}
 
 }  // namespace
 
-double squared_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double area = normal.squaredNorm();
-  const double longest = std::max((t[1] - t[0]).squaredNorm(), (t[2] - t[0]).squaredNorm());
-  const auto inside_of = [&](std::size_t i, std::size_t j) {
-    return (t[j] - t[i]).cross(p - t[i]).dot(normal) >= 0.0;
-  };
-  if (area > kNarrow * kNarrow * longest * longest && inside_of(0, 1) && inside_of(1, 2) &&
-      inside_of(2, 0)) {
-    const double height = (p - t[0]).dot(normal);
-    return height * height / area;
+DistanceTriangle::DistanceTriangle(const std::array<Vec3, 3>& corners)
+    : corners_(corners),
+      edges_{corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]} {
+  const Vec3 normal = edges_[0].cross(edges_[1]);
+  const double area = normal.norm();
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double square = edges_[i].squaredNorm();
+    inverse_squares_[i] = square > 0.0 ? 1.0 / square : 0.0;
+    inward_[i] = normal.cross(edges_[i]);
+    longest = std::max(longest, square);
   }
-  return std::min({squared_distance_to_segment(p, t[0], t[1]),
-                   squared_distance_to_segment(p, t[1], t[2]),
-                   squared_distance_to_segment(p, t[2], t[0])});
+  is_flat_ = area <= kNarrow * longest;
+  unit_normal_ = is_flat_ ? Vec3::Zero() : Vec3(normal / area);
+}
+
+double DistanceTriangle::squared_distance(const Vec3& p) const {
+  const std::array<Vec3, 3> from{p - corners_[0], p - corners_[1], p - corners_[2]};
+  if (!is_flat_ && from[0].dot(inward_[0]) >= 0.0 && from[1].dot(inward_[1]) >= 0.0 &&
+      from[2].dot(inward_[2]) >= 0.0) {
+    const double height = from[0].dot(unit_normal_);
+    return height * height;
+  }
+  const auto to_edge = [&](std::size_t i) {
+    const double t = std::clamp(from[i].dot(edges_[i]) * inverse_squares_[i], 0.0, 1.0);
+    return (from[i] - t * edges_[i]).squaredNorm();
+  };
+  return std::min({to_edge(0), to_edge(1), to_edge(2)});
 }
 
 }  // namespace mw

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Distance from a point to a triangle.
+// Distance from points to a triangle.
 #pragma once
 
 #include <array>
@@ -9,7 +9,22 @@
 
 namespace mw {
 
-/// Squared distance from p to the nearest point of triangle t, degenerate ones included.
-[[nodiscard]] double squared_distance(const Vec3& p, const std::array<Vec3, 3>& t);
+/// A triangle made ready for many distances; degenerate ones included.
+class DistanceTriangle {
+ public:
+  explicit DistanceTriangle(const std::array<Vec3, 3>& corners);
+
+  [[nodiscard]] const std::array<Vec3, 3>& corners() const { return corners_; }
+  /// Squared distance from p to the nearest point of the triangle.
+  [[nodiscard]] double squared_distance(const Vec3& p) const;
+
+ private:
+  std::array<Vec3, 3> corners_;
+  std::array<Vec3, 3> edges_;              ///< edge i starts at corner i
+  std::array<Vec3, 3> inward_;             ///< across edge i, in the plane
+  std::array<double, 3> inverse_squares_;  ///< of the edges' lengths; 0 for none
+  Vec3 unit_normal_;
+  bool is_flat_ = false;  ///< so narrow that its edges are as near as it gets
+};
 
 }  // namespace mw

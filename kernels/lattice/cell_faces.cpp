@@ -3,7 +3,7 @@
 // Squares cut along even diagonals, quartered beside smaller cells, or fanned from a hanging node.
 #include "kernels/lattice/cell_faces.h"
 
-#include <algorithm>
+#include <optional>
 #include <tuple>
 
 namespace mw {
@@ -86,21 +86,22 @@ void CellFaces::triangles(const Cell& cell, CellFace face, std::vector<CornerTri
   }
   const Index3 u = axis_vector(p.first, s), v = axis_vector(p.second, s);
   const std::array<Index3, 4> corner{p.origin, p.origin + u, p.origin + u + v, p.origin + v};
-  std::vector<Index3> rim;
-  std::vector<Index3> hanging;
+  std::array<Index3, 8> rim;
+  std::size_t rims = 0;
+  std::optional<Index3> hub;
   for (std::size_t i = 0; i < 4; ++i) {
-    rim.push_back(corner[i]);
+    rim[rims++] = corner[i];
     const unsigned along = i % 2 == 0 ? p.first : p.second;
     const Index3 start = id_less(corner[i], corner[(i + 1) % 4]) ? corner[i] : corner[(i + 1) % 4];
     if (cell.level == 0 || !edge_is_split(cell, along, start)) continue;
-    rim.push_back(start + axis_vector(along, s / 2));
-    hanging.push_back(rim.back());
+    const Index3 hanging = start + axis_vector(along, s / 2);
+    rim[rims++] = hanging;
+    if (!hub || id_less(hanging, *hub)) hub = hanging;
   }
-  if (hanging.empty()) return cut_square(p, p.origin, cell.level, out);
-  const Index3 hub = *std::min_element(hanging.begin(), hanging.end(), id_less);
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    const Index3 a = rim[i], b = rim[(i + 1) % rim.size()];
-    if (a != hub && b != hub) out.push_back({hub, a, b});
+  if (!hub) return cut_square(p, p.origin, cell.level, out);
+  for (std::size_t i = 0; i < rims; ++i) {
+    const Index3 a = rim[i], b = rim[(i + 1) % rims];
+    if (a != *hub && b != *hub) out.push_back({*hub, a, b});
   }
 }
 

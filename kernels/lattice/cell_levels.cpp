@@ -31,14 +31,31 @@ bool inside(const Box3& a, const Box3& b) {
 
 }  // namespace
 
-CellLevels::CellLevels(const LabelBox& labels, Index3 volume, int max_level)
-    : labels_(labels), volume_(volume), max_level_(max_level) {
+CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level)
+    : labels_(labels), volume_(volume) {
   find_levels(max_level);
+  find_leaves(asked);
 }
 
-CellLevels::CellLevels(const LabelBox& labels, Index3 volume, int max_level, const LevelMap& large)
-    : labels_(labels), volume_(volume), large_(&large), max_level_(max_level) {
+CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level,
+                       const LevelMap& large)
+    : labels_(labels), volume_(volume) {
+  find_leaves(asked);
+  bool all_large = true;
+  std::size_t i = 0;
+  each_index(pairs_, [&](Index3 c) {
+    int level = max_level;
+    while (level > 2 && !large.is_allowed({2 * c.x, 2 * c.y, 2 * c.z}, level)) --level;
+    leaves_[i++] = static_cast<std::uint8_t>(level > 2 ? level : 0);
+    all_large = all_large && level > 2;
+  });
+  if (all_large) return;
   find_levels(std::min(max_level, 2));
+  i = 0;
+  each_index(pairs_, [&](Index3 c) {
+    std::uint8_t& leaf = leaves_[i++];
+    if (leaf == 0) leaf = small_level_at({2 * c.x, 2 * c.y, 2 * c.z});
+  });
 }
 
 void CellLevels::find_levels(int highest) {
@@ -94,14 +111,26 @@ bool CellLevels::finer_allowed(Index3 cell, int level) const {
   return true;
 }
 
-int CellLevels::level_at(Index3 voxel) const {
-  for (int k = large_ != nullptr ? max_level_ : 0; k > 2; --k) {
-    if (large_->is_allowed(voxel, k)) return k;
-  }
+void CellLevels::find_leaves(const Box3& asked) {
+  pairs_ = {cell_at({std::max<std::int64_t>(asked.lo.x, 0), std::max<std::int64_t>(asked.lo.y, 0),
+                     std::max<std::int64_t>(asked.lo.z, 0)},
+                    1),
+            cell_at({std::min(asked.hi.x, volume_.x) - 1, std::min(asked.hi.y, volume_.y) - 1,
+                     std::min(asked.hi.z, volume_.z) - 1},
+                    1) +
+                Index3{1, 1, 1}};
+  leaves_.reserve(static_cast<std::size_t>(pairs_.voxels()));
+  each_index(pairs_, [&](Index3 c) {
+    leaves_.push_back(small_level_at({2 * c.x, 2 * c.y, 2 * c.z}));
+  });
+}
+
+std::uint8_t CellLevels::small_level_at(Index3 voxel) const {
   for (auto k = static_cast<int>(levels_.size()); k > 0; --k) {
     const Level& level = levels_[static_cast<std::size_t>(k - 1)];
     const Index3 cell = cell_at(voxel, k);
-    if (level.allowed[static_cast<std::size_t>(level.cells.offset(cell))] != 0) return k;
+    if (level.allowed[static_cast<std::size_t>(level.cells.offset(cell))] != 0)
+      return static_cast<std::uint8_t>(k);
   }
   return 0;
 }

@@ -21,16 +21,21 @@ namespace mw {
 class CellLevels {
  public:
   /// Leaves have at most 2^max_level voxels an axis; all levels are found from the labels.
-  /// ENSURES: level_at() is exact for voxels at least 2^(max_level+1) - 2 inside labels.box, or
-  ///          nearer to its sides where they are those of the volume; for max_level 0 everywhere.
-  CellLevels(const LabelBox& labels, Index3 volume, int max_level);
+  /// `asked`: where level_at() will be asked.
+  /// REQUIRES: asked is at least 2^(max_level+1) - 2 voxels inside labels.box, or nearer to its
+  ///           sides where they are those of the volume.
+  CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level);
 
-  /// The same, with levels above 2 taken from `large`, so that 6 voxels are enough.
-  /// REQUIRES: max_level <= 4; large is of this volume and outlives the object.
-  CellLevels(const LabelBox& labels, Index3 volume, int max_level, const LevelMap& large);
+  /// The same, with levels above 2 taken from `large`, so that 6 voxels around are enough.
+  /// REQUIRES: max_level <= 4; large is of this volume.
+  CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level,
+             const LevelMap& large);
 
-  /// Level k of the leaf that contains the voxel.  REQUIRES: voxel in labels.box and the volume.
-  [[nodiscard]] int level_at(Index3 voxel) const;
+  /// Level k of the leaf that contains the voxel.  REQUIRES: voxel in asked and the volume.
+  [[nodiscard]] int level_at(Index3 voxel) const {
+    return leaves_[static_cast<std::size_t>(
+        pairs_.offset({voxel.x >> 1, voxel.y >> 1, voxel.z >> 1}))];
+  }
 
  private:
   /// Cells of one level that meet both labels.box and the volume.
@@ -40,6 +45,8 @@ class CellLevels {
   };
 
   void find_levels(int highest);
+  void find_leaves(const Box3& asked);
+  [[nodiscard]] std::uint8_t small_level_at(Index3 voxel) const;
   [[nodiscard]] Level cells_of(int level) const;
   [[nodiscard]] bool is_uniform(Index3 cell, int level) const;
   [[nodiscard]] bool finer_allowed(Index3 cell, int level) const;
@@ -47,9 +54,9 @@ class CellLevels {
   const LabelBox& labels_;
   Box3 known_;  ///< part of labels.box that is inside the volume
   Index3 volume_;
-  std::vector<Level> levels_;  ///< levels_[k - 1] holds level k
-  const LevelMap* large_ = nullptr;
-  int max_level_ = 0;
+  std::vector<Level> levels_;         ///< levels_[k - 1] holds level k
+  Box3 pairs_;                        ///< cells of 2 voxels that meet `asked`
+  std::vector<std::uint8_t> leaves_;  ///< level of the leaf there
 };
 
 }  // namespace mw

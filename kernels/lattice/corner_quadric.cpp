@@ -28,33 +28,60 @@ Octant voxels_around(const LabelBox& labels, Index3 corner) {
 /// Sums over the interface faces between two labels: normals from the lower label to the higher,
 /// and centres relative to the corner, in half voxels.
 struct PairFaces {
-  Label low = 0;
-  Label high = 0;
+  LabelPair labels;
   std::int64_t count = 0;
   Index3 normal;
   Index3 centre;
 };
 
-class FacesByPair {
+/// The 4^3 voxels around a corner, x fastest; kExterior for those whose label does not meet there.
+class WideCube {
  public:
-  /// The face between `below` and `above` along the axis, centred at `centre`.
-  void add(Label below, Label above, unsigned axis, Index3 centre) {
-    const auto [low, high] = std::minmax(below, above);
-    auto at = std::find_if(
-        pairs_.begin(), pairs_.end(),
-        [&, l = low, h = high](const PairFaces& p) { return p.low == l && p.high == h; });
-    if (at == pairs_.end()) at = pairs_.insert(at, {low, high, 0, {}, {}});
-    ++at->count;
-    at->normal = at->normal + axis_vector(axis, below == low ? 1 : -1);
-    at->centre = at->centre + centre;
+  WideCube(const StartLabels& labels, Index3 corner) {
+    const Octant around = voxels_around(labels.shape, corner);
+    std::size_t i = 0;
+    each_index(Box3{corner - Index3{kWide, kWide, kWide}, corner + Index3{kWide, kWide, kWide}},
+               [&](Index3 v) {
+                 const Label l = labels.original.at(v);
+                 const bool meets = std::find(around.begin(), around.end(), l) != around.end();
+                 labels_[i++] = meets ? l : kExterior;
+               });
   }
-  [[nodiscard]] const std::vector<PairFaces>& pairs() const { return pairs_; }
+
+  /// Adds up the faces of each pair of labels.
+  [[nodiscard]] std::vector<PairFaces> faces() const {
+    std::vector<PairFaces> out;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const std::size_t step = std::size_t{1} << (2 * axis);
+      for (std::size_t i = 0; i < labels_.size(); ++i) {
+        const bool last = (i >> (2 * axis) & 3U) == 3;
+        if (last || labels_[i] == kExterior) continue;
+        const Label above = labels_[i + step];
+        if (above == labels_[i] || above == kExterior) continue;
+        add(i, axis, above, out);
+      }
+    }
+    return out;
+  }
 
  private:
-  std::vector<PairFaces> pairs_;
+  void add(std::size_t below, unsigned axis, Label above, std::vector<PairFaces>& out) const {
+    const LabelPair pair = label_pair(labels_[below], above);
+    auto at =
+        std::find_if(out.begin(), out.end(), [&](const PairFaces& p) { return p.labels == pair; });
+    if (at == out.end()) at = out.insert(at, {.labels = pair});
+    const auto centre = [below](unsigned k) {
+      return 2 * (static_cast<std::int64_t>(below >> (2 * k) & 3U) - kWide) + 1;
+    };
+    ++at->count;
+    at->normal = at->normal + axis_vector(axis, labels_[below] == pair.low ? 1 : -1);
+    at->centre = at->centre + Index3{centre(0), centre(1), centre(2)} + axis_vector(axis);
+  }
+
+  std::array<Label, 64> labels_;
 };
 
-/// One plane; a sheet whose sides face each other has none, and is held at its centre instead.
+/// One plane; a sheet whose faces look both ways alike has none.
 void add_sheet(const PairFaces& faces, const QuadricWeights& weights, Quadric& q) {
   const double to_mean = 0.5 / static_cast<double>(faces.count);
   const Vec3 centre{static_cast<double>(faces.centre.x) * to_mean,
@@ -70,25 +97,11 @@ void add_sheet(const PairFaces& faces, const QuadricWeights& weights, Quadric& q
 
 Quadric wide_quadric(const StartLabels& labels, Index3 corner, const QuadricWeights& weights) {
   const Octant around = voxels_around(labels.shape, corner);
-  const auto meets = [&around](Label l) {
-    return l != kExterior && std::find(around.begin(), around.end(), l) != around.end();
-  };
-  FacesByPair faces;
-  const Index3 reach{kWide, kWide, kWide};
-  each_index(Box3{Index3{0, 0, 0} - reach, reach}, [&](Index3 i) {
-    const Label below = labels.original.at(corner + i);
-    if (!meets(below)) return;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const Index3 j = i + axis_vector(axis);
-      if (j.x == kWide || j.y == kWide || j.z == kWide) continue;
-      const Label above = labels.original.at(corner + j);
-      if (above == below || !meets(above)) continue;
-      faces.add(below, above, axis, i + j + Index3{1, 1, 1});
-    }
-  });
-  Quadric q;
-  for (const PairFaces& p : faces.pairs()) add_sheet(p, weights, q);
   const bool inner = std::count(around.begin(), around.end(), around[0]) == 8;
+  Quadric q;
+  if (!inner) {
+    for (const PairFaces& p : WideCube(labels, corner).faces()) add_sheet(p, weights, q);
+  }
   q.add_point(inner ? weights.inner_point : weights.boundary_point);
   return q;
 }

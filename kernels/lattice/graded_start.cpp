@@ -62,13 +62,18 @@ class StartBuilder {
         volume_(volume),
         options_(options),
         carriers_(options.max_distance),
-        levels_(labels.shape, volume, options.max_level, large),
+        levels_(labels.shape, volume, {block.lo - Index3{1, 1, 1}, block.hi + Index3{1, 1, 1}},
+                options.max_level, large),
         faces_(levels_, volume),
         used_(static_cast<std::size_t>(corners_.voxels()), 0) {}
 
   BlockMesh build() {
-    each_index(block_, [&](Index3 voxel) {
+    const Box3 pairs{{block_.lo.x / 2, block_.lo.y / 2, block_.lo.z / 2},
+                     {(block_.hi.x + 1) / 2, (block_.hi.y + 1) / 2, (block_.hi.z + 1) / 2}};
+    each_index(pairs, [&](Index3 p) {
+      const Index3 voxel{2 * p.x, 2 * p.y, 2 * p.z};
       const Cell cell{voxel, levels_.level_at(voxel)};
+      if (cell.level == 0) return add_voxels(voxel);
       const std::int64_t mask = cell.size() - 1;
       if (((voxel.x | voxel.y | voxel.z) & mask) == 0) add_cell(cell);
     });
@@ -90,6 +95,13 @@ class StartBuilder {
   void add_tet(std::array<std::uint32_t, 4> places, Label label) {
     std::sort(places.begin(), places.end());
     mesh_.tets.push_back({places, label});
+  }
+
+  /// Those of the eight voxels from `lo` that are in the block.
+  void add_voxels(Index3 lo) {
+    each_index(Box3{lo, lo + Index3{2, 2, 2}}, [&](Index3 voxel) {
+      if (block_.contains(voxel)) add_cell({voxel, 0});
+    });
   }
 
   void add_cell(const Cell& cell) {
@@ -132,6 +144,8 @@ class StartBuilder {
 
   /// Goes over all input faces that this block's triangles may carry.
   void add_samples() {
+    const std::vector<Label>& all = labels_.original.labels;
+    if (std::all_of(all.begin(), all.end(), [&](Label l) { return l == all[0]; })) return;
     const std::int64_t reach = options_.coarse ? 1 : 0;
     const Index3 lo = block_.lo - Index3{reach + 1, reach + 1, reach + 1};
     each_index(Box3{lo, block_.hi + Index3{reach, reach, reach}}, [&](Index3 lower) {
@@ -152,7 +166,7 @@ class StartBuilder {
     if (!block_.contains(owner)) return;
     triangulate(owner, {carrier.axis, low_is_lower});
     for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-      add_sample(face_sample(face.lower, face.axis, quarter, volume_), carrier, pair.low);
+      add_sample(face_sample(face.lower, face.axis, quarter), carrier, pair.low);
     }
   }
 
@@ -175,7 +189,7 @@ class StartBuilder {
   }
 
   void add_sample(FaceSample sample, const VoxelFace& carrier, Label label) {
-    const Point p = nearest_on(carrier, position(sample, volume_));
+    const Point p = nearest_on(carrier, position(sample));
     const auto found =
         std::find_if(triangles_.begin(), triangles_.end(),
                      [&](const CornerTriangle& t) { return on_triangle(p, t, carrier.axis); });

@@ -33,11 +33,11 @@ LevelMap::LevelMap(Index3 volume)
       whole_(eighths_.size(), 0) {}
 
 std::uint8_t LevelMap::allowed_eighths(const LabelBox& labels, Index3 volume, Index3 cube) {
-  const CellLevels levels(labels, volume, 3);
+  const Index3 lo{cube.x * kCube, cube.y * kCube, cube.z * kCube};
+  const CellLevels levels(labels, volume, {lo, lo + Index3{kCube, kCube, kCube}}, 3);
   unsigned bits = 0;
   each_index(Index3{2, 2, 2}, [&](Index3 i) {
-    const Index3 voxel{cube.x * kCube + i.x * kEighth, cube.y * kCube + i.y * kEighth,
-                       cube.z * kCube + i.z * kEighth};
+    const Index3 voxel = lo + Index3{i.x * kEighth, i.y * kEighth, i.z * kEighth};
     const bool inside = Box3{{0, 0, 0}, volume}.contains(voxel);
     if (inside && levels.level_at(voxel) == 3) bits |= 1U << eighth_at(voxel);
   });

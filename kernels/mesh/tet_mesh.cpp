@@ -21,10 +21,18 @@ BoxPlanes planes_of(Point p, Point box) {
 
 }  // namespace
 
-TetMesh::TetMesh(std::vector<BlockVertex> vertices, std::span<const BlockTet> tets, Point box)
-    : vertices_(std::move(vertices)), marks_(vertices_.size() + 1) {
-  planes_.reserve(vertices_.size());
-  for (const BlockVertex& v : vertices_) planes_.push_back(planes_of(v.position, box));
+TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box)
+    : marks_(vertices.size() + 1) {
+  points_.reserve(vertices.size());
+  ids_.reserve(vertices.size());
+  quadrics_.reserve(vertices.size());
+  planes_.reserve(vertices.size());
+  for (const BlockVertex& v : vertices) {
+    points_.push_back(v.position);
+    ids_.push_back(v.id);
+    quadrics_.push_back(v.quadric);
+    planes_.push_back(planes_of(v.position, box));
+  }
 
   std::vector<LocalTet> loaded;
   loaded.reserve(tets.size() + tets.size() / 8);
@@ -60,12 +68,12 @@ TetMesh::TetMesh(std::vector<BlockVertex> vertices, std::span<const BlockTet> te
       pool_[stars_[v].begin + stars_[v].size++] = link_triangle(t, i);
     }
   }
-  versions_.assign(vertices_.size(), 0);
+  versions_.assign(points_.size(), 0);
   classify_vertices();
 }
 
 void TetMesh::count_stars(std::span<const LocalTet> tets) {
-  stars_.assign(vertices_.size(), {});
+  stars_.assign(points_.size(), {});
   for (const LocalTet& t : tets) {
     for (LocalVertex v : t.vertices) {
       if (v != infinity()) ++stars_[v].capacity;
@@ -80,9 +88,9 @@ void TetMesh::count_stars(std::span<const LocalTet> tets) {
 }
 
 void TetMesh::classify_vertices() {
-  free_.assign(vertices_.size(), 0);
-  orders_.assign(vertices_.size(), 0);
-  signatures_.assign(vertices_.size(), 0);
+  free_.assign(points_.size(), 0);
+  orders_.assign(points_.size(), 0);
+  signatures_.assign(points_.size(), 0);
   for (LocalVertex v = 0; v < vertex_count(); ++v) {
     marks_.clear();
     std::size_t link_vertices = 0;
@@ -179,8 +187,8 @@ void TetMesh::contract(LocalVertex keep, LocalVertex drop, Point position, const
 
 void TetMesh::move(LocalVertex v, Point position, const Quadric& quadric) {
   MW_ASSERT(is_free(v));
-  vertices_[v].position = position;
-  vertices_[v].quadric = quadric;
+  points_[v] = position;
+  quadrics_[v] = quadric;
   ++versions_[v];
 }
 
@@ -202,6 +210,7 @@ void TetMesh::remove_tet(const LocalTet& tet) {
     });
     MW_ASSERT(found != entries.end());
     erase(v, static_cast<std::uint32_t>(found - entries.begin()));
+    ++versions_[v];
   }
 }
 
@@ -213,6 +222,20 @@ std::vector<LocalTet> TetMesh::tets() const {
         out.push_back({{v, t.a, t.b, t.c}, t.label});
       }
     }
+  }
+  return out;
+}
+
+std::vector<BlockTet> TetMesh::sorted_tets() const {
+  std::vector<BlockTet> out;
+  for (LocalVertex v = 0; v < vertex_count(); ++v) {
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    for (const LinkTriangle& t : star(v)) {
+      if (v > t.a || v > t.b || v > t.c || t.label == kExterior) continue;
+      const auto [low, high] = std::minmax({t.a, t.b, t.c});
+      out.push_back({{v, low, t.a ^ t.b ^ t.c ^ low ^ high, high}, t.label});
+    }
+    std::sort(out.begin() + first, out.end());
   }
   return out;
 }

@@ -61,20 +61,23 @@ class TetMesh {
   /// Local vertices are the rows of `vertices`.
   /// REQUIRES: vertices ascending by id; tets by rows, in a canonical order, all within
   /// kMaxTetExtent and not flat; box = far corner of the volume in lattice units.
-  TetMesh(std::vector<BlockVertex> vertices, std::span<const BlockTet> tets, Point box);
+  TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box);
 
   [[nodiscard]] LocalVertex vertex_count() const {
-    return static_cast<LocalVertex>(vertices_.size());
+    return static_cast<LocalVertex>(points_.size());
   }
   [[nodiscard]] LocalVertex infinity() const { return vertex_count(); }
 
-  [[nodiscard]] const BlockVertex& vertex(LocalVertex v) const { return vertices_[v]; }
-  [[nodiscard]] Point position(LocalVertex v) const { return vertices_[v].position; }
-  [[nodiscard]] const Quadric& quadric(LocalVertex v) const { return vertices_[v].quadric; }
+  [[nodiscard]] BlockVertex vertex(LocalVertex v) const {
+    return {ids_[v], points_[v], quadrics_[v]};
+  }
+  [[nodiscard]] VertexId id(LocalVertex v) const { return ids_[v]; }
+  [[nodiscard]] Point position(LocalVertex v) const { return points_[v]; }
+  [[nodiscard]] const Quadric& quadric(LocalVertex v) const { return quadrics_[v]; }
   [[nodiscard]] BoxPlanes planes(LocalVertex v) const { return planes_[v]; }
   [[nodiscard]] bool is_free(LocalVertex v) const { return free_[v] != 0; }
   [[nodiscard]] bool is_alive(LocalVertex v) const { return stars_[v].size != 0; }
-  /// Changes whenever v moves or another vertex is merged into it.
+  /// Changes whenever v moves, another vertex is merged into it, or a tet at it is removed.
   [[nodiscard]] std::uint32_t version(LocalVertex v) const { return versions_[v]; }
 
   /// The loaded tetrahedra at v, virtual ones included.  Invalid after any change of the mesh.
@@ -109,6 +112,8 @@ class TetMesh {
 
   /// Every tetrahedron once (virtual ones excluded): positive, grouped by its smallest vertex.
   [[nodiscard]] std::vector<LocalTet> tets() const;
+  /// Every tetrahedron once (virtual ones excluded), vertices ascending, in ascending order.
+  [[nodiscard]] std::vector<BlockTet> sorted_tets() const;
 
  private:
   struct Star {
@@ -126,7 +131,10 @@ class TetMesh {
   void replace_in_link(LocalVertex keep, LocalVertex drop);
   void merge_stars(LocalVertex keep, LocalVertex drop);
 
-  std::vector<BlockVertex> vertices_;
+  // Positions are read far more often than anything else, so they lie together.
+  std::vector<Point> points_;
+  std::vector<VertexId> ids_;
+  std::vector<Quadric> quadrics_;
   std::vector<BoxPlanes> planes_;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> orders_;

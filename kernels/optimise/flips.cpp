@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Edge removal by dynamic programming and the 2-3 flip.
+// Edge removal by dynamic programming.
 #include "kernels/optimise/flips.h"
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "kernels/quality/mesh_quality.h"
 
@@ -129,37 +128,6 @@ bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
   const bool on_guarded_surface =
       polygons_.size() == 2 && polygons_[0].label != kExterior && polygons_[1].label != kExterior;
   if (guard_ != nullptr && on_guarded_surface) guard_->commit();
-  return true;
-}
-
-bool Flipper::remove_face(LocalVertex a, LocalVertex b, LocalVertex c, LocalVertex d) {
-  std::optional<LocalTet> other;
-  Label label = kExterior;
-  for (const LinkTriangle& t : mesh_.star(b)) {
-    if (!t.has(c) || !t.has(d)) continue;
-    if (t.has(a)) {
-      label = t.label;
-    } else {
-      other = LocalTet{{b, t.a, t.b, t.c}, t.label};
-    }
-  }
-  if (!other || label != other->label || label == kExterior) return false;
-  LocalVertex e = other->vertices[1];
-  for (LocalVertex v : other->vertices) {
-    if (v != b && v != c && v != d) e = v;
-  }
-  old_tets_.assign({LocalTet{{a, b, c, d}, label}, *other});
-  new_tets_.assign({LocalTet{{e, a, b, d}, label}, LocalTet{{e, a, d, c}, label},
-                    LocalTet{{e, a, c, b}, label}});
-  double gain = energy_of_old_tets();
-  for (const LocalTet& t : new_tets_) {
-    gain -= energy_of(t);
-    if (!(gain > kLeastGain)) return false;
-  }
-  for (const LocalTet& t : new_tets_) {
-    if (!is_positive(mesh_, t)) return false;
-  }
-  replace();
   return true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Reconnection: edge removal (3-2, 4-4 and up), also across an interface or the box, and 2-3 flips.
+// Reconnection: edge removal (3-2, 4-4 and up), also across an interface or the box.
 #pragma once
 
 #include <array>
@@ -28,6 +28,9 @@ namespace mw {
 ///
 /// A flip must gain at least kLeastGain: the same tet listed in another order has a radius ratio
 /// that differs in the last bits, and a gain of that size would flip back and forth for ever.
+///
+/// There is no 2-3 flip: three tets for two hardly ever have less energy (0 of 440,000 tries on
+/// EM), and edge removal makes the same meshes.
 class Flipper {
  public:
   /// guard: keeps the distance bound; null: no bound.
@@ -38,10 +41,6 @@ class Flipper {
   /// both ends (dynamic programming over at most kMaxRing vertices).  On a surface the polygon is
   /// cut in two by the new edge (a, b).
   bool remove_edge(LocalVertex p, LocalVertex q);
-
-  /// Replaces the two tets at face (b, c, d) of tet (a, b, c, d), of one label, by three around a
-  /// new edge.
-  bool remove_face(LocalVertex a, LocalVertex b, LocalVertex c, LocalVertex d);
 
  private:
   static constexpr std::size_t kMaxRing = 7;

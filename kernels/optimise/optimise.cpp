@@ -3,6 +3,7 @@
 // Sweeps in ascending vertex order.
 #include "kernels/optimise/optimise.h"
 
+#include "kernels/mesh/failed_pairs.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/optimise/smooth.h"
 #include "kernels/quality/mesh_quality.h"
@@ -10,25 +11,41 @@
 namespace mw {
 namespace {
 
-/// Tries every flip of tet (v, t.a, t.b, t.c); true after the first that succeeds.
-bool improve_tet(Flipper& flipper, LocalVertex v, const LinkTriangle& t) {
-  return flipper.remove_edge(v, t.a) || flipper.remove_edge(v, t.b) ||
-         flipper.remove_edge(v, t.c) || flipper.remove_edge(t.a, t.b) ||
-         flipper.remove_edge(t.b, t.c) || flipper.remove_edge(t.c, t.a) ||
-         flipper.remove_face(v, t.a, t.b, t.c) || flipper.remove_face(t.a, v, t.c, t.b) ||
-         flipper.remove_face(t.b, v, t.a, t.c) || flipper.remove_face(t.c, v, t.b, t.a);
-}
+/// Flips edges, but not one again that failed and did not change since.
+class EdgeFlips {
+ public:
+  EdgeFlips(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard)
+      : mesh_(mesh), flipper_(mesh, metric, quality_floor, guard) {}
+
+  /// Tries the edges of tet (v, t.a, t.b, t.c); true after the first flip that succeeds.
+  bool improve_tet(LocalVertex v, const LinkTriangle& t) {
+    return improve_edge(v, t.a) || improve_edge(v, t.b) || improve_edge(v, t.c) ||
+           improve_edge(t.a, t.b) || improve_edge(t.b, t.c) || improve_edge(t.c, t.a);
+  }
+
+ private:
+  bool improve_edge(LocalVertex p, LocalVertex q) {
+    if (failed_.contains(mesh_, p, q)) return false;
+    if (flipper_.remove_edge(p, q)) return true;
+    failed_.insert(mesh_, p, q);
+    return false;
+  }
+
+  TetMesh& mesh_;
+  Flipper flipper_;
+  FailedPairs failed_;
+};
 
 std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                          DistanceGuard* guard) {
-  Flipper flipper(mesh, metric, options.quality_floor, guard);
+  EdgeFlips flipper(mesh, metric, options.quality_floor, guard);
   std::uint64_t flips = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     for (std::size_t i = 0; i < mesh.star(v).size();) {
       const LinkTriangle t = mesh.star(v)[i];
       const bool mine = v < t.a && v < t.b && v < t.c && t.label != kExterior;
       if (mine && radius_ratio(mesh, metric, mesh.position(v), t) < options.flip_below &&
-          improve_tet(flipper, v, t)) {
+          flipper.improve_tet(v, t)) {
         ++flips;
         i = 0;
       } else {
@@ -41,11 +58,11 @@ std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOpti
 
 std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                            DistanceGuard* guard) {
+  const SmoothOptions smooth{options.smooth_below, options.quality_floor};
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
-    if (worst_of_star(mesh, metric, v) >= options.smooth_below) continue;
-    moves += smooth_vertex(mesh, metric, v, options.quality_floor, guard) ? 1U : 0U;
+    moves += smooth_vertex(mesh, metric, v, smooth, guard) ? 1U : 0U;
   }
   return moves;
 }

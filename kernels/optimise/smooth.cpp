@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Pattern search for the position of least shape energy.
+// Newton's method on a convex energy, accepted by the shape energy.
 #include "kernels/optimise/smooth.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -13,17 +14,20 @@ namespace mw {
 namespace {
 
 constexpr double kInterfaceSlack = 0.25;
-constexpr int kHalvings = 4;
+constexpr int kNewtonSteps = 2;
+
+/// Weight of the quadric beside the energy: at its limit it costs this share of the star.
+constexpr double kQuadricShare = 0.1;
+
+/// A move must lower the energy by this share: tiny moves would only keep stars from coming to
+/// rest.
+constexpr double kLeastGain = 0.002;
 
 /// What a move of one vertex has to respect.
 class Mover {
  public:
-  Mover(const TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor)
-      : mesh_(mesh),
-        metric_(metric),
-        v_(v),
-        fixed_(fixed_axes(mesh.planes(v))),
-        least_(least_allowed(worst_of_star(mesh, metric, v), quality_floor)) {
+  Mover(const TetMesh& mesh, const Metric& metric, LocalVertex v, double least)
+      : mesh_(mesh), metric_(metric), v_(v), fixed_(fixed_axes(mesh.planes(v))), least_(least) {
     if (mesh.on_interface(v)) {
       const Quadric& q = mesh.quadric(v);
       quadric_limit_ = std::max(q.c, kInterfaceSlack * q.trace());
@@ -59,31 +63,50 @@ class Mover {
     return star_energy(mesh_, metric_, v_, x, least_, enough);
   }
 
-  /// Mean of the link triangles' corners: where the vertex would go by Laplacian smoothing.
-  [[nodiscard]] Vec3 to_centroid() const {
-    Vec3 sum = Vec3::Zero();
-    double count = 0.0;
+  /// Newton's step for the sum of s^3 / v^2 over the star, s the sum of a tet's six squared edges
+  /// and v its volume (times 6): a convex function of the position wherever all tets are positive,
+  /// least for regular tets, and free of square roots.  On interfaces the quadric is added.
+  [[nodiscard]] Vec3 newton_step(Point x) const {
+    Vec3 gradient = Vec3::Zero();
+    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+    double sum = 0.0;
     for (const LinkTriangle& t : mesh_.star(v_)) {
       if (t.label == kExterior) continue;
-      for (LocalVertex w : {t.a, t.b, t.c}) {
-        sum += metric_.vector(mesh_.position(v_), mesh_.position(w));
-      }
-      count += 3.0;
+      const TetEdges e =
+          tet_edges(metric_, x, mesh_.position(t.a), mesh_.position(t.b), mesh_.position(t.c));
+      const Vec3 ab = e.b - e.a, ac = e.c - e.a;
+      const Vec3 dv = -ab.cross(ac), ds = -2.0 * (e.a + e.b + e.c);
+      const double s = e.a.squaredNorm() + e.b.squaredNorm() + e.c.squaredNorm() +
+                       ab.squaredNorm() + ac.squaredNorm() + (ac - ab).squaredNorm();
+      const double r = s / -e.a.dot(dv);
+      const Vec3 u = r * (ds - r * dv);
+      sum += s * r * r;
+      gradient += r * r * (3.0 * ds - 2.0 * r * dv);
+      hessian += 6.0 / s * u * u.transpose();
+      hessian.diagonal().array() += 18.0 * r * r;
     }
-    return sum / count;
-  }
-
-  [[nodiscard]] double reach() const {
-    double longest = 0.0;
-    for (const LinkTriangle& t : mesh_.star(v_)) {
-      if (t.label == kExterior) continue;
-      const Vec3 a = metric_.vector(mesh_.position(v_), mesh_.position(t.a));
-      longest = std::max(longest, a.squaredNorm());
+    if (quadric_limit_) {
+      const double weight = kQuadricShare * sum / *quadric_limit_;
+      const Quadric q = mesh_.quadric(v_).shifted(metric_.vector(mesh_.position(v_), x));
+      gradient += 2.0 * weight * q.linear();
+      hessian += 2.0 * weight * q.matrix();
     }
-    return std::sqrt(longest);
+    return solve(hessian, gradient);
   }
 
  private:
+  /// -hessian^-1 gradient over the axes along which the vertex may move.
+  [[nodiscard]] Vec3 solve(Eigen::Matrix3d hessian, Vec3 gradient) const {
+    for (int i = 0; i < 3; ++i) {
+      if ((fixed_ >> i & 1U) == 0) continue;
+      hessian.row(i).setZero();
+      hessian.col(i).setZero();
+      hessian(i, i) = 1.0;
+      gradient[i] = 0.0;
+    }
+    return -hessian.llt().solve(gradient);
+  }
+
   const TetMesh& mesh_;
   const Metric& metric_;
   LocalVertex v_;
@@ -107,29 +130,28 @@ struct Best {
 };
 
 void search(const Mover& mover, Best& best) {
-  const Vec3 way = mover.to_centroid();
-  const Point start = best.position;
-  for (double step : {1.0, 0.5, 0.25}) best.offer(mover, mover.target(start, step * way));
-  double h = 0.25 * mover.reach();
-  for (int halving = 0; halving < kHalvings; ++halving, h *= 0.5) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vec3 step = h * Vec3::Unit(axis);
-      if (!best.offer(mover, mover.target(best.position, step))) {
-        best.offer(mover, mover.target(best.position, -step));
-      }
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const Point start = best.position;
+    const Vec3 way = mover.newton_step(start);
+    bool moved = false;
+    for (double step = 1.0; step > 0.2 && !moved; step *= 0.5) {
+      moved = best.offer(mover, mover.target(start, step * way));
     }
+    if (!moved) return;
   }
 }
 
 }  // namespace
 
-bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor,
+bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, const SmoothOptions& options,
                    DistanceGuard* guard) {
-  const Mover mover(mesh, metric, v, quality_floor);
+  const StarShape present = star_shape(mesh, metric, v);
+  if (present.worst >= options.smooth_below) return false;
+  const Mover mover(mesh, metric, v, least_allowed(present.worst, options.quality_floor));
   const Point start = mesh.position(v);
-  Best best{start, mover.energy(start, std::numeric_limits<double>::infinity())};
+  Best best{start, present.energy};
   search(mover, best);
-  if (best.position == start) return false;
+  if (best.energy > (1.0 - kLeastGain) * present.energy) return false;
   const bool guarded = guard != nullptr && mesh.on_interface(v);
   if (guarded && !guard->allows_move(mesh, v, best.position)) return false;
   const Vec3 move = metric.vector(start, best.position);

@@ -8,7 +8,12 @@
 
 namespace mw {
 
-/// Moves v, if that lowers the shape energy of its star (kernels/quality/mesh_quality.h).
+struct SmoothOptions {
+  double smooth_below = 0.8;   ///< vertices whose worst tet reaches this are left alone
+  double quality_floor = 0.1;  ///< no move creates a tet below, unless it replaces a worse one
+};
+
+/// Moves v, if that clearly lowers the shape energy of its star (kernels/quality/mesh_quality.h).
 ///
 /// Inner vertices move freely, box vertices within their planes, interface vertices only where
 /// their quadric stays below max(present value, a quarter voxel squared per accumulated plane): the
@@ -16,7 +21,7 @@ namespace mw {
 /// as well.
 /// REQUIRES: v free.  ENSURES: all tets exactly positive; connectivity unchanged, so topology is.
 /// Returns true when v moved.
-bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor,
+bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, const SmoothOptions& options,
                    DistanceGuard* guard = nullptr);
 
 }  // namespace mw

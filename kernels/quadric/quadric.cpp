@@ -6,19 +6,12 @@
 #include <Eigen/Dense>
 
 namespace mw {
-namespace {
 
-Eigen::Matrix3d matrix(const Quadric& q) {
+Eigen::Matrix3d Quadric::matrix() const {
   Eigen::Matrix3d m;
-  m << q.a[0], q.a[1], q.a[2], q.a[1], q.a[3], q.a[4], q.a[2], q.a[4], q.a[5];
+  m << a[0], a[1], a[2], a[1], a[3], a[4], a[2], a[4], a[5];
   return m;
 }
-
-Vec3 linear(const Quadric& q) {
-  return {q.b[0], q.b[1], q.b[2]};
-}
-
-}  // namespace
 
 void Quadric::add_axis_plane(int axis, double weight) {
   constexpr std::array<std::size_t, 3> kDiagonal{0, 3, 5};
@@ -44,11 +37,11 @@ void Quadric::add_point(double weight) {
 }
 
 double Quadric::value(const Vec3& x) const {
-  return x.dot(matrix(*this) * x) + 2.0 * linear(*this).dot(x) + c;
+  return x.dot(matrix() * x) + 2.0 * linear().dot(x) + c;
 }
 
 Quadric Quadric::shifted(const Vec3& offset) const {
-  const Vec3 slope = matrix(*this) * offset;
+  const Vec3 slope = matrix() * offset;
   Quadric out = *this;
   for (std::size_t i = 0; i < 3; ++i) out.b[i] += slope[static_cast<Eigen::Index>(i)];
   out.c = value(offset);
@@ -64,8 +57,8 @@ Quadric operator+(const Quadric& p, const Quadric& q) {
 }
 
 QuadricMinimum minimum(const Quadric& q, unsigned fixed_axes) {
-  Eigen::Matrix3d m = matrix(q);
-  Vec3 b = linear(q);
+  Eigen::Matrix3d m = q.matrix();
+  Vec3 b = q.linear();
   for (int i = 0; i < 3; ++i) {
     if ((fixed_axes >> i & 1U) == 0) continue;
     m.row(i).setZero();

@@ -27,6 +27,8 @@ struct Quadric {
   /// Eq (2): squared distance to the owner's position.
   void add_point(double weight);
 
+  [[nodiscard]] Eigen::Matrix3d matrix() const;  ///< A
+  [[nodiscard]] Vec3 linear() const { return {b[0], b[1], b[2]}; }
   [[nodiscard]] double trace() const { return a[0] + a[3] + a[5]; }
   [[nodiscard]] double value(const Vec3& x) const;
   /// The same function, relative to a position at `offset` from the present one.

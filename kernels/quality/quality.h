@@ -28,6 +28,27 @@ struct TetEdges {
   return 6.0 * v6 * v6 / (area * w.norm());
 }
 
+/// True when radius_ratio(t) >= floor, up to rounding in the last digits; far cheaper, because the
+/// sum A of the four |n| lies between the root of their sum of squares and twice that, which
+/// decides most cases without a square root.
+[[nodiscard]] inline bool reaches_ratio(const TetEdges& t, double floor) {
+  constexpr double kRounding = 1e-12;
+  const Vec3 n1 = t.b.cross(t.c), n2 = t.c.cross(t.a), n3 = t.a.cross(t.b);
+  const double v6 = t.a.dot(n1);
+  if (v6 <= 0.0) return false;
+  const double q1 = n1.squaredNorm(), q2 = n2.squaredNorm(), q3 = n3.squaredNorm(),
+               q4 = (n1 + n2 + n3).squaredNorm();
+  const Vec3 w = t.a.squaredNorm() * n1 + t.b.squaredNorm() * n2 + t.c.squaredNorm() * n3;
+  // (6 v6^2)^2 >= floor^2 A^2 |w|^2
+  const double reached = 36.0 * v6 * v6 * v6 * v6;
+  const double wanted = floor * floor * w.squaredNorm() * (1.0 + kRounding);
+  const double squares = q1 + q2 + q3 + q4;
+  if (reached >= wanted * 4.0 * squares) return true;
+  if (reached < wanted * squares) return false;
+  const double area = std::sqrt(q1) + std::sqrt(q2) + std::sqrt(q3) + std::sqrt(q4);
+  return reached >= wanted * area * area;
+}
+
 /// Normalised edge length variance, Eq (3): variance of the six edge lengths over their squared
 /// mean.
 [[nodiscard]] inline double edge_length_variance(const TetEdges& t) {

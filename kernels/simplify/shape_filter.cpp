@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Exact positivity, quality floor and Eq (3) over the changed tets of a contraction.
+// Quality floor and Eq (3), then exact positivity, over the changed tets of a contraction.
 #include "kernels/simplify/shape_filter.h"
 
 #include <algorithm>
@@ -17,55 +17,97 @@ bool within_extent(Point a, Point b) {
          std::abs(std::int64_t{a.z} - b.z) < kMaxTetExtent / 2;
 }
 
-/// Calls visit(triangle) for each real tet at v that survives without `other`; stops on false.
+/// Calls visit(triangle) for each real tet at v that survives without `other`, until a verdict is
+/// not good.
 template <typename Visit>
-bool each_survivor(const TetMesh& mesh, LocalVertex v, LocalVertex other, Visit visit) {
+ShapeVerdict each_survivor(const TetMesh& mesh, LocalVertex v, LocalVertex other, Visit visit) {
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior || t.has(other)) continue;
-    if (!visit(t)) return false;
+    const ShapeVerdict verdict = visit(t);
+    if (verdict != ShapeVerdict::kGood) return verdict;
   }
-  return true;
+  return ShapeVerdict::kGood;
 }
 
-bool positive_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x) {
-  return each_survivor(mesh, v, other, [&](const LinkTriangle& t) {
-    const Point a = mesh.position(t.a), b = mesh.position(t.b), c = mesh.position(t.c);
-    return within_extent(x, a) && within_extent(x, b) && within_extent(x, c) &&
-           volume6(x, a, b, c) > 0;
-  });
-}
-
-/// True when all survivors reach `floor` from x (and stay below the variance bound).
-bool good_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other, Point x,
-             double floor, const std::optional<double>& variance) {
+/// In floating point: rejects most of what is inverted, and all that is badly shaped.
+ShapeVerdict shape_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other,
+                      Point x, double floor, const std::optional<double>& variance) {
   return each_survivor(mesh, v, other, [&](const LinkTriangle& t) {
     const TetEdges edges =
         tet_edges(metric, x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c));
-    return radius_ratio(edges) >= floor && (!variance || edge_length_variance(edges) < *variance);
+    if (edges.a.dot(edges.b.cross(edges.c)) <= 0.0) return ShapeVerdict::kInverted;
+    const bool good =
+        reaches_ratio(edges, floor) && (!variance || edge_length_variance(edges) < *variance);
+    return good ? ShapeVerdict::kGood : ShapeVerdict::kLowQuality;
+  });
+}
+
+/// In whole numbers: what counts.
+ShapeVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x) {
+  return each_survivor(mesh, v, other, [&](const LinkTriangle& t) {
+    const Point a = mesh.position(t.a), b = mesh.position(t.b), c = mesh.position(t.c);
+    const bool positive = within_extent(x, a) && within_extent(x, b) && within_extent(x, c) &&
+                          volume6(x, a, b, c) > 0;
+    return positive ? ShapeVerdict::kGood : ShapeVerdict::kInverted;
   });
 }
 
 }  // namespace
 
-ShapeVerdict judge_shape(const TetMesh& mesh, const Metric& metric, const Contraction& c,
-                         const SimplifyOptions& options) {
-  if (!positive_at(mesh, c.drop, c.keep, c.position) ||
-      (c.moves && !positive_at(mesh, c.keep, c.drop, c.position))) {
-    return ShapeVerdict::kInverted;
+ShapeFilter::ShapeFilter(const TetMesh& mesh, const Metric& metric, const SimplifyOptions& options)
+    : mesh_(mesh), metric_(metric), options_(options), poor_(mesh.vertex_count(), 0) {
+  const double floor = options.quality_floor;
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    for (const LinkTriangle& t : mesh.star(v)) {
+      if (t.label == kExterior || v > t.a || v > t.b || v > t.c) continue;
+      const TetEdges edges = tet_edges(metric, mesh.position(v), mesh.position(t.a),
+                                       mesh.position(t.b), mesh.position(t.c));
+      if (!reaches_ratio(edges, floor)) poor_[v] = poor_[t.a] = poor_[t.b] = poor_[t.c] = 1;
+    }
   }
-  const auto reaches = [&](double floor) {
-    return good_at(mesh, metric, c.drop, c.keep, c.position, floor, options.edge_variance) &&
-           (!c.moves ||
-            good_at(mesh, metric, c.keep, c.drop, c.position, floor, options.edge_variance));
-  };
-  const bool moves_inner = mesh.order(c.keep) == 1 || mesh.order(c.drop) == 1;
-  const double floor =
-      moves_inner ? std::max(options.quality_floor, options.inner_quality) : options.quality_floor;
-  if (reaches(floor)) return ShapeVerdict::kGood;
+}
+
+double ShapeFilter::floor_for(const Contraction& c) const {
+  const bool moves_inner = mesh_.order(c.keep) == 1 || mesh_.order(c.drop) == 1;
+  return moves_inner ? std::max(options_.quality_floor, options_.inner_quality)
+                     : options_.quality_floor;
+}
+
+ShapeVerdict ShapeFilter::judge(const Contraction& c, double floor) const {
+  ShapeVerdict verdict =
+      shape_at(mesh_, metric_, c.drop, c.keep, c.position, floor, options_.edge_variance);
+  if (verdict == ShapeVerdict::kGood && c.moves) {
+    verdict = shape_at(mesh_, metric_, c.keep, c.drop, c.position, floor, options_.edge_variance);
+  }
+  if (verdict == ShapeVerdict::kGood) verdict = sign_at(mesh_, c.drop, c.keep, c.position);
+  if (verdict == ShapeVerdict::kGood && c.moves) {
+    verdict = sign_at(mesh_, c.keep, c.drop, c.position);
+  }
+  return verdict;
+}
+
+ShapeVerdict ShapeFilter::judge(const Contraction& c) {
+  const double floor = floor_for(c);
+  const ShapeVerdict verdict = judge(c, floor);
+  const bool may_be_poor = poor_[c.keep] != 0 || poor_[c.drop] != 0;
+  if (verdict != ShapeVerdict::kLowQuality || !may_be_poor) return verdict;
   const double present =
-      std::min(worst_of_star(mesh, metric, c.drop), worst_of_star(mesh, metric, c.keep));
-  if (present < floor && reaches(present)) return ShapeVerdict::kGood;
-  return ShapeVerdict::kLowQuality;
+      std::min(worst_of_star(mesh_, metric_, c.drop), worst_of_star(mesh_, metric_, c.keep));
+  if (present >= options_.quality_floor) return verdict;
+  const ShapeVerdict again = judge(c, present);
+  if (again == ShapeVerdict::kGood) mark_poor(c);
+  return again;
+}
+
+/// The tets that the contraction leaves may be below the floor.
+void ShapeFilter::mark_poor(const Contraction& c) {
+  for (LocalVertex v : {c.keep, c.drop}) {
+    for (const LinkTriangle& t : mesh_.star(v)) {
+      for (LocalVertex w : {t.a, t.b, t.c}) {
+        if (w != mesh_.infinity()) poor_[w] = 1;
+      }
+    }
+  }
 }
 
 }  // namespace mw

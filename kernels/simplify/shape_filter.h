@@ -3,6 +3,8 @@
 // Geometric filters of a contraction: exact positivity, radius ratio floor, edge length variance.
 #pragma once
 
+#include <vector>
+
 #include "kernels/simplify/contraction.h"
 #include "kernels/simplify/simplify.h"
 
@@ -10,11 +12,29 @@ namespace mw {
 
 enum class ShapeVerdict { kGood, kInverted, kLowQuality };
 
-/// Judges the tets that contraction c would leave around the surviving vertex.
-/// Positivity is exact and comes first: with it the ambient link condition holds (topology.md D.3)
-/// and contractions of Cases 1 and 2 keep every region as a point set.
-/// Cost: O(stars); no allocation.
-[[nodiscard]] ShapeVerdict judge_shape(const TetMesh& mesh, const Metric& metric,
-                                       const Contraction& c, const SimplifyOptions& options);
+/// Judges the tets that contractions would leave around the surviving vertex.
+class ShapeFilter {
+ public:
+  /// Keeps references.  The mesh may change only by contractions that were found good here.
+  ShapeFilter(const TetMesh& mesh, const Metric& metric, const SimplifyOptions& options);
+
+  /// Good: all tets are positive, exactly (with that the ambient link condition holds, topology.md
+  /// D.3, and contractions of Cases 1 and 2 keep every region as a point set), and reach the floor,
+  /// or where the present ones do not reach quality_floor, the worst of those.
+  /// Cost: O(stars); no allocation.
+  [[nodiscard]] ShapeVerdict judge(const Contraction& c);
+
+ private:
+  [[nodiscard]] double floor_for(const Contraction& c) const;
+  [[nodiscard]] ShapeVerdict judge(const Contraction& c, double floor) const;
+  void mark_poor(const Contraction& c);
+
+  const TetMesh& mesh_;
+  const Metric& metric_;
+  const SimplifyOptions& options_;
+  /// Vertices that had a tet below quality_floor at some time; only there is the fallback looked
+  /// at.
+  std::vector<std::uint8_t> poor_;
+};
 
 }  // namespace mw

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "kernels/mesh/failed_pairs.h"
 #include "kernels/mesh/vertex_marks.h"
 #include "kernels/simplify/contraction.h"
 #include "kernels/simplify/shape_filter.h"
@@ -15,47 +16,14 @@
 namespace mw {
 namespace {
 
-/// Remembers pairs that failed, until one of them changes.  Direct-mapped and of fixed size: a lost
-/// entry costs one more try, and the same one in every run.
-class FailedPairs {
- public:
-  FailedPairs() : entries_(kSize) {}
-
-  [[nodiscard]] bool contains(const TetMesh& mesh, LocalVertex p, LocalVertex q) const {
-    return entries_[slot(p, q)] == entry(mesh, p, q);
-  }
-  void insert(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
-    entries_[slot(p, q)] = entry(mesh, p, q);
-  }
-
- private:
-  static constexpr std::size_t kSize = std::size_t{1} << 14;
-  struct Entry {
-    LocalVertex p = 0, q = 0;
-    std::uint32_t version_p = 0, version_q = 0;
-    friend bool operator==(const Entry&, const Entry&) = default;
-  };
-
-  static std::size_t slot(LocalVertex p, LocalVertex q) {
-    const std::uint64_t key = std::uint64_t{std::min(p, q)} << 32 | std::max(p, q);
-    return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> 50);
-  }
-  static Entry entry(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
-    if (p > q) std::swap(p, q);
-    return {p, q, mesh.version(p), mesh.version(q)};
-  }
-
-  std::vector<Entry> entries_;
-};
-
 class Simplifier {
  public:
   Simplifier(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
              DistanceGuard* guard)
       : mesh_(mesh),
         metric_(metric),
-        options_(options),
         guard_(guard),
+        shape_(mesh, metric, options),
         topology_(mesh),
         edge_labels_(mesh.vertex_count() + 1),
         neighbour_marks_(mesh.vertex_count() + 1) {}
@@ -134,7 +102,7 @@ class Simplifier {
 
   bool try_contraction(const Contraction& c) {
     ++stats_.tried;
-    switch (judge_shape(mesh_, metric_, c, options_)) {
+    switch (shape_.judge(c)) {
       case ShapeVerdict::kInverted:
         ++stats_.inverted;
         return false;
@@ -163,9 +131,9 @@ class Simplifier {
 
   TetMesh& mesh_;
   const Metric& metric_;
-  const SimplifyOptions& options_;
   DistanceGuard* guard_;
   VertexQueue queue_;
+  ShapeFilter shape_;
   CollapseTest topology_;
   FailedPairs failed_;
   std::vector<std::uint64_t> edge_labels_;
