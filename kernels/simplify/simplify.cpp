@@ -56,14 +56,16 @@ class Simplifier {
         metric_(metric),
         options_(options),
         guard_(guard),
+        queue_(mesh.vertex_count()),
         topology_(mesh),
         edge_labels_(mesh.vertex_count() + 1),
         neighbour_marks_(mesh.vertex_count() + 1) {}
 
   SimplifyStats run() {
-    for (LocalVertex v = 0; v < mesh_.vertex_count(); ++v) {
-      if (mesh_.is_free(v)) queue_.push(v, 0.0);
-    }
+    options_.seeding(mesh_.vertex_count(), [this](std::size_t first, std::size_t last) {
+      Simplifier scout(mesh_, metric_, options_, nullptr);
+      scout.push_cheapest(first, last, queue_);
+    });
     std::vector<LocalVertex> round;
     while (queue_.take_round(round)) {
       for (LocalVertex v : round) {
@@ -74,6 +76,16 @@ class Simplifier {
   }
 
  private:
+  /// Files the free vertices of [first, last) under the cost of their cheapest candidate.  The mesh
+  /// is only read and the scratch is this object's own, so many scouts may be at it.
+  void push_cheapest(std::size_t first, std::size_t last, VertexQueue& queue) {
+    for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
+      if (!mesh_.is_free(v)) continue;
+      collect_candidates(v);
+      if (!candidates_.empty()) queue.push(v, candidates_.front().cost);
+    }
+  }
+
   /// Edges of v worth trying, cheapest first.  An edge between two vertices that never changed
   /// belongs to its smaller end; the others are looked at from both sides.
   void collect_candidates(LocalVertex v) {
