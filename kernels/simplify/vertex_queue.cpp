@@ -43,9 +43,8 @@ bool VertexQueue::take_round(std::vector<LocalVertex>& round) {
 
 bool VertexQueue::is_empty(std::size_t bucket) const {
   const auto first = bits_.begin() + static_cast<std::ptrdiff_t>(bucket * words_);
-  return std::all_of(first, first + static_cast<std::ptrdiff_t>(words_), [](const Word& w) {
-    return w.load(std::memory_order_relaxed) == 0;
-  });
+  return std::all_of(first, first + static_cast<std::ptrdiff_t>(words_),
+                     [](const Word& w) { return w.load(std::memory_order_relaxed) == 0; });
 }
 
 /// The vertices of word i in all buckets up to the current one.

@@ -62,9 +62,7 @@ class VertexQueue {
   using Word = std::atomic<std::uint64_t>;
   static_assert(Word::is_always_lock_free);
 
-  [[nodiscard]] Word& word(std::size_t bucket, std::size_t i) {
-    return bits_[bucket * words_ + i];
-  }
+  [[nodiscard]] Word& word(std::size_t bucket, std::size_t i) { return bits_[bucket * words_ + i]; }
   [[nodiscard]] bool is_empty(std::size_t bucket) const;
   [[nodiscard]] std::uint64_t take_word(std::size_t i);
 
