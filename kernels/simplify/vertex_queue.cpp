@@ -11,6 +11,15 @@ namespace {
 
 constexpr std::size_t kWordBits = 64;
 
+/// Counted rather than searched for: which bucket it is, no branch predictor can tell.
+std::size_t bucket_of(double cost) {
+  std::size_t bucket = 0;
+  for (std::size_t k = 0; k < VertexQueue::kBuckets; ++k) {
+    bucket += cost > VertexQueue::bound(k) ? 1U : 0U;
+  }
+  return bucket;
+}
+
 void append_bits(std::uint64_t bits, std::size_t first, std::vector<LocalVertex>& out) {
   for (; bits != 0; bits &= bits - 1) {
     out.push_back(
@@ -24,8 +33,7 @@ VertexQueue::VertexQueue(LocalVertex vertex_count)
     : words_((vertex_count + kWordBits - 1) / kWordBits), bits_(kBuckets * words_) {}
 
 void VertexQueue::push(LocalVertex v, double cost) {
-  std::size_t bucket = 0;
-  while (bucket < kBuckets && cost > bound(bucket)) ++bucket;
+  const std::size_t bucket = bucket_of(cost);
   if (bucket == kBuckets) return;
   const std::uint64_t bit = std::uint64_t{1} << (v % kWordBits);
   word(bucket, v / kWordBits).fetch_or(bit, std::memory_order_release);
