@@ -84,14 +84,15 @@ class ReferenceQueue {
   return out;
 }
 
-/// All rounds of a queue of this type; `push_all(queue, entries)` does the pushing.
+/// All rounds of a queue of this type, or a thousand of one that never ends; `push_all(queue,
+/// entries)` does the pushing.
 template <class Queue, class PushAll>
 [[nodiscard]] Rounds drain(const std::vector<Entry>& entries, LocalVertex vertices,
                            PushAll&& push_all) {
   Queue queue(vertices);
   push_all(queue, entries);
   Rounds rounds;
-  for (Round round; queue.take_round(round.vertices);) {
+  for (Round round; rounds.size() < 1000 && queue.take_round(round.vertices);) {
     round.bound = queue.current_bound();
     rounds.push_back(round);
     push_all(queue, follow_ups(round, rounds.size(), vertices));

@@ -39,7 +39,7 @@ void push_dealt(VertexQueue& queue, const std::vector<Entry>& entries, std::size
 
 TEST(Promise5SameBytes, VertexQueueForgetsWhichThreadPushed) {
   std::mt19937 random(711);
-  for (std::size_t i = 0; i < 120 && !HasFailure(); ++i) {
+  for (std::size_t i = 0; i < 64 && !HasFailure(); ++i) {
     const LocalVertex vertices = 1 + below(random, 500);
     const auto entries = random_entries(random, 2000, vertices);
     const auto push_all = [&](VertexQueue& queue, const std::vector<Entry>& all) {
@@ -87,7 +87,7 @@ void take_all(VertexQueue& queue, const std::vector<double>& written, Taken& tak
 /// The producer's plain write before a push is read by the owner after the take: a race, unless the
 /// queue orders the two.
 TEST(VertexQueue, OwnerMayDrainWhileProducersPush) {
-  constexpr LocalVertex kVertices = 4096;
+  constexpr LocalVertex kVertices = 1U << 14;
   std::mt19937 random(712);
   for (std::size_t i = 0; i < 60 && !HasFailure(); ++i) {
     const std::size_t producers = 1 + i % 8;
