@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Speed of the kernels on one window of a synthetic polycrystal: start mesh, contraction, sweeps.
 #include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
+#include "engine/tbb_for.h"
 #include "kernels/lattice/graded_start.h"
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
@@ -60,6 +63,25 @@ void contraction(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(contracted));
 }
 BENCHMARK(contraction)->Arg(0)->Arg(3)->Unit(benchmark::kMillisecond);
+
+/// simplify() of one dense window by the clock; the argument is the number of seeding threads, 0
+/// the loop without oneTBB.  Items are contractions.
+void seeding(benchmark::State& state) {
+  const auto threads = static_cast<std::size_t>(state.range(0));
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                  std::max<std::size_t>(threads, 1));
+  tbb::task_arena arena(std::max(static_cast<int>(threads), 1));
+  SimplifyOptions options;
+  if (threads != 0) options.seeding = engine::tbb_for;
+  const TetMesh start = window(0);
+  std::uint64_t contracted = 0;
+  for (auto _ : state) {
+    TetMesh mesh = start;
+    arena.execute([&] { contracted += simplify(mesh, Metric(), options).contracted; });
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(contracted));
+}
+BENCHMARK(seeding)->Arg(0)->Arg(1)->Arg(2)->Arg(4)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 /// Items are flips and moves.
 void sweep(benchmark::State& state) {

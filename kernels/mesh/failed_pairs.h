@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -11,11 +12,13 @@
 
 namespace mw {
 
-/// Direct-mapped and of fixed size, so that it stays in the cache: a lost entry costs one more try,
-/// and the same one in every run.
+/// Direct-mapped, of a size that follows from the mesh's and stays in the cache: a lost entry costs
+/// one more try, and the same one in every run.
 class FailedPairs {
  public:
-  FailedPairs() : entries_(kSize) {}
+  explicit FailedPairs(std::size_t vertices)
+      : entries_(std::bit_ceil(std::clamp(4 * vertices, kLeast, kMost))),
+        shift_(64 - std::countr_zero(entries_.size())) {}
 
   [[nodiscard]] bool contains(const TetMesh& mesh, LocalVertex p, LocalVertex q) const {
     return entries_[slot(p, q)] == entry(mesh, p, q);
@@ -25,16 +28,17 @@ class FailedPairs {
   }
 
  private:
-  static constexpr std::size_t kSize = std::size_t{1} << 14;
+  static constexpr std::size_t kLeast = std::size_t{1} << 6;
+  static constexpr std::size_t kMost = std::size_t{1} << 14;
   struct Entry {
     LocalVertex p = 0, q = 0;
     std::uint32_t version_p = 0, version_q = 0;
     friend bool operator==(const Entry&, const Entry&) = default;
   };
 
-  static std::size_t slot(LocalVertex p, LocalVertex q) {
+  [[nodiscard]] std::size_t slot(LocalVertex p, LocalVertex q) const {
     const std::uint64_t key = std::uint64_t{std::min(p, q)} << 32 | std::max(p, q);
-    return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> 50);
+    return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> shift_);
   }
   static Entry entry(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
     if (p > q) std::swap(p, q);
@@ -42,6 +46,7 @@ class FailedPairs {
   }
 
   std::vector<Entry> entries_;
+  int shift_;
 };
 
 }  // namespace mw

@@ -15,7 +15,7 @@ namespace {
 class EdgeFlips {
  public:
   EdgeFlips(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard)
-      : mesh_(mesh), flipper_(mesh, metric, quality_floor, guard) {}
+      : mesh_(mesh), flipper_(mesh, metric, quality_floor, guard), failed_(mesh.vertex_count()) {}
 
   /// Tries the edges of tet (v, t.a, t.b, t.c); true after the first flip that succeeds.
   bool improve_tet(LocalVertex v, const LinkTriangle& t) {

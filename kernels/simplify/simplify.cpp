@@ -16,35 +16,20 @@
 namespace mw {
 namespace {
 
-class Simplifier {
+/// Finds the edges of a vertex that are worth trying.  Only reads the mesh; the scratch is its own,
+/// so several may be at work on one mesh.
+class CandidateFinder {
  public:
-  Simplifier(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
-             DistanceGuard* guard)
+  CandidateFinder(const TetMesh& mesh, const Metric& metric)
       : mesh_(mesh),
         metric_(metric),
-        guard_(guard),
-        shape_(mesh, metric, options),
-        topology_(mesh),
+        failed_(mesh.vertex_count()),
         edge_labels_(mesh.vertex_count() + 1),
         neighbour_marks_(mesh.vertex_count() + 1) {}
 
-  SimplifyStats run() {
-    for (LocalVertex v = 0; v < mesh_.vertex_count(); ++v) {
-      if (mesh_.is_free(v)) queue_.push(v, 0.0);
-    }
-    std::vector<LocalVertex> round;
-    while (queue_.take_round(round)) {
-      for (LocalVertex v : round) {
-        if (mesh_.is_alive(v)) visit(v);
-      }
-    }
-    return stats_;
-  }
-
- private:
-  /// Edges of v worth trying, cheapest first.  An edge between two vertices that never changed
-  /// belongs to its smaller end; the others are looked at from both sides.
-  void collect_candidates(LocalVertex v) {
+  /// Candidates of v, cheapest first, until the next call.  An edge between two vertices that never
+  /// changed belongs to its smaller end; the others are looked at from both sides.
+  const std::vector<Contraction>& collect(LocalVertex v) {
     collect_neighbours(v);
     candidates_.clear();
     for (LocalVertex w : neighbours_) {
@@ -59,8 +44,13 @@ class Simplifier {
                 const auto ids = [](const Contraction& c) { return std::minmax(c.keep, c.drop); };
                 return ids(a) < ids(b);
               });
+    return candidates_;
   }
 
+  /// Not to be found again until one of the ends changes.
+  void forget(const Contraction& c) { failed_.insert(mesh_, c.keep, c.drop); }
+
+ private:
   void collect_neighbours(LocalVertex v) {
     neighbours_.clear();
     neighbour_marks_.clear();
@@ -84,10 +74,56 @@ class Simplifier {
     return std::popcount(edge) > 1 || mesh_.order(v) == 1 || mesh_.order(w) == 1;
   }
 
+  const TetMesh& mesh_;
+  const Metric& metric_;
+  FailedPairs failed_;
+  std::vector<std::uint64_t> edge_labels_;
+  VertexMarks neighbour_marks_;
+  std::vector<LocalVertex> neighbours_;
+  std::vector<Contraction> candidates_;
+};
+
+/// Files the free vertices of [first, last) under the cost of their cheapest candidate.
+void push_cheapest(CandidateFinder& finder, const TetMesh& mesh, std::size_t first,
+                   std::size_t last, VertexQueue& queue) {
+  for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
+    if (!mesh.is_free(v)) continue;
+    const std::vector<Contraction>& candidates = finder.collect(v);
+    if (!candidates.empty()) queue.push(v, candidates.front().cost);
+  }
+}
+
+class Simplifier {
+ public:
+  Simplifier(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
+             DistanceGuard* guard)
+      : mesh_(mesh),
+        metric_(metric),
+        options_(options),
+        guard_(guard),
+        queue_(mesh.vertex_count()),
+        finder_(mesh, metric),
+        shape_(mesh, metric, options),
+        topology_(mesh) {}
+
+  SimplifyStats run() {
+    options_.seeding(mesh_.vertex_count(), [this](std::size_t first, std::size_t last) {
+      CandidateFinder scout(mesh_, metric_);
+      push_cheapest(scout, mesh_, first, last, queue_);
+    });
+    std::vector<LocalVertex> round;
+    while (queue_.take_round(round)) {
+      for (LocalVertex v : round) {
+        if (mesh_.is_alive(v)) visit(v);
+      }
+    }
+    return stats_;
+  }
+
+ private:
   void visit(LocalVertex v) {
-    collect_candidates(v);
     const double bound = queue_.current_bound();
-    for (const Contraction& c : candidates_) {
+    for (const Contraction& c : finder_.collect(v)) {
       if (c.cost > bound) {
         queue_.push(v, c.cost);
         return;
@@ -96,7 +132,7 @@ class Simplifier {
         queue_.push(c.keep, 0.0);
         return;
       }
-      failed_.insert(mesh_, c.keep, c.drop);
+      finder_.forget(c);
     }
   }
 
@@ -131,15 +167,12 @@ class Simplifier {
 
   TetMesh& mesh_;
   const Metric& metric_;
+  const SimplifyOptions& options_;
   DistanceGuard* guard_;
   VertexQueue queue_;
+  CandidateFinder finder_;
   ShapeFilter shape_;
   CollapseTest topology_;
-  FailedPairs failed_;
-  std::vector<std::uint64_t> edge_labels_;
-  VertexMarks neighbour_marks_;
-  std::vector<LocalVertex> neighbours_;
-  std::vector<Contraction> candidates_;
   SimplifyStats stats_;
 };
 

@@ -1,23 +1,39 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The order of contraction: vertices in coarse cost buckets, each drained in id order.
+// The order of contraction: a lock-free queue of cost buckets, each drained in vertex order.
 #pragma once
 
-#include <algorithm>
-#include <array>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "kernels/mesh/tet_mesh.h"
 
 namespace mw {
 
-/// A queue of vertices keyed by the cost of their cheapest edge.
+/// A queue of vertices keyed by the cost of their cheapest edge: many producers, one owner.
 ///
 /// Sec 5.2 contracts the cheapest edge first.  Here costs fall into buckets with bounds
-/// 0.125 * 4^k, and a bucket is drained in rounds of ascending vertex id: no stale entries, walks
-/// that stay in the cache, and an order that depends on the content only, never on who pushed
-/// first.  (Strict order is 2-3 times slower for the same mesh size.)
+/// 0.125 * 4^k, and a bucket is drained in rounds of ascending vertex id: walks that stay in the
+/// cache, and a total order that depends on the content only, never on who pushed first.  (Strict
+/// order is 2-3 times slower for the same mesh size.)
+///
+/// A bucket is a bitmap over the window's vertices.  A push is one atomic OR into it: wait-free,
+/// no allocation, no node to reclaim, and what is pushed twice is there once.  Because OR commutes,
+/// the bitmaps after a set of pushes are the same for every interleaving of them; the owner reads
+/// them in vertex order.  Nothing is ever removed: a vertex whose cost has changed lies in several
+/// buckets, and the owner finds out when it gets there.
+///
+/// Memory orders.  All producers' and the owner's accesses to a word are read-modify-writes (but
+/// for a look that decides nothing but whether to skip an empty word), so no bit is lost: each is
+/// returned by exactly one exchange.  Pushes release and the exchange acquires; the ORs between
+/// them continue the release sequence, hence the owner sees all that every producer did before it
+/// pushed.  A push that happened before take_round() is seen by it, because a look cannot read an
+/// older value of the word than one that happened before it (coherence).
+///
+/// Thread safety: push() from any number of threads at any time; the rest from the owner alone.
+/// Cost: kBuckets bits a vertex; a push O(1); a round one look at each 64 vertices a bucket.
 class VertexQueue {
  public:
   static constexpr std::size_t kBuckets = 12;
@@ -26,31 +42,32 @@ class VertexQueue {
     return 0.125 * static_cast<double>(std::size_t{1} << (2 * bucket));
   }
 
-  /// Files v under the bucket of `cost`, but not below the bucket being drained.  Costs above the
-  /// last bound are not contracted at all: v is forgotten.
-  void push(LocalVertex v, double cost) {
-    std::size_t bucket = current_;
-    while (bucket < kBuckets && cost > bound(bucket)) ++bucket;
-    if (bucket < kBuckets) buckets_[bucket].push_back(v);
-  }
+  /// A queue for vertices 0 to vertex_count - 1.
+  explicit VertexQueue(LocalVertex vertex_count);
 
-  /// Takes the next round: every vertex now in the lowest non-empty bucket, ascending, once.
-  /// ENSURES: false when the queue is empty.
-  bool take_round(std::vector<LocalVertex>& round) {
-    round.clear();
-    while (current_ < kBuckets && buckets_[current_].empty()) ++current_;
-    if (current_ == kBuckets) return false;
-    round.swap(buckets_[current_]);
-    std::sort(round.begin(), round.end());
-    round.erase(std::unique(round.begin(), round.end()), round.end());
-    return true;
-  }
+  /// Files v under the bucket of `cost`.  Costs above the last bound are not contracted at all: v
+  /// is forgotten.  REQUIRES: v < vertex_count.
+  void push(LocalVertex v, double cost);
+
+  /// Takes the next round, ascending, each vertex once: those in the lowest bucket that is not
+  /// empty.  Costs below the bucket being drained join it, so that bounds never go down.
+  /// ENSURES: false when there is nothing left.  What was pushed before the call is considered;
+  /// what is pushed during the call comes in this round or a later one.
+  bool take_round(std::vector<LocalVertex>& round);
 
   /// Bound of the bucket that the last round came from.
   [[nodiscard]] double current_bound() const { return bound(current_); }
 
  private:
-  std::array<std::vector<LocalVertex>, kBuckets> buckets_;
+  using Word = std::atomic<std::uint64_t>;
+  static_assert(Word::is_always_lock_free);
+
+  [[nodiscard]] Word& word(std::size_t bucket, std::size_t i) { return bits_[bucket * words_ + i]; }
+  [[nodiscard]] bool is_empty(std::size_t bucket) const;
+  [[nodiscard]] std::uint64_t take_word(std::size_t i);
+
+  std::size_t words_;       ///< in each bucket
+  std::vector<Word> bits_;  ///< bucket by bucket; bit v % 64 of word v / 64 stands for v
   std::size_t current_ = 0;
 };
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "kernels/quality/mesh_quality.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
@@ -94,6 +96,39 @@ TEST(Simplify, CountsEveryTryOnceAndRepeatsExactly) {
       EXPECT_TRUE(std::ranges::equal(again.star(v), mesh.star(v)));
     }
   }
+}
+
+/// Real threads, each with every n-th of many short ranges.
+ParallelFor on_threads(std::size_t threads) {
+  return [threads](std::size_t n, const RangeBody& body) {
+    constexpr std::size_t kRange = 50;
+    std::vector<std::thread> all;
+    for (std::size_t t = 0; t < threads; ++t) {
+      all.emplace_back([=, &body] {
+        for (std::size_t first = t * kRange; first < n; first += threads * kRange) {
+          body(first, std::min(n, first + kRange));
+        }
+      });
+    }
+    for (std::thread& thread : all) thread.join();
+  };
+}
+
+TEST(Promise5SameBytes, SimplifyForgetsHowItsQueueWasSeeded) {
+  std::mt19937 random(726);
+  std::uint64_t contractions = 0;
+  for (std::size_t i = 0; i < 24 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_of(random, 7, 1 + below(random, 4));
+    const TetMesh start = dense_cutout(volume, {{1, 0, 2}, {6, 5, 7}});
+    TetMesh mesh = start, threaded = start;
+    contractions += simplify(mesh, Metric(), {}).contracted;
+    simplify(threaded, Metric(), {.seeding = on_threads(1 + i % 8)});
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      ASSERT_EQ(threaded.vertex(v), mesh.vertex(v));
+      ASSERT_TRUE(std::ranges::equal(threaded.star(v), mesh.star(v)));
+    }
+  }
+  EXPECT_GT(contractions, 500U);
 }
 
 /// An inside without interfaces has no reason to keep its vertices.
