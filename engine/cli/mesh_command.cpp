@@ -14,7 +14,6 @@
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/run_report.h"
-#include "engine/cli/selecting_sink.h"
 #include "engine/cli/values.h"
 #include "io/mesh/open_mesh.h"
 
@@ -45,7 +44,8 @@ void require_label(RawLabel label, const io::LabelTable& table, const char* opti
 }
 
 /// What --labels and --background leave to write.
-SelectingSink::Wanted wanted_labels(const MeshRequest& request, const io::LabelTable& table) {
+engine::WantedLabel wanted_labels(const MeshRequest& request, const io::LabelTable& table) {
+  if (!request.labels && !request.background) return {};
   if (request.background) {
     require_label(*request.background, table, "--background");
     if (table.size() == 1) throw Error(ErrorKind::kUsage, "--background: it is the only label");
@@ -56,22 +56,18 @@ SelectingSink::Wanted wanted_labels(const MeshRequest& request, const io::LabelT
   return [kept](RawLabel label) { return kept.contains(label); };
 }
 
-/// Vertices and tets of the result are those written.
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
                             io::MeshSink& sink) {
   Progress progress(request.progress);
-  const engine::RunHooks hooks{.progress = [&](std::uint64_t done, std::uint64_t total) {
-    stop_if_interrupted();
-    progress.show(done, total);
-  }};
-  if (!request.labels && !request.background) {
-    return engine::mesh_volume(volume, request.settings, sink, hooks);
-  }
-  SelectingSink selection(sink, wanted_labels(request, volume.table()));
-  engine::RunReport run = engine::mesh_volume(volume, request.settings, selection, hooks);
-  run.vertices = selection.mesh().vertices.size();
-  run.tets = selection.mesh().tets.size();
-  return run;
+  const engine::RunHooks hooks{
+      .progress =
+          [&](std::uint64_t done, std::uint64_t total) {
+            stop_if_interrupted();
+            progress.show(done, total);
+          },
+      .output = {.wanted = wanted_labels(request, volume.table()),
+                 .measure_quality = !request.report.empty()}};
+  return engine::mesh_volume(volume, request.settings, sink, hooks);
 }
 
 void print_summary(const FinishedRun& run, const MeshRequest& request) {

@@ -42,7 +42,7 @@ engine::StartMesh parse_start(const std::string& text) {
 void add_output_option(OptionSet& options, MeshRequest& request) {
   options.add({.name = "output",
                .value = "OUTPUT",
-               .help = "mesh to write: .vtu or .mesh",
+               .help = "mesh to write: .vtkhdf, .vtu or .mesh",
                .flags = "-o,--output",
                .assign = [&](const std::string& text) { request.output = text; }});
 }

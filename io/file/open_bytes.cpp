@@ -3,47 +3,20 @@
 // Opens files for reading by region; inflates gzip into a temporary file.
 #include "io/file/open_bytes.h"
 
-#include <fcntl.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
 
 #include "io/file/errors.h"
 #include "io/file/file_source.h"
+#include "io/file/scratch_file.h"
 
 namespace mw::io {
 namespace {
 
 constexpr std::size_t kChunkBytes = 1 << 18;
 constexpr int kGzipOnly = 15 + 16;  // zlib's window bits: largest window, gzip wrapper
-
-struct Scratch {
-  FileDescriptor file;
-  std::string folder;
-};
-
-Scratch make_scratch() {
-  const char* chosen = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe)
-  Scratch scratch;
-  scratch.folder = chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";
-  std::string path = scratch.folder + "/mwmesh-inflated-XXXXXX";
-  scratch.file = FileDescriptor(::mkostemp(path.data(), O_CLOEXEC));
-  if (!scratch.file.valid()) fail_output(scratch.folder, "create a temporary file (TMPDIR)", errno);
-  ::unlink(path.c_str());
-  return scratch;
-}
-
-void append(const Scratch& scratch, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t wrote = ::write(scratch.file.get(), bytes.data(), bytes.size());
-    if (wrote < 0 && errno == EINTR) continue;
-    if (wrote < 0) fail_output(scratch.folder, "write inflated data (TMPDIR)", errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(wrote));
-  }
-}
 
 /// zlib's state for a chain of gzip members, fed from a ByteSource.
 class Inflater {
@@ -123,15 +96,14 @@ std::unique_ptr<ByteSource> inflate_bytes(const ByteSource& packed, std::uint64_
   if (!is_gzip(packed, offset)) {
     fail_input(packed.name(), "gzip data", "no gzip data at offset " + std::to_string(offset));
   }
-  Scratch scratch = make_scratch();
+  ScratchFile scratch(scratch_folder());
   Inflater inflater(packed, offset);
   std::vector<std::byte> buffer(kChunkBytes);
-  std::uint64_t total = 0;
   while (const std::size_t count = inflater.read(buffer)) {
-    append(scratch, std::span(buffer).first(count));
-    total += count;
+    scratch.append(std::span(buffer).first(count));
   }
-  return std::make_unique<FileSource>(std::move(scratch.file), total, packed.name());
+  const std::uint64_t total = scratch.size();
+  return std::make_unique<FileSource>(scratch.release(), total, packed.name());
 }
 
 std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path) {
