@@ -18,7 +18,9 @@ void add_digest_command(CLI::App& program, Action& chosen) {
   command->add_option("MESH", *mesh, "mesh: .vtkhdf, .vtu or .mesh")->required();
   command->callback([mesh, &chosen] {
     chosen = [mesh] {
-      std::cout << io::mesh_digest(io::read_mesh(*mesh)) << "\n";
+      io::DigestSink sink(io::scratch_folder());
+      io::copy_mesh(*mesh, sink);
+      std::cout << sink.digest() << "\n";
       return kExitDone;
     };
   });

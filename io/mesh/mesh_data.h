@@ -17,6 +17,14 @@ struct MeshData {
   bool labels_signed = false;
 };
 
+/// Writes all of a mesh: begin to finish.
+inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
+  sink.begin({.tets = mesh.tets.size(), .labels_signed = mesh.labels_signed});
+  sink.write_vertices(mesh.vertices);
+  sink.write_tets(mesh.tets, mesh.labels);
+  sink.finish();
+}
+
 /// Collects a mesh.
 class MeshDataSink : public MeshSink {
  public:

@@ -16,29 +16,29 @@ namespace mw::io {
 namespace {
 
 [[noreturn]] void fail_extension(const std::filesystem::path& path) {
-  throw Error(ErrorKind::kUsage,
-              text(path.string(), ": extension '", path.extension().string(),
-                   "' is no mesh format known here; supported are .vtkhdf, .vtu and .mesh (MEDIT)"));
+  throw Error(
+      ErrorKind::kUsage,
+      text(path.string(), ": extension '", path.extension().string(),
+           "' is no mesh format known here; supported are .vtkhdf, .vtu and .mesh (MEDIT)"));
 }
 
 }  // namespace
 
 MeshData read_mesh(const std::filesystem::path& path) {
+  const std::filesystem::path extension = path.extension();
+  if (extension == ".vtu") return read_vtu(*open_bytes(path));
+  if (extension == ".mesh") return read_medit(*open_bytes(path));
+  if (extension != ".vtkhdf") fail_extension(path);
   MeshDataSink sink;
-  copy_mesh(path, sink);
+  read_vtkhdf(path, sink);
   return std::move(sink.mesh());
 }
 
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
-  const std::filesystem::path extension = path.extension();
-  if (extension == ".vtkhdf") {
+  if (path.extension() == ".vtkhdf") {
     read_vtkhdf(path, sink);
-  } else if (extension == ".vtu") {
-    write_mesh(read_vtu(*open_bytes(path)), sink);
-  } else if (extension == ".mesh") {
-    write_mesh(read_medit(*open_bytes(path)), sink);
   } else {
-    fail_extension(path);
+    write_mesh(read_mesh(path), sink);
   }
 }
 
@@ -47,13 +47,6 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path) {
   if (path.extension() == ".vtu") return std::make_unique<VtuSink>(path);
   if (path.extension() == ".mesh") return std::make_unique<MeditSink>(path);
   fail_extension(path);
-}
-
-void write_mesh(const MeshData& mesh, MeshSink& sink) {
-  sink.begin({.tets = mesh.tets.size(), .labels_signed = mesh.labels_signed});
-  sink.write_vertices(mesh.vertices);
-  sink.write_tets(mesh.tets, mesh.labels);
-  sink.finish();
 }
 
 }  // namespace mw::io

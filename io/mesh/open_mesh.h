@@ -20,7 +20,4 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 /// ERRORS: mw::Error(kUsage) for another extension or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path);
 
-/// Writes all of a mesh: begin to finish.
-void write_mesh(const MeshData& mesh, MeshSink& sink);
-
 }  // namespace mw::io

@@ -54,9 +54,9 @@ Hdf5Column<T>::Hdf5Column(hid_t place, const char* name, Hdf5Type type, hsize_t 
   H5Pset_chunk(properties.get(), rank, chunk.data());
   // The last chunk is whole in the file; what is behind the data must be the same each time.
   H5Pset_fill_time(properties.get(), H5D_FILL_TIME_ALLOC);
-  set_ = Hdf5Handle(H5Dcreate2(place, name, type.file, space.get(), H5P_DEFAULT, properties.get(),
-                               H5P_DEFAULT),
-                    &H5Dclose);
+  set_ = Hdf5Handle(
+      H5Dcreate2(place, name, type.file, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+      &H5Dclose);
   sound_ = set_.valid();
 }
 
@@ -129,8 +129,7 @@ void VtkhdfSink::write_attributes() const {
   const Hdf5Handle scalar(H5Screate(H5S_SCALAR), &H5Sclose);
   require(write_attribute(group_.get(), "Version", H5T_STD_I64LE, H5T_NATIVE_INT64, make_space(2),
                           kVersion.data()));
-  require(
-      write_attribute(group_.get(), "Type", string.get(), string.get(), scalar, kType.data()));
+  require(write_attribute(group_.get(), "Type", string.get(), string.get(), scalar, kType.data()));
 }
 
 void VtkhdfSink::write_vertices(std::span<const Position> positions) {
