@@ -40,11 +40,11 @@ class ExternalSort {
     if (!file_) {
       std::sort(records_.begin(), records_.end());
       for (const Record& record : records_) visit(record);
-      records_ = {};
+      records_ = std::vector<Record>();
       return;
     }
     spill();
-    records_ = {};
+    records_ = std::vector<Record>();
     merge(visit);
   }
 
@@ -93,6 +93,7 @@ class ExternalSort {
       visit(run->buffer[run->at++]);
       if (run->at < run->buffer.size() || refill(*run)) queue.push(run);
     }
+    runs_ = std::vector<Run>();
   }
 
   std::filesystem::path folder_;

@@ -60,7 +60,8 @@ class Reader {
     sink_.begin({.tets = tets, .labels_signed = labels_ && labels_->is_signed()});
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {
       read_points(point_counts_[part]);
-      check_cells(part, cell_counts_[part]);
+      check_types(cell_counts_[part]);
+      check_offsets(part, cell_counts_[part]);
       read_cells(point_counts_[part], cell_counts_[part]);
     }
     sink_.finish();
@@ -145,8 +146,7 @@ class Reader {
     }
   }
 
-  /// All tetrahedra, one after the other.
-  void check_cells(std::size_t part, std::uint64_t count) const {
+  void check_types(std::uint64_t count) const {
     std::vector<std::uint64_t> batch;
     for (std::uint64_t at = 0; at < count; at += batch.size()) {
       batch.resize(std::min(kBatchRows, count - at));
@@ -156,7 +156,14 @@ class Reader {
         fail_input(file_, text("a cell behind row ", next_cell_ + at),
                    text("type ", type, " is no tetrahedron (10)"), "keep only the tetrahedra");
       }
-      // Each partition has an offset more than cells.
+    }
+  }
+
+  /// Each partition has an offset more than cells; four numbers a cell.
+  void check_offsets(std::size_t part, std::uint64_t count) const {
+    std::vector<std::uint64_t> batch;
+    for (std::uint64_t at = 0; at <= count; at += batch.size()) {
+      batch.resize(std::min(kBatchRows, count + 1 - at));
       offsets_.read(next_cell_ + part + at, batch.size(), batch.data());
       for (std::size_t i = 0; i < batch.size(); ++i) {
         if (batch[i] != 4 * (at + i)) offsets_.fail(text(batch[i], " is not ", 4 * (at + i)));
