@@ -15,7 +15,8 @@ class FinalBlocks {
   [[nodiscard]] virtual BlockMesh load(Index3 block) = 0;
 };
 
-/// What rests in a store.  REQUIRES: every block has been put; nobody else uses the store meanwhile.
+/// What rests in a store.  REQUIRES: every block has been put; nobody else uses the store
+/// meanwhile.
 class StoredBlocks : public FinalBlocks {
  public:
   explicit StoredBlocks(BlockStore& store) : store_(store) {}

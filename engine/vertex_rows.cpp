@@ -37,8 +37,7 @@ VertexRows::VertexRows(VertexUses uses)
   }
 }
 
-std::vector<std::uint64_t> VertexRows::assign(Index3 block,
-                                              std::span<const BlockVertex> vertices) {
+std::vector<std::uint64_t> VertexRows::assign(Index3 block, std::span<const BlockVertex> vertices) {
   std::vector<std::uint64_t> rows;
   rows.reserve(vertices.size());
   std::map<std::size_t, Home> added;

@@ -44,8 +44,8 @@ class VertexUses {
 
 /// Second pass: rows ascend by first block, then by id, which is a function of the blocks alone.
 ///
-/// Memory: 16 bytes for each vertex of the homes that are alive, and some 50 for each line.  When no
-/// block references a vertex at home more than r blocks away along any axis (r is 1 or 2 in
+/// Memory: 16 bytes for each vertex of the homes that are alive, and some 50 for each line.  When
+/// no block references a vertex at home more than r blocks away along any axis (r is 1 or 2 in
 /// practice), at most 2 r (blocks.y + 1) + 1 lines are alive: about 2 r planes of blocks, however
 /// many planes there are.
 class VertexRows {

@@ -21,11 +21,10 @@ struct MeshHeader {
   bool labels_signed = false;  ///< labels are two's complement int64 and are written as such
 };
 
-/// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink holds
-/// buffers whose size does not grow with the mesh.
-/// Nothing appears under the final name before finish() returns; a sink destroyed earlier leaves
-/// no file behind.  ERRORS: mw::Error(kResource) on a full disk, kUsage when the path cannot be
-/// written.
+/// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink
+/// holds buffers whose size does not grow with the mesh. Nothing appears under the final name
+/// before finish() returns; a sink destroyed earlier leaves no file behind.  ERRORS:
+/// mw::Error(kResource) on a full disk, kUsage when the path cannot be written.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;

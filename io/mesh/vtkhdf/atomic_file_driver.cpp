@@ -74,8 +74,9 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t from, std::size_t size, voi
 
 herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t to, std::size_t size, const void* buffer) {
   OpenFile& open = ours(file);
-  guarded(*open.target,
-          [&] { open.target->file->write_at(to, {static_cast<const std::byte*>(buffer), size}); });
+  guarded(*open.target, [&] {
+    open.target->file->write_at(to, {static_cast<const std::byte*>(buffer), size});
+  });
   open.written = std::max<haddr_t>(open.written, to + size);
   return 0;
 }
@@ -93,7 +94,7 @@ hid_t register_driver() {
   driver.name = "mwmesh";
   driver.maxaddr = static_cast<haddr_t>(std::numeric_limits<std::int64_t>::max());
   driver.fc_degree = H5F_CLOSE_STRONG;
-  driver.fapl_size = sizeof(Hdf5Target*);
+  driver.fapl_size = sizeof(void*);  // the address of the target
   driver.open = &open_file;
   driver.close = &close_file;
   driver.query = &query;
