@@ -58,7 +58,7 @@ std::string start_text(engine::StartMesh start) {
 void add_output_option(OptionSet& options, MeshRequest& request) {
   options.add({.name = "output",
                .value = "OUTPUT",
-               .help = "mesh to write: .vtu or .mesh",
+               .help = "mesh to write: .vtkhdf, .vtu or .mesh",
                .flags = "-o,--output",
                .assign = [&](const std::string& text) { request.output = text; }});
 }
