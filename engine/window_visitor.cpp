@@ -47,11 +47,10 @@ int max_level(int window) {
 }  // namespace
 
 WindowVisitor::WindowVisitor(const io::DenseVolume& volume, const MeshSettings& settings,
-                             const WindowGrid& grid, BlockStore& store, RunReport& report)
+                             const WindowGrid& grid, BlockStore& store)
     : volume_(volume),
       grid_(grid),
       store_(store),
-      report_(report),
       metric_(volume.info().spacing),
       start_{.max_level = settings.start == StartMesh::kOctree ? max_level(settings.window) : 0,
              .with_samples = settings.max_distance.has_value()},
@@ -59,23 +58,35 @@ WindowVisitor::WindowVisitor(const io::DenseVolume& volume, const MeshSettings& 
       optimise_{.sweeps = settings.optimise ? 1 : 0, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance) {}
 
-void WindowVisitor::visit(Index3 window) {
+VisitStats& VisitStats::operator+=(const VisitStats& other) {
+  windows += other.windows;
+  simplify += other.simplify;
+  optimise += other.optimise;
+  start_seconds += other.start_seconds;
+  simplify_seconds += other.simplify_seconds;
+  optimise_seconds += other.optimise_seconds;
+  exchange_seconds += other.exchange_seconds;
+  return *this;
+}
+
+VisitStats WindowVisitor::visit(Index3 window) const {
+  VisitStats stats{.windows = 1};
   Stopwatch watch;
   const std::vector<Index3> blocks = grid_.blocks_of(window);
   std::vector<BlockMesh> content;
   for (Index3 b : blocks) content.push_back(take(b));
-  watch.lap(report_.start_seconds);
+  watch.lap(stats.start_seconds);
   WindowContent window_content = gather(content, grid_.volume());
-  watch.lap(report_.exchange_seconds);
-  work_on(window_content);
+  watch.lap(stats.exchange_seconds);
+  work_on(window_content, stats);
   watch.restart();
   content = scatter(window_content, grid_, window);
   for (std::size_t i = 0; i < blocks.size(); ++i) store_.put(blocks[i], std::move(content[i]));
-  watch.lap(report_.exchange_seconds);
-  ++report_.windows;
+  watch.lap(stats.exchange_seconds);
+  return stats;
 }
 
-void WindowVisitor::work_on(WindowContent& content) {
+void WindowVisitor::work_on(WindowContent& content, VisitStats& stats) const {
   LabelBox labels;
   std::optional<DistanceGuard> guard;
   if (max_distance_) {
@@ -85,13 +96,13 @@ void WindowVisitor::work_on(WindowContent& content) {
   }
   DistanceGuard* const keep_distance = guard ? &*guard : nullptr;
   Stopwatch watch;
-  report_.simplify += simplify(content.mesh, metric_, simplify_, keep_distance);
-  watch.lap(report_.simplify_seconds);
-  report_.optimise += optimise(content.mesh, metric_, optimise_, keep_distance);
-  watch.lap(report_.optimise_seconds);
+  stats.simplify += simplify(content.mesh, metric_, simplify_, keep_distance);
+  watch.lap(stats.simplify_seconds);
+  stats.optimise += optimise(content.mesh, metric_, optimise_, keep_distance);
+  watch.lap(stats.optimise_seconds);
 }
 
-BlockMesh WindowVisitor::take(Index3 block) {
+BlockMesh WindowVisitor::take(Index3 block) const {
   if (auto stored = store_.take(block)) return std::move(*stored);
   const Box3 box = grid_.block_box(block);
   const std::int64_t halo = start_halo(start_.max_level);

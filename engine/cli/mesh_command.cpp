@@ -15,6 +15,7 @@
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/run_report.h"
 #include "engine/cli/selecting_sink.h"
+#include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
 #include "io/mesh/open_mesh.h"
 
@@ -32,10 +33,12 @@ struct MeshJob {
 struct MeshFiles {
   explicit MeshFiles(const MeshRequest& request) : sink(io::open_mesh_sink(request.output)) {
     if (!request.report.empty()) report.emplace(request.report);
+    if (!request.trace.empty()) trace.emplace(request.trace);
   }
 
   std::unique_ptr<io::MeshSink> sink;
   std::optional<io::AtomicFile> report;
+  std::optional<TraceFile> trace;
 };
 
 void require_label(RawLabel label, const io::LabelTable& table, const char* option) {
@@ -58,16 +61,18 @@ SelectingSink::Wanted wanted_labels(const MeshRequest& request, const io::LabelT
 
 /// Vertices and tets of the result are those written.
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
-                            io::MeshSink& sink) {
+                            MeshFiles& files) {
   Progress progress(request.progress);
-  const engine::RunHooks hooks{.progress = [&](std::uint64_t done, std::uint64_t total) {
+  engine::RunHooks hooks{.threads = request.threads};
+  hooks.progress = [&](std::uint64_t done, std::uint64_t total) {
     stop_if_interrupted();
     progress.show(done, total);
-  }};
+  };
+  if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
   if (!request.labels && !request.background) {
-    return engine::mesh_volume(volume, request.settings, sink, hooks);
+    return engine::mesh_volume(volume, request.settings, *files.sink, hooks);
   }
-  SelectingSink selection(sink, wanted_labels(request, volume.table()));
+  SelectingSink selection(*files.sink, wanted_labels(request, volume.table()));
   engine::RunReport run = engine::mesh_volume(volume, request.settings, selection, hooks);
   run.vertices = selection.mesh().vertices.size();
   run.tets = selection.mesh().tets.size();
@@ -99,7 +104,8 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   FinishedRun run{.volume = volume.info(), .labels = table.size()};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
-  run.engine = mesh_into(request, io::DenseVolume(volume, table), *files.sink);
+  run.engine = mesh_into(request, io::DenseVolume(volume, table), files);
+  if (files.trace) files.trace->finish();
   run.resources = meter.read();
   print_summary(run, request);
   if (files.report) {

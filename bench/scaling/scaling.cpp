@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where it would go on more cores: measured durations of windows, simulated schedules.
+//   mwmesh mesh VOLUME -o OUT.vtu --threads 1 --trace T.csv
+//   mw_scaling T.csv [--wall] [--serial SECONDS] [--look-ahead N]
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <numeric>
+
+#include "bench/scaling/trace_table.h"
+#include "engine/march/list_schedule.h"
+#include "engine/march/march.h"
+#include "kernels/core/error.h"
+
+namespace mw::bench {
+namespace {
+
+using engine::Order;
+using engine::WindowOrder;
+
+struct Job {
+  std::string trace;
+  bool wall = false;
+  double serial = 0.0;
+  std::uint64_t look_ahead = engine::MarchOptions{}.look_ahead;
+};
+
+WindowOrder order_of(Index3 windows, Order order) {
+  // A grid of that many windows: one block more along each axis, blocks of one voxel.
+  return {engine::WindowGrid(windows + Index3{1, 1, 1}, 2), order};
+}
+
+std::vector<double> by_rank(const MarchTrace& march, const WindowOrder& order) {
+  std::vector<double> out(march.seconds.size());
+  for (std::uint64_t rank = 0; rank < out.size(); ++rank) {
+    out[rank] = march.seconds[engine::raster(order.window(rank), march.windows)];
+  }
+  return out;
+}
+
+/// One march after the other, with nothing of the next before the last of this.
+double predicted_seconds(const std::vector<MarchTrace>& marches, Order order, std::size_t cores,
+                         const Job& job) {
+  double sum = job.serial;
+  for (const MarchTrace& march : marches) {
+    const WindowOrder windows = order_of(march.windows, order);
+    sum += engine::list_schedule(windows, by_rank(march, windows), cores, job.look_ahead);
+  }
+  return sum;
+}
+
+void print_march(const MarchTrace& march, std::size_t number) {
+  const auto path = [&](Order order) {
+    const WindowOrder windows = order_of(march.windows, order);
+    return engine::longest_path(windows, by_rank(march, windows));
+  };
+  const double work = std::accumulate(march.seconds.begin(), march.seconds.end(), 0.0);
+  const Index3 w = march.windows;
+  std::cout << "| " << number << " | " << w.x << " x " << w.y << " x " << w.z << " | " << work
+            << " | " << path(Order::kRaster) << " | " << path(Order::kColour) << " |\n";
+}
+
+void print_prediction(const std::vector<MarchTrace>& marches, const Job& job) {
+  const double one_raster = predicted_seconds(marches, Order::kRaster, 1, job);
+  const double one_colour = predicted_seconds(marches, Order::kColour, 1, job);
+  for (std::size_t cores = 1; cores <= 128; cores *= 2) {
+    const double raster = predicted_seconds(marches, Order::kRaster, cores, job);
+    const double colour = predicted_seconds(marches, Order::kColour, cores, job);
+    const auto efficiency = [&](double one, double many) {
+      return 100 * one / many / static_cast<double>(cores);
+    };
+    std::cout << "| " << cores << " | " << raster << " | " << one_raster / raster << " | "
+              << efficiency(one_raster, raster) << " % | " << colour << " | " << one_colour / colour
+              << " | " << efficiency(one_colour, colour) << " % |\n";
+  }
+}
+
+void report(const Job& job) {
+  std::ifstream in(job.trace);
+  if (!in) throw Error(ErrorKind::kInput, job.trace + ": cannot be read");
+  const std::vector<MarchTrace> marches = read_trace(in, job.wall ? Clock::kWall : Clock::kCpu);
+  std::cout << std::setprecision(4) << "Durations of windows from " << job.trace << " ("
+            << (job.wall ? "wall" : "processor") << " seconds); " << job.serial
+            << " s besides windows that do not scale; look-ahead " << job.look_ahead
+            << " windows.\n\n"
+            << "| march | windows | work s | longest path s, raster | colour |\n"
+            << "|---|---|---|---|---|\n";
+  for (std::size_t i = 0; i < marches.size(); ++i) print_march(marches[i], i);
+  std::cout << "\n| cores | raster s | speed-up | efficiency | colour s | speed-up | efficiency |\n"
+            << "|---|---|---|---|---|---|---|\n";
+  print_prediction(marches, job);
+}
+
+}  // namespace
+}  // namespace mw::bench
+
+int main(int argc, char** argv) {
+  mw::bench::Job job;
+  CLI::App app("predicts the march's speed-up on more cores from a trace, as Markdown");
+  app.add_option("TRACE", job.trace, "written by mwmesh mesh --trace")->required();
+  app.add_flag("--wall", job.wall, "wall instead of processor time of windows");
+  app.add_option("--serial", job.serial, "seconds of the run besides windows")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--look-ahead", job.look_ahead, "of the march, in windows")
+      ->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    mw::bench::report(job);
+  } catch (const std::exception& error) {
+    std::cerr << "mw_scaling: error: " << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}
