@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where it would go on more cores: measured durations of windows, simulated schedules.
 //   mwmesh mesh VOLUME -o OUT.vtu --threads 1 --trace T.csv
-//   mw_scaling T.csv [--wall] [--serial SECONDS] [--look-ahead N]
+//   mw_scaling T.csv [--order ORDER] [--wall] [--serial SECONDS] [--look-ahead N]
 #include <CLI/CLI.hpp>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
+#include <map>
 #include <numeric>
 
 #include "bench/scaling/trace_table.h"
@@ -21,6 +23,7 @@ using engine::WindowOrder;
 
 struct Job {
   std::string trace;
+  Order order = Order::kRaster;
   bool wall = false;
   double serial = 0.0;
   std::uint64_t look_ahead = engine::MarchOptions{}.look_ahead;
@@ -40,39 +43,31 @@ std::vector<double> by_rank(const MarchTrace& march, const WindowOrder& order) {
 }
 
 /// One march after the other, with nothing of the next before the last of this.
-double predicted_seconds(const std::vector<MarchTrace>& marches, Order order, std::size_t cores,
+double predicted_seconds(const std::vector<MarchTrace>& marches, std::size_t cores,
                          const Job& job) {
   double sum = job.serial;
   for (const MarchTrace& march : marches) {
-    const WindowOrder windows = order_of(march.windows, order);
+    const WindowOrder windows = order_of(march.windows, job.order);
     sum += engine::list_schedule(windows, by_rank(march, windows), cores, job.look_ahead);
   }
   return sum;
 }
 
-void print_march(const MarchTrace& march, std::size_t number) {
-  const auto path = [&](Order order) {
-    const WindowOrder windows = order_of(march.windows, order);
-    return engine::longest_path(windows, by_rank(march, windows));
-  };
+void print_march(const MarchTrace& march, std::size_t number, const Job& job) {
+  const WindowOrder order = order_of(march.windows, job.order);
   const double work = std::accumulate(march.seconds.begin(), march.seconds.end(), 0.0);
   const Index3 w = march.windows;
-  std::cout << "| " << number << " | " << w.x << " x " << w.y << " x " << w.z << " | " << work
-            << " | " << path(Order::kRaster) << " | " << path(Order::kColour) << " |\n";
+  std::cout << "| " << number << " | " << w.x << " x " << w.y << " x " << w.z << " | "
+            << order.steps() << " | " << work << " | "
+            << engine::longest_path(order, by_rank(march, order)) << " |\n";
 }
 
 void print_prediction(const std::vector<MarchTrace>& marches, const Job& job) {
-  const double one_raster = predicted_seconds(marches, Order::kRaster, 1, job);
-  const double one_colour = predicted_seconds(marches, Order::kColour, 1, job);
+  const double one = predicted_seconds(marches, 1, job);
   for (std::size_t cores = 1; cores <= 128; cores *= 2) {
-    const double raster = predicted_seconds(marches, Order::kRaster, cores, job);
-    const double colour = predicted_seconds(marches, Order::kColour, cores, job);
-    const auto efficiency = [&](double one, double many) {
-      return 100 * one / many / static_cast<double>(cores);
-    };
-    std::cout << "| " << cores << " | " << raster << " | " << one_raster / raster << " | "
-              << efficiency(one_raster, raster) << " % | " << colour << " | " << one_colour / colour
-              << " | " << efficiency(one_colour, colour) << " % |\n";
+    const double many = predicted_seconds(marches, cores, job);
+    std::cout << "| " << cores << " | " << many << " | " << one / many << " | "
+              << 100 * one / many / static_cast<double>(cores) << " % |\n";
   }
 }
 
@@ -80,15 +75,16 @@ void report(const Job& job) {
   std::ifstream in(job.trace);
   if (!in) throw Error(ErrorKind::kInput, job.trace + ": cannot be read");
   const std::vector<MarchTrace> marches = read_trace(in, job.wall ? Clock::kWall : Clock::kCpu);
-  std::cout << std::setprecision(4) << "Durations of windows from " << job.trace << " ("
-            << (job.wall ? "wall" : "processor") << " seconds); " << job.serial
+  std::cout << std::setprecision(4) << "Windows of " << job.trace << ", "
+            << (job.order == Order::kRaster ? "raster" : "colour") << " order, "
+            << (job.wall ? "wall" : "processor") << " seconds; " << job.serial
             << " s besides windows that do not scale; look-ahead " << job.look_ahead
             << " windows.\n\n"
-            << "| march | windows | work s | longest path s, raster | colour |\n"
+            << "| march | windows | steps | work s | longest path s |\n"
             << "|---|---|---|---|---|\n";
-  for (std::size_t i = 0; i < marches.size(); ++i) print_march(marches[i], i);
-  std::cout << "\n| cores | raster s | speed-up | efficiency | colour s | speed-up | efficiency |\n"
-            << "|---|---|---|---|---|---|---|\n";
+  for (std::size_t i = 0; i < marches.size(); ++i) print_march(marches[i], i, job);
+  std::cout << "\n| cores | seconds | speed-up | efficiency |\n"
+            << "|---|---|---|---|\n";
   print_prediction(marches, job);
 }
 
@@ -99,6 +95,10 @@ int main(int argc, char** argv) {
   mw::bench::Job job;
   CLI::App app("predicts the march's speed-up on more cores from a trace, as Markdown");
   app.add_option("TRACE", job.trace, "written by mwmesh mesh --trace")->required();
+  const std::map<std::string, mw::engine::Order> orders{{"raster", mw::engine::Order::kRaster},
+                                                        {"colour", mw::engine::Order::kColour}};
+  app.add_option("--order", job.order, "in which the trace was taken")
+      ->transform(CLI::CheckedTransformer(orders));
   app.add_flag("--wall", job.wall, "wall instead of processor time of windows");
   app.add_option("--serial", job.serial, "seconds of the run besides windows")
       ->check(CLI::NonNegativeNumber);

@@ -30,7 +30,7 @@ class Wavefront {
   /// outlives this.
   Wavefront(const WindowOrder& order, std::uint64_t look_ahead, IsFinished finished_before = {});
 
-  /// The ready window with the longest path still to go, ties by the sequence; by rank.
+  /// The rank of the ready window that should start first (WindowOrder::urgency).
   [[nodiscard]] std::optional<std::uint64_t> best() const;
   /// The sequence's first unfinished window; size() at the end.  It is ready unless it runs.
   [[nodiscard]] std::uint64_t first_unfinished() const { return first_; }

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
+#include <map>
 #include <random>
 
 #include "tests/engine/march/grids.h"
@@ -45,7 +47,7 @@ void expect_ready(const Wavefront& wavefront, const WindowOrder& order,
   ASSERT_EQ(wavefront.best().has_value(), !expected.empty());
   if (expected.empty()) return;
   const auto urgency = [&](std::uint64_t rank) {
-    return std::pair(order.step(order.window(rank)), rank);
+    return std::pair(order.urgency(order.window(rank)), rank);
   };
   const auto most_urgent =
       std::min_element(expected.begin(), expected.end(),
@@ -128,27 +130,67 @@ TEST(Wavefront, GoesOnFromWhatAnEarlierRunFinished) {
   }
 }
 
+/// Runs windows as `threads` threads would that take the same time for each.
+template <typename OnStart, typename OnFinish>
+void play(const WindowOrder& order, Wavefront& wavefront, std::size_t threads, OnStart on_start,
+          OnFinish on_finish) {
+  std::deque<std::uint64_t> running;
+  while (wavefront.first_unfinished() < order.size()) {
+    while (running.size() < threads && wavefront.best()) {
+      running.push_back(*wavefront.best());
+      wavefront.start(running.back());
+      on_start(running.back());
+    }
+    wavefront.finish(running.front());
+    on_finish(running.front());
+    running.pop_front();
+  }
+}
+
 /// 120,000 windows by 64 threads: the memory is that of the look-ahead.
 TEST(Wavefront, MemoryDoesNotGrowWithTheVolume) {
   constexpr std::uint64_t kLookAhead = 1000;
   for (Order kind : kOrders) {
     const WindowOrder order(grid_of({60, 50, 40}), kind);
     Wavefront wavefront(order, kLookAhead);
-    std::vector<std::uint64_t> running;
     std::uint64_t finished = 0;
-    while (wavefront.first_unfinished() < order.size()) {
-      while (running.size() < 64 && wavefront.best()) {
-        running.push_back(*wavefront.best());
-        wavefront.start(running.back());
-      }
-      ASSERT_LE(wavefront.ready_count() + running.size(), kLookAhead);
-      wavefront.finish(running.front());
-      running.erase(running.begin());
-      ++finished;
-    }
+    const auto check = [&](std::uint64_t) { ASSERT_LE(wavefront.ready_count(), kLookAhead); };
+    play(order, wavefront, 64, check, [&](std::uint64_t) { ++finished; });
     EXPECT_EQ(wavefront.capacity(), kLookAhead);
     EXPECT_EQ(finished, order.size());
   }
+}
+
+/// Layers of blocks between first and last use, at most, when 8 threads march.
+std::size_t layers_in_use(const WindowOrder& order) {
+  std::map<std::int64_t, std::int64_t> left;  // windows still to finish, by layer of blocks begun
+  std::size_t most = 0;
+  const std::int64_t in_a_layer = order.grid().windows().x * order.grid().windows().y;
+  const auto windows_on = [&](std::int64_t z) {
+    return (z > 0 && z + 1 < order.grid().blocks().z ? 2 : 1) * in_a_layer;
+  };
+  const auto layers_of = [&](std::uint64_t rank) {
+    const std::int64_t z = order.window(rank).z;
+    return std::array{z, z + 1};
+  };
+  Wavefront wavefront(order, order.size());
+  play(
+      order, wavefront, 8,
+      [&](std::uint64_t rank) {
+        for (std::int64_t z : layers_of(rank)) left.try_emplace(z, windows_on(z));
+        most = std::max(most, left.size());
+      },
+      [&](std::uint64_t rank) {
+        for (std::int64_t z : layers_of(rank)) {
+          if (--left[z] == 0) left.erase(z);
+        }
+      });
+  EXPECT_TRUE(left.empty());
+  return most;
+}
+
+TEST(ColourOrder, KeepsFewLayersOfBlocksInUseWithManyThreads) {
+  EXPECT_LE(layers_in_use(WindowOrder(grid_of({12, 10, 30}), Order::kColour)), 5U);
 }
 
 }  // namespace
