@@ -121,23 +121,34 @@ TEST(March, NoThreadsMeansAllCores) {
   EXPECT_EQ(thread_count(5), 5);
 }
 
-/// The eight windows of the first colour wait for one another: they must run at the same time,
-/// even on a machine of fewer cores.
+/// Visits that wait for one another, so that they must run at the same time.  Thread-safe.
+class Meeting {
+ public:
+  explicit Meeting(int size) : size_(size) {}
+  /// Waits until all have come; false when they do not within a minute.
+  bool come() {
+    std::unique_lock lock(mutex_);
+    ++here_;
+    changed_.notify_all();
+    return changed_.wait_for(lock, std::chrono::minutes(1), [&] { return here_ == size_; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int size_;
+  int here_ = 0;
+};
+
+/// The eight windows of the first colour meet, even on a machine of fewer cores.
 TEST(March, UsesAllThreads) {
   const WindowOrder order(grid_of({4, 4, 4}), Order::kColour);
-  std::mutex mutex;
-  std::condition_variable changed;
-  int waiting = 0;
-  bool met = true;
+  Meeting meeting(8);
   const VisitWindow visit = [&](Index3 w) {
     if (order.step(w) > 0) return;
-    std::unique_lock lock(mutex);
-    ++waiting;
-    changed.notify_all();
-    met &= changed.wait_for(lock, std::chrono::seconds(60), [&] { return waiting == 8; });
+    EXPECT_TRUE(meeting.come());
   };
   march(order, visit, {.threads = 8});
-  EXPECT_TRUE(met);
 }
 
 /// Each visit is told once, when it is over, by one thread at a time, with sound times.
@@ -308,14 +319,12 @@ TEST(March, StopsWhenAVisitThrows) {
 TEST(March, ThrowsTheEarliestOfSeveralErrors) {
   const WindowOrder order(grid_of({4, 4, 4}), Order::kColour);
   for (int repeat = 0; repeat < 10; ++repeat) {
-    std::atomic<int> waiting = 0;
+    Meeting meeting(8);
     const VisitWindow visit = [&](Index3 w) {
-      ++waiting;
-      while (waiting < 8) std::this_thread::yield();
+      EXPECT_TRUE(meeting.come());
       throw Failure{order.rank(w)};
     };
     EXPECT_EQ(thrown_rank(order, visit, {.threads = 8}), 0U);
-    EXPECT_EQ(waiting, 8);
   }
 }
 
