@@ -3,11 +3,9 @@
 // Promise 5: the mesh does not depend on the number of threads, nor on how they are scheduled.
 #include <gtest/gtest.h>
 
-#include <mutex>
 #include <set>
-#include <thread>
 
-#include "engine/march/march.h"
+#include "tests/engine/march/watched_march.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
@@ -18,6 +16,7 @@ using audit::test::random_volume_of;
 using audit::test::VolumeKind;
 using test::expect_same;
 using test::random_trial;
+using test::RandomDelay;
 using test::run_in_memory;
 using test::Trial;
 
@@ -49,28 +48,12 @@ TEST(Promise5SameBytes, ForEveryNumberOfThreads) {
   });
 }
 
-/// Sleeps up to two milliseconds before each visit.  Thread-safe.
-class RandomDelay {
- public:
-  explicit RandomDelay(std::uint32_t seed) : random_(seed) {}
-  void operator()() {
-    std::unique_lock lock(mutex_);
-    const std::chrono::microseconds delay(below(random_, 2000));
-    lock.unlock();
-    std::this_thread::sleep_for(delay);
-  }
-
- private:
-  std::mutex mutex_;
-  std::mt19937 random_;
-};
-
 TEST(Promise5SameBytes, ForTwentyRunsWithRandomDelays) {
   for_trials(212, 4, [](const Trial& trial, std::mt19937& random) {
     const io::MeshData reference = run_in_memory(trial);
     std::set<std::vector<std::array<std::int64_t, 4>>> completions;
     for (int run = 0; run < 20; ++run) {
-      RandomDelay delay(below(random, 1000000));
+      RandomDelay delay(below(random, 1000000), 2000);
       std::vector<std::array<std::int64_t, 4>> completed;
       RunHooks hooks{.threads = kThreads[static_cast<std::size_t>(run) % kThreads.size()]};
       hooks.before_visit = [&](Index3) { delay(); };
