@@ -12,7 +12,7 @@
 
 #include "bench/scaling/trace_table.h"
 #include "engine/march/list_schedule.h"
-#include "engine/march/march.h"
+#include "engine/march/wavefront.h"
 #include "kernels/core/error.h"
 
 namespace mw::bench {
@@ -26,7 +26,7 @@ struct Job {
   Order order = Order::kRaster;
   bool wall = false;
   double serial = 0.0;
-  std::uint64_t look_ahead = engine::MarchOptions{}.look_ahead;
+  std::uint64_t look_ahead = 0;  ///< 0: the march's own
 };
 
 WindowOrder order_of(Index3 windows, Order order) {
@@ -46,9 +46,11 @@ std::vector<double> by_rank(const MarchTrace& march, const WindowOrder& order) {
 double predicted_seconds(const std::vector<MarchTrace>& marches, std::size_t cores,
                          const Job& job) {
   double sum = job.serial;
+  const std::uint64_t look_ahead =
+      job.look_ahead > 0 ? job.look_ahead : engine::default_look_ahead(cores);
   for (const MarchTrace& march : marches) {
     const WindowOrder windows = order_of(march.windows, job.order);
-    sum += engine::list_schedule(windows, by_rank(march, windows), cores, job.look_ahead);
+    sum += engine::list_schedule(windows, by_rank(march, windows), cores, look_ahead);
   }
   return sum;
 }
@@ -78,8 +80,7 @@ void report(const Job& job) {
   std::cout << std::setprecision(4) << "Windows of " << job.trace << ", "
             << (job.order == Order::kRaster ? "raster" : "colour") << " order, "
             << (job.wall ? "wall" : "processor") << " seconds; " << job.serial
-            << " s besides windows that do not scale; look-ahead " << job.look_ahead
-            << " windows.\n\n"
+            << " s besides windows that do not scale.\n\n"
             << "| march | windows | steps | work s | longest path s |\n"
             << "|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < marches.size(); ++i) print_march(marches[i], i, job);
@@ -102,7 +103,8 @@ int main(int argc, char** argv) {
   app.add_flag("--wall", job.wall, "wall instead of processor time of windows");
   app.add_option("--serial", job.serial, "seconds of the run besides windows")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--look-ahead", job.look_ahead, "of the march, in windows")
+  app.add_option("--look-ahead", job.look_ahead,
+                 "of the march, in windows; by default the march's own")
       ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {

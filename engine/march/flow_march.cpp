@@ -43,7 +43,9 @@ class Dispatcher {
       : order_(order),
         options_(options),
         threads_(static_cast<std::size_t>(thread_count(options.threads))),
-        wavefront_(order, options.look_ahead, options.finished_before) {}
+        wavefront_(order,
+                   options.look_ahead > 0 ? options.look_ahead : default_look_ahead(threads_),
+                   options.finished_before) {}
 
   /// Takes an outcome in.
   void finish(const Outcome& outcome) {

@@ -44,9 +44,9 @@ using OnVisited = std::function<void(const Visited& visited)>;
 /// How a march goes.  Nothing here changes its result.
 struct MarchOptions {
   int threads = 1;  ///< 1: in sequence, by the caller's thread; 0: as many as there are cores
-  /// How far from the sequence's first unfinished window others may run; bounds the march's memory
-  /// (Wavefront) and how many blocks are in use.
-  std::uint64_t look_ahead = std::uint64_t{1} << 16;
+  /// How many ranks from the sequence's first unfinished window others may run; bounds the march's
+  /// memory and how many blocks are in use; 0: default_look_ahead().
+  std::uint64_t look_ahead = 0;
   AdmitWindow admit;           ///< optional
   OnVisited visited;           ///< optional; may throw to stop the march
   IsFinished finished_before;  ///< optional: windows to pass over, closed under predecessors
@@ -54,7 +54,7 @@ struct MarchOptions {
 
 /// Visits all windows.  With several threads a oneTBB flow graph of two nodes, which windows pass
 /// as messages: one visits, the other keeps the wavefront and, whenever a thread is free, sends the
-/// most urgent ready window.
+/// ready window with the longest path to go.
 /// ENSURES: every visit happens after the visits of its window's predecessors.
 /// ERRORS: what visit, admit or visited throw; then no more windows start, those that run end, and
 /// of several exceptions the one of the sequence's earliest window is thrown on.

@@ -45,7 +45,7 @@ bool Wavefront::is_finished(std::uint64_t rank) const {
 }
 
 Wavefront::Priority Wavefront::priority(std::uint64_t rank) const {
-  return {order_.urgency(order_.window(rank)), rank};
+  return {order_.step(order_.window(rank)), rank};
 }
 
 void Wavefront::make_ready_if_due(std::uint64_t rank) {

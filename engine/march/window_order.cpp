@@ -125,10 +125,6 @@ std::int64_t WindowOrder::step(Index3 window) const {
                                   : colour_step(window, grid_.windows());
 }
 
-std::int64_t WindowOrder::urgency(Index3 window) const {
-  return order_ == Order::kRaster ? step(window) : 0;
-}
-
 std::int64_t WindowOrder::steps() const {
   const Index3 count = grid_.windows();
   if (order_ == Order::kRaster) return raster_step(count - Index3{1, 1, 1}, count) + 1;

@@ -48,12 +48,6 @@ class WindowOrder {
   /// Windows of the longest path.
   [[nodiscard]] std::int64_t steps() const;
 
-  /// Who goes first among windows that are ready: the smaller urgency, then the lower rank.
-  /// kRaster: step(), so the longest path to go.  kColour: all the same, so the sequence; paths are
-  /// too short to matter, and the longest first would open blocks as far as the march looks ahead
-  /// (in simulation all blocks of the volume, against three layers, for less than 1 % of the time).
-  [[nodiscard]] std::int64_t urgency(Index3 window) const;
-
  private:
   WindowGrid grid_;
   Order order_;

@@ -47,7 +47,7 @@ void expect_ready(const Wavefront& wavefront, const WindowOrder& order,
   ASSERT_EQ(wavefront.best().has_value(), !expected.empty());
   if (expected.empty()) return;
   const auto urgency = [&](std::uint64_t rank) {
-    return std::pair(order.urgency(order.window(rank)), rank);
+    return std::pair(order.step(order.window(rank)), rank);
   };
   const auto most_urgent =
       std::min_element(expected.begin(), expected.end(),
@@ -162,7 +162,7 @@ TEST(Wavefront, MemoryDoesNotGrowWithTheVolume) {
 }
 
 /// Layers of blocks between first and last use, at most, when 8 threads march.
-std::size_t layers_in_use(const WindowOrder& order) {
+std::size_t layers_in_use(const WindowOrder& order, std::uint64_t look_ahead) {
   std::map<std::int64_t, std::int64_t> left;  // windows still to finish, by layer of blocks begun
   std::size_t most = 0;
   const std::int64_t in_a_layer = order.grid().windows().x * order.grid().windows().y;
@@ -173,7 +173,7 @@ std::size_t layers_in_use(const WindowOrder& order) {
     const std::int64_t z = order.window(rank).z;
     return std::array{z, z + 1};
   };
-  Wavefront wavefront(order, order.size());
+  Wavefront wavefront(order, look_ahead);
   play(
       order, wavefront, 8,
       [&](std::uint64_t rank) {
@@ -189,8 +189,12 @@ std::size_t layers_in_use(const WindowOrder& order) {
   return most;
 }
 
-TEST(ColourOrder, KeepsFewLayersOfBlocksInUseWithManyThreads) {
-  EXPECT_LE(layers_in_use(WindowOrder(grid_of({12, 10, 30}), Order::kColour)), 5U);
+/// In sequence a march uses two or three layers; looking ahead by one adds one.
+TEST(Wavefront, LookAheadBoundsTheBlocksInUse) {
+  const WindowGrid grid = grid_of({12, 10, 30});
+  EXPECT_LE(layers_in_use({grid, Order::kRaster}, 120), 3U);
+  EXPECT_LE(layers_in_use({grid, Order::kColour}, 120), 5U);
+  EXPECT_GT(layers_in_use({grid, Order::kColour}, 3600), 20U);
 }
 
 }  // namespace
