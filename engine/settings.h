@@ -18,9 +18,16 @@ enum class StartMesh {
   kDense,   ///< the paper's: five tets a voxel
 };
 
+/// Which of two windows that share a block comes first; each order has its own result.
+enum class Order {
+  kRaster,  ///< the paper's (Sec 4.1)
+  kColour,  ///< eight colours by parity of the window's position: far wider on small volumes
+};
+
 struct MeshSettings {
   int window = 32;  ///< window edge in voxels, even
   int marches = 2;  ///< each over the whole volume, with windows twice as large
+  Order order = Order::kRaster;
   StartMesh start = StartMesh::kCoarse;
   std::optional<double> edge_variance;       ///< bound on Eq (3), none: unbounded
   double quality_floor = 0.2;                ///< no tet below this radius ratio

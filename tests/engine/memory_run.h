@@ -108,7 +108,8 @@ struct Trial {
     return volume.text() + " window " + std::to_string(settings.window) + " edge variance " +
            optional(settings.edge_variance) + " floor " + std::to_string(settings.quality_floor) +
            " distance " + optional(settings.max_distance) +
-           (settings.start == StartMesh::kDense ? " dense" : " octree") + " marches " +
+           (settings.start == StartMesh::kDense ? " dense" : " octree") +
+           (settings.order == Order::kRaster ? " raster" : " colour") + " marches " +
            std::to_string(settings.marches) +
            (settings.optimise ? " optimised" : " not optimised") + " spacing z " +
            std::to_string(frame.spacing[2]);
@@ -123,6 +124,13 @@ inline io::MeshData run_in_memory(const Trial& trial, const RunHooks& hooks = {}
   EXPECT_EQ(report.vertices, sink.mesh().vertices.size());
   EXPECT_EQ(report.tets, sink.mesh().tets.size());
   return sink.mesh();
+}
+
+inline void expect_same(const io::MeshData& actual, const io::MeshData& expected) {
+  EXPECT_TRUE(actual.vertices == expected.vertices);
+  EXPECT_TRUE(actual.tets == expected.tets);
+  EXPECT_TRUE(actual.labels == expected.labels);
+  EXPECT_EQ(actual.labels_signed, expected.labels_signed);
 }
 
 /// The mesh with the labels of the SmallVolume, as audit and oracle read it.
@@ -145,6 +153,7 @@ inline io::MeshData run_in_memory(const Trial& trial, const RunHooks& hooks = {}
   trial.settings.window = kWindows[below(random, 5)];
   trial.settings.marches = static_cast<int>(1 + below(random, 3));
   trial.settings.start = below(random, 2) == 0 ? StartMesh::kDense : StartMesh::kOctree;
+  trial.settings.order = below(random, 3) == 0 ? Order::kColour : Order::kRaster;
   trial.settings.optimise = below(random, 3) != 0;
   if (below(random, 3) == 0) trial.settings.edge_variance = 0.1;
   trial.settings.quality_floor = kFloors[below(random, 4)];

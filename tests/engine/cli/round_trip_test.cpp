@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // From volume to verified mesh and on, as a user goes.
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "tests/engine/cli/run_program.h"
@@ -161,6 +163,43 @@ TEST_F(RoundTripTest, EveryStartAndOptimizerGivesASoundMesh) {
     expect_done(std::string("mesh v.npy -o v.vtu ") + flags);
     expect_done("verify v.npy v.vtu");
   }
+}
+
+TEST_F(RoundTripTest, ThreadsDoNotChangeTheMesh) {
+  make_volume();
+  for (const std::string order : {"raster", "colour"}) {
+    const std::string mesh = "mesh v.npy --window 8 --order " + order;
+    expect_done(mesh + " -o one.vtu --threads 1");
+    const std::string digest = run("digest one.vtu").out;
+    for (const int threads : {0, 2, 3}) {
+      expect_done(mesh + " -o v.vtu --report r.json --threads " + std::to_string(threads));
+      EXPECT_EQ(run("digest v.vtu").out, digest);
+      const json used = report("r.json")["engine"]["threads"];
+      EXPECT_TRUE(threads == 0 ? used >= 1 : used == threads) << used;
+    }
+    expect_done("verify v.npy v.vtu --max-distance 1.5");
+  }
+}
+
+TEST_F(RoundTripTest, TraceHasALineForEveryVisit) {
+  make_volume();
+  expect_done("mesh v.npy -o v.vtu --window 8 --threads 2 --trace t.csv --report r.json");
+  std::istringstream lines(read("t.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "march,x,y,z,start_s,end_s,cpu_s,slot");
+  int visits = 0;
+  while (std::getline(lines, line)) {
+    int march = -1, x = -1, y = -1, z = -1, slot = -1;
+    double start = -1, end = -1, cpu = -1;
+    EXPECT_EQ(std::sscanf(line.c_str(), "%d,%d,%d,%d,%lf,%lf,%lf,%d", &march, &x, &y, &z, &start,
+                          &end, &cpu, &slot),
+              8)
+        << line;
+    EXPECT_TRUE(start >= 0 && end > start && cpu >= 0 && (slot == 0 || slot == 1)) << line;
+    ++visits;
+  }
+  EXPECT_EQ(report("r.json")["engine"]["windows"], visits);
 }
 
 TEST_F(RoundTripTest, VerifyReport) {
