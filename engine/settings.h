@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kernels/core/error.h"
+#include "kernels/topology/kept_topology.h"
 
 namespace mw::engine {
 
@@ -24,6 +25,7 @@ struct MeshSettings {
   std::optional<double> edge_variance;       ///< bound on Eq (3), none: unbounded
   double quality_floor = 0.2;                ///< no tet below this radius ratio
   std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
+  KeptTopology topology = KeptTopology::kLabels;
   bool optimise = true;                      ///< local optimisation after each simplification
 };
 

@@ -55,7 +55,9 @@ WindowVisitor::WindowVisitor(const io::DenseVolume& volume, const MeshSettings& 
       metric_(volume.info().spacing),
       start_{.max_level = settings.start == StartMesh::kOctree ? max_level(settings.window) : 0,
              .with_samples = settings.max_distance.has_value()},
-      simplify_{.quality_floor = settings.quality_floor, .edge_variance = settings.edge_variance},
+      simplify_{.quality_floor = settings.quality_floor,
+                .edge_variance = settings.edge_variance,
+                .topology = settings.topology},
       optimise_{.sweeps = settings.optimise ? 1 : 0, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance) {}
 

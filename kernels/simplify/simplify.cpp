@@ -56,7 +56,7 @@ class Simplifier {
         metric_(metric),
         options_(options),
         guard_(guard),
-        topology_(mesh),
+        topology_(mesh, options.topology),
         edge_labels_(mesh.vertex_count() + 1),
         neighbour_marks_(mesh.vertex_count() + 1) {}
 

@@ -108,6 +108,7 @@ struct Trial {
            " distance " + optional(settings.max_distance) +
            (settings.start == StartMesh::kDense ? " dense" : " octree") + " marches " +
            std::to_string(settings.marches) +
+           (settings.topology == KeptTopology::kInterfaces ? " interfaces" : "") +
            (settings.optimise ? " optimised" : " not optimised") + " spacing z " +
            std::to_string(frame.spacing[2]);
   }
