@@ -26,7 +26,7 @@ struct MeshSettings {
   double quality_floor = 0.2;                ///< no tet below this radius ratio
   std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
   KeptTopology topology = KeptTopology::kLabels;
-  bool optimise = true;                      ///< local optimisation after each simplification
+  bool optimise = true;  ///< local optimisation after each simplification
 };
 
 /// ERRORS: mw::Error(kUsage) naming the setting, its value and what is allowed.

@@ -13,9 +13,9 @@ namespace mw {
 /// label and of the closure of its complement, exterior included; by duality that fixes the Betti
 /// numbers of closed and open regions alike (promise P1).  KeptTopology::kInterfaces keeps more.
 ///
-/// kLabels.  Source: Sec 5.3.3 asks for this in Case 3; its Algorithm 1 does not ensure it (it breaks Betti
-/// numbers on real data).  Here, for every label L with L at p and at q, and for both Y = closed
-/// region of L and Y = closure of all the rest:
+/// kLabels.  Source: Sec 5.3.3 asks for this in Case 3; its Algorithm 1 does not ensure it (it
+/// breaks Betti numbers on real data).  Here, for every label L with L at p and at q, and for both
+/// Y = closed region of L and Y = closure of all the rest:
 ///   Lk_Y(p) n Lk_Y(q) = Lk_Y(pq), and pq in Y                                (link condition)
 ///   each L-tet around pq keeps an L-tet across one of its two other faces            (purity)
 /// The second is the first for the complement, so nothing is tested twice.

@@ -62,9 +62,8 @@ TEST_F(UsageTest, SaysWhatIsNotAvailableYet) {
   expect_failure(2, mesh + "--order colour",
                  "--order colour is not available in this version; raster is");
   expect_failure(2, mesh + "--threads 4", "--threads 4 is not available in this version; 1 is");
-  for (const char* flag :
-       {"--memory 4GiB", "--workdir w", "--resume", "--start coarse", "--topology interfaces",
-        "--optimizer tetgen", "--target-reduction 0.1", "--dataset a"}) {
+  for (const char* flag : {"--memory 4GiB", "--workdir w", "--resume", "--start coarse",
+                           "--optimizer tetgen", "--target-reduction 0.1", "--dataset a"}) {
     expect_failure(2, mesh + flag, "not available in this version");
   }
 }
