@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kernels/core/error.h"
+#include "kernels/topology/kept_topology.h"
 
 namespace mw::engine {
 
@@ -13,7 +14,7 @@ namespace mw::engine {
 inline constexpr int kMaxWindow = 256;
 
 enum class StartMesh {
-  kCoarse,  ///< labels coarsened first, then as kOctree
+  kCoarse,  ///< labels coarsened first, then as kOctree; not with interfaces kept: then kOctree
   kOctree,  ///< larger cells inside labels
   kDense,   ///< the paper's: five tets a voxel
 };
@@ -34,6 +35,7 @@ struct MeshSettings {
   std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
   /// Each window stops collapsing at this many vertices a voxel; none: only the bounds stop it.
   std::optional<double> target_reduction;
+  KeptTopology topology = KeptTopology::kLabels;
   bool optimise = true;  ///< local optimisation after each simplification
 };
 

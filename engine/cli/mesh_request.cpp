@@ -16,6 +16,8 @@ namespace {
 
 constexpr const char* kNone = "none";
 constexpr int kMaxThreads = 1024;
+constexpr const char* kLabelsKept = "labels";
+constexpr const char* kInterfacesKept = "interfaces";
 
 std::optional<double> parse_bound(const std::string& text) {
   if (text == kNone) return std::nullopt;
@@ -129,12 +131,16 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
        .kind = ValueKind::kNumberOrNone,
        .fallback = bound_text(defaults.target_reduction)},
       [](engine::MeshSettings& s, const std::string& t) { s.target_reduction = parse_bound(t); });
-  options.add({.name = "topology",
+  add_setting(options, request,
+              {.name = "topology",
                .value = "WHAT",
                .help = "what is kept: labels, or interfaces as well",
-               .fallback = "labels",
-               .choices = {"labels", "interfaces"},
-               .today = "labels"});
+               .fallback = kLabelsKept,
+               .choices = {kLabelsKept, kInterfacesKept}},
+              [](engine::MeshSettings& s, const std::string& t) {
+                s.topology =
+                    t == kInterfacesKept ? KeptTopology::kInterfaces : KeptTopology::kLabels;
+              });
   add_setting(options, request,
               {.name = "optimizer",
                .value = "WHICH",

@@ -111,6 +111,7 @@ struct Trial {
            (settings.start == StartMesh::kDense ? " dense" : " octree") +
            (settings.order == Order::kRaster ? " raster" : " colour") + " marches " +
            std::to_string(settings.marches) +
+           (settings.topology == KeptTopology::kInterfaces ? " interfaces" : "") +
            (settings.optimise ? " optimised" : " not optimised") + " spacing z " +
            std::to_string(frame.spacing[2]);
   }

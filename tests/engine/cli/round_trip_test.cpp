@@ -214,6 +214,27 @@ TEST_F(RoundTripTest, VerifyReport) {
   EXPECT_GE(q["quality"]["radius_ratio_min"], 0.1);
 }
 
+/// The volume has to be one on which the two ways to mesh differ.
+TEST_F(RoundTripTest, InterfacesAreKeptAndVerifiedOnRequest) {
+  expect_done("synth voronoi --shape 32,32,32 --labels 40 --seed 3 -o v.npy");
+  expect_done("mesh v.npy -o i.vtu --topology interfaces --report i.json");
+  EXPECT_EQ(report("i.json")["settings"]["topology"], "interfaces");
+  expect_done("verify v.npy i.vtu --topology interfaces --report q.json");
+  const json kept = report("q.json")["topology"];
+  EXPECT_GT(kept["interfaces"], 40);
+  EXPECT_GT(kept["meetings"], kept["interfaces"]);
+  EXPECT_EQ(kept["interfaces_changed"], 0);
+  EXPECT_EQ(kept["meetings_changed"], 0);
+  expect_done("mesh v.npy -o l.vtu");
+  expect_done("verify v.npy l.vtu");
+  const ProgramRun result = run("verify v.npy l.vtu --topology interfaces --report q.json");
+  EXPECT_EQ(result.code, 5) << result.out << result.err;
+  EXPECT_NE(result.out.find("FAIL  P1 meetings"), std::string::npos) << result.out;
+  EXPECT_EQ(report("q.json")["topology"]["labels_changed"], 0);
+  EXPECT_GT(report("q.json")["topology"]["meetings_changed"], 0);
+  expect_failure(2, "verify v.npy l.vtu --topology all", "--topology");
+}
+
 TEST_F(RoundTripTest, VerifyMeasuresTheDistance) {
   make_volume();
   expect_done("mesh v.npy -o v.vtu --max-distance 1.5");

@@ -62,8 +62,7 @@ TEST_F(UsageTest, SaysWhatIsNotAvailableYet) {
   make_volume();
   const std::string mesh = "mesh v.npy -o v.vtu ";
   for (const char* flag :
-       {"--memory 4GiB", "--workdir w", "--resume", "--start coarse", "--topology interfaces",
-        "--optimizer tetgen", "--target-reduction 0.1", "--dataset a"}) {
+       {"--memory 4GiB", "--workdir w", "--resume", "--optimizer tetgen", "--dataset a"}) {
     expect_failure(2, mesh + flag, "not available in this version");
   }
 }
