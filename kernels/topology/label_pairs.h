@@ -3,6 +3,7 @@
 // Which labels share a triangle at a vertex or at an edge.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +23,6 @@ class LabelPairs {
   }
   /// All labels that are paired with a, by place.
   [[nodiscard]] Mask with(std::size_t a) const { return with_[a]; }
-  [[nodiscard]] std::size_t labels() const { return with_.size(); }
 
  private:
   std::vector<Mask> with_;
