@@ -12,11 +12,11 @@
 namespace mw::engine {
 namespace {
 
+using mw::test::random_volume_of;
+using mw::test::VolumeKind;
 using test::random_block;
 using test::repair_head;
 using test::same_bits;
-using mw::test::random_volume_of;
-using mw::test::VolumeKind;
 
 constexpr BlockKey kKey{1, {3, 4, 5}};
 
