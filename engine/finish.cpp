@@ -59,12 +59,12 @@ void write_block(const BlockMesh& block, const std::vector<FinalVertex>& vertice
 
 }  // namespace
 
-FinishedMesh finish(BlockStore& store, const WindowGrid& grid, const io::DenseVolume& volume,
+FinishedMesh finish(const BlockStore& store, const WindowGrid& grid, const io::DenseVolume& volume,
                     io::MeshSink& sink) {
   std::vector<BlockMesh> blocks;
   FinishedMesh out;
   each_index(grid.blocks(), [&](Index3 b) {
-    blocks.push_back(store.take(b).value());
+    blocks.push_back(store.load(b));
     out.tets += blocks.back().tets.size();
   });
   const std::vector<FinalVertex> vertices = unique_vertices(blocks);

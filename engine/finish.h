@@ -15,9 +15,9 @@ struct FinishedMesh {
   std::uint64_t tets = 0;
 };
 
-/// Takes every block out of the store and writes the mesh: vertices ascending by id, tets by block
+/// Loads every block of the store and writes the mesh: vertices ascending by id, tets by block
 /// and canonical order inside it.  Coordinates are origin + spacing * voxel corner.
-FinishedMesh finish(BlockStore& store, const WindowGrid& grid, const io::DenseVolume& volume,
+FinishedMesh finish(const BlockStore& store, const WindowGrid& grid, const io::DenseVolume& volume,
                     io::MeshSink& sink);
 
 }  // namespace mw::engine

@@ -5,29 +5,15 @@
 
 #include <memory>
 
-#include "engine/block_store.h"
 #include "engine/finish.h"
 #include "engine/stopwatch.h"
-#include "engine/window.h"
+#include "engine/store/run_identity.h"
+#include "engine/store/workdir.h"
+#include "engine/window_memory.h"
 #include "engine/window_visitor.h"
 
 namespace mw::engine {
 namespace {
-
-/// The blocks of a march, each made of the eight that the march before left in its place.
-std::unique_ptr<BlockStore> regroup(BlockStore& before, Index3 blocks_before, Index3 blocks) {
-  auto store = std::make_unique<MemoryBlockStore>(blocks);
-  each_index(blocks, [&](Index3 b) {
-    std::vector<BlockMesh> parts;
-    each_index(Index3{2, 2, 2}, [&](Index3 i) {
-      const Index3 part{2 * b.x + i.x, 2 * b.y + i.y, 2 * b.z + i.z};
-      if (!Box3{{0, 0, 0}, blocks_before}.contains(part)) return;
-      parts.push_back(before.take(part).value());
-    });
-    store->put(b, merge(parts));
-  });
-  return store;
-}
 
 /// One grid a march.  A vertex near a block plane is free in half as many windows, so it stays
 /// denser there; the next march has other planes and heals that.
@@ -40,23 +26,26 @@ std::vector<WindowGrid> march_grids(Index3 shape, const MeshSettings& settings) 
   return grids;
 }
 
-}  // namespace
+std::unique_ptr<Workdir> open_workdir(const io::VolumeInfo& volume, const MeshSettings& settings,
+                                      const StoreOptions& options) {
+  if (options.workdir.empty()) return nullptr;
+  return std::make_unique<Workdir>(options.workdir, options.resume,
+                                   options.identity + identity_text(volume, settings));
+}
 
-RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
-                      io::MeshSink& sink, const RunHooks& hooks) {
-  check(settings);
-  RunReport report;
-  const std::vector<WindowGrid> grids = march_grids(volume.info().shape, settings);
-  std::uint64_t total = 0;
-  for (const WindowGrid& g : grids) total += static_cast<std::uint64_t>(g.windows().product());
-  std::unique_ptr<BlockStore> store = std::make_unique<MemoryBlockStore>(grids[0].blocks());
-  for (std::size_t i = 0; i < grids.size(); ++i) {
-    const WindowGrid& grid = grids[i];
-    if (i > 0) store = regroup(*store, grids[i - 1].blocks(), grid.blocks());
-    WindowVisitor visitor(volume, settings, grid, *store, report);
+void march_all(const RunLayout& layout, const io::DenseVolume& volume, const MeshSettings& settings,
+               RunStore& store, const RunHooks& hooks, RunReport& report) {
+  const std::uint64_t done_before = store.facts().resumed_windows;
+  for (std::uint32_t i = 0; i < layout.marches(); ++i) {
+    const WindowGrid& grid = layout.grid(i);
+    BlockStore& blocks = store.march(i);
+    WindowVisitor visitor(volume, settings, grid, blocks, report);
     const VisitWindow visit = [&](Index3 window) {
+      if (blocks.is_done(window)) return;
+      const auto room =
+          store.reserve(Purpose::kWindows, window_bytes(grid, window, blocks, settings));
       visitor.visit(window);
-      if (hooks.progress) hooks.progress(report.windows, total);
+      if (hooks.progress) hooks.progress(done_before + report.windows, layout.windows());
     };
     if (hooks.pick) {
       march(grid, visit, hooks.pick);
@@ -64,11 +53,50 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
       march(grid, visit);
     }
   }
+}
+
+void write_mesh(const RunLayout& layout, RunStore& store, const io::DenseVolume& volume,
+                io::MeshSink& sink, RunReport& report) {
   Stopwatch watch;
-  const FinishedMesh finished = finish(*store, grids.back(), volume, sink);
+  const std::uint32_t last = layout.marches() - 1;
+  const FinishedMesh finished = finish(store.march(last), layout.grid(last), volume, sink);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;
+}
+
+/// After an error: what can be saved is, and the first error stays the one that is told.
+void keep_work(RunStore& store, Workdir* workdir) noexcept {
+  if (workdir == nullptr) return;
+  try {
+    store.save();
+  } catch (...) {
+    // The disk is full or broken, or memory is out: what was saved before remains.
+  }
+  if (store.has_saved_work()) workdir->keep();
+}
+
+}  // namespace
+
+RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
+                      io::MeshSink& sink, const RunHooks& hooks) {
+  check(settings);
+  RunReport report;
+  const RunLayout layout(march_grids(volume.info().shape, settings));
+  MemoryBudget budget(hooks.store.memory);
+  const auto program = budget.reserve(Purpose::kProgram, program_bytes(volume));
+  const auto workdir = open_workdir(volume.info(), settings, hooks.store);
+  RunStore store(layout, budget, workdir.get(), hooks.store.group);
+  try {
+    march_all(layout, volume, settings, store, hooks, report);
+    write_mesh(layout, store, volume, sink, report);
+  } catch (...) {
+    keep_work(store, workdir.get());
+    throw;
+  }
+  if (workdir != nullptr) workdir->discard();
+  report.peak_accounted_bytes = budget.peak();
+  report.store = store.facts();
   return report;
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/march.h"
 #include "engine/settings.h"
+#include "engine/store/store_options.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/optimise/optimise.h"
@@ -16,7 +17,7 @@ namespace mw::engine {
 
 /// What a run did.  Times are wall seconds.
 struct RunReport {
-  std::uint64_t windows = 0;
+  std::uint64_t windows = 0;  ///< visited, without those done before a resume
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
   SimplifyStats simplify;
@@ -26,6 +27,8 @@ struct RunReport {
   double optimise_seconds = 0.0;
   double exchange_seconds = 0.0;  ///< gather and scatter
   double output_seconds = 0.0;
+  std::uint64_t peak_accounted_bytes = 0;
+  StoreFacts store;
 };
 
 /// Called after each window with the number done and the total; may throw to stop the run.
@@ -34,11 +37,14 @@ using OnProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 struct RunHooks {
   OnProgress progress;  ///< optional
   PickReady pick;       ///< order among ready windows; empty: raster (the result is the same)
+  StoreOptions store;   ///< memory and disk (the result is the same)
 };
 
 /// Meshes the whole box of the volume into `sink`.
 /// ENSURES: promises P1 to P3 and P5 of the README.
-/// ERRORS: whatever volume and sink throw; kUsage for bad settings.
+///          A run that ends early, by an error or because progress throws, leaves what it has done
+///          in the work folder, if there is one and anything was done; otherwise the folder goes.
+/// ERRORS: whatever volume and sink throw; kUsage for bad settings; those of Workdir and RunStore.
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks = {});
 

@@ -62,15 +62,18 @@ WindowVisitor::WindowVisitor(const io::DenseVolume& volume, const MeshSettings& 
 void WindowVisitor::visit(Index3 window) {
   Stopwatch watch;
   const std::vector<Index3> blocks = grid_.blocks_of(window);
+  std::vector<std::optional<BlockMesh>> stored = store_.take(window);
   std::vector<BlockMesh> content;
-  for (Index3 b : blocks) content.push_back(take(b));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    content.push_back(stored[i] ? std::move(*stored[i]) : start(blocks[i]));
+  }
   watch.lap(report_.start_seconds);
   WindowContent window_content = gather(content, grid_.volume());
+  content.clear();
   watch.lap(report_.exchange_seconds);
   work_on(window_content);
   watch.restart();
-  content = scatter(window_content, grid_, window);
-  for (std::size_t i = 0; i < blocks.size(); ++i) store_.put(blocks[i], std::move(content[i]));
+  store_.commit(window, scatter(window_content, grid_, window));
   watch.lap(report_.exchange_seconds);
   ++report_.windows;
 }
@@ -91,8 +94,7 @@ void WindowVisitor::work_on(WindowContent& content) {
   watch.lap(report_.optimise_seconds);
 }
 
-BlockMesh WindowVisitor::take(Index3 block) {
-  if (auto stored = store_.take(block)) return std::move(*stored);
+BlockMesh WindowVisitor::start(Index3 block) const {
   const Box3 box = grid_.block_box(block);
   const std::int64_t halo = start_halo(start_.max_level);
   const Index3 around{halo, halo, halo};

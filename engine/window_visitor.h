@@ -23,7 +23,7 @@ class WindowVisitor {
 
  private:
   void work_on(WindowContent& content);
-  [[nodiscard]] BlockMesh take(Index3 block);
+  [[nodiscard]] BlockMesh start(Index3 block) const;
 
   const io::DenseVolume& volume_;
   const WindowGrid& grid_;

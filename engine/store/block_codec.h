@@ -36,7 +36,7 @@ struct BlockKey {
 ///                   tets var
 ///       a tet:      first row var, minus that of the tet before; each next row var, minus the one
 ///                   before, minus 1; place of the label among the labels var
-///                   sample lists var (samples of one triangle and side)
+///                   samples var; sample lists var (samples of one triangle and side)
 ///       a list:     three rows and the side, as for a tet; number of samples var; first sample
 ///                   zigzag var, minus the last of the list before; each next var, minus the one
 ///                   before

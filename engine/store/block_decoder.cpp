@@ -135,7 +135,9 @@ class Decoder {
   }
 
   void samples() {
+    const std::size_t total = in_.count();
     const std::size_t lists = in_.count();
+    mesh_.samples.reserve(total);
     std::uint32_t before = 0;
     FaceSample last = 0;
     for (std::size_t i = 0; i < lists; ++i) {
@@ -155,6 +157,7 @@ class Decoder {
         mesh_.samples.push_back(s);
       }
     }
+    if (mesh_.samples.size() != total) throw BadBytes{"its number of samples is wrong"};
   }
 
   void require_all_used() const {
@@ -174,7 +177,7 @@ class Decoder {
 
 template <class T>
 std::uint64_t list_bytes(const std::vector<T>& list) {
-  return list.capacity() * sizeof(T);
+  return list.size() * sizeof(T);
 }
 
 }  // namespace

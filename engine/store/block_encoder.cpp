@@ -133,6 +133,7 @@ class Encoder {
   void samples() {
     std::size_t lists = 0;
     for (std::size_t i = 0; i < mesh_.samples.size(); i = list_end(i)) ++lists;
+    out_.varint(mesh_.samples.size());
     out_.varint(lists);
     std::uint32_t before = 0;
     FaceSample last = 0;
