@@ -28,6 +28,14 @@ std::uint64_t number_at(const WorkFile& file, std::uint64_t offset, std::size_t 
   return value;
 }
 
+/// The first bytes of the magic, none or some, then zeros: someone was stopped while beginning it.
+bool is_unfinished(std::uint64_t magic) {
+  for (unsigned bits = 0; bits < 8 * kMagicBytes; bits += 8) {
+    if (magic == (kMagic & ((std::uint64_t{1} << bits) - 1))) return true;
+  }
+  return false;
+}
+
 ByteWriter encode(const JournalRecord& record, std::uint64_t number) {
   ByteWriter out;
   out.low_bytes(0, kHeadBytes);
@@ -76,8 +84,7 @@ JournalRecord decode(std::span<const std::byte> body, std::uint64_t number) {
 }  // namespace
 
 Journal::Journal(std::unique_ptr<WorkFile> file) : file_(std::move(file)) {
-  const bool empty = file_->size() < kMagicBytes || number_at(*file_, 0, kMagicBytes) == 0;
-  if (empty) begin();
+  if (file_->size() < kMagicBytes || is_unfinished(number_at(*file_, 0, kMagicBytes))) begin();
   if (number_at(*file_, 0, kMagicBytes) != kMagic) {
     io::fail_input("journal", "corrupt", "it does not begin as a journal of version 1",
                    "delete the work folder and start again");

@@ -41,6 +41,7 @@ class VolatileFiles : public WorkFiles {
                   after.begin() + static_cast<long>(at));
       }
       content.now = content.durable = std::move(after);
+      content.written.clear();
     }
     fail_at = ~std::uint64_t{0};
   }
@@ -51,6 +52,7 @@ class VolatileFiles : public WorkFiles {
   struct Content {
     Bytes now;
     Bytes durable;
+    std::vector<std::pair<std::size_t, std::size_t>> written;  ///< offset, size; since the sync
   };
 
   class File : public WorkFile {
@@ -60,6 +62,9 @@ class VolatileFiles : public WorkFiles {
     [[nodiscard]] std::uint64_t size() const override { return content_.now.size(); }
     void resize(std::uint64_t size) override {
       files_.step();
+      // Shortened and grown again, bytes are 0 once more.
+      content_.written.emplace_back(size,
+                                    content_.now.size() - std::min(size, content_.now.size()));
       content_.now.resize(size);
     }
     void write(std::uint64_t offset, std::span<const std::byte> bytes) override {
@@ -68,6 +73,7 @@ class VolatileFiles : public WorkFiles {
       const auto part = bytes.first(fails ? bytes.size() / 2 : bytes.size());
       if (offset + bytes.size() > content_.now.size()) std::abort();
       std::copy(part.begin(), part.end(), content_.now.begin() + static_cast<long>(offset));
+      content_.written.emplace_back(offset, part.size());
       files_.step();
     }
     void read(std::uint64_t offset, std::uint64_t size, const UseBytes& use) const override {
@@ -77,7 +83,11 @@ class VolatileFiles : public WorkFiles {
     void prefetch(std::uint64_t, std::uint64_t) const override {}
     void sync() override {
       files_.step();
-      content_.durable = content_.now;
+      content_.durable.resize(content_.now.size());
+      for (const auto& [offset, size] : std::exchange(content_.written, {})) {
+        const std::size_t end = std::min(offset + size, content_.now.size());
+        for (std::size_t i = offset; i < end; ++i) content_.durable[i] = content_.now[i];
+      }
     }
 
    private:
