@@ -22,11 +22,16 @@ class BlockStore {
  public:
   virtual ~BlockStore() = default;
 
+  /// Sets memory aside for a window in flight, until it commits; blocks are spilled to make room.
+  /// ENSURES: false when that does not suffice before other windows have committed.
+  /// ERRORS: mw::Error(kResource) with the least that works when there are no others.
+  [[nodiscard]] virtual bool admit(Index3 window, std::uint64_t bytes) = 0;
   /// The blocks of a window, in the order of grid.blocks_of(window), as the last window that
   /// committed them or the march before left them; empty where there was none: such a block is
   /// made from voxels.
   [[nodiscard]] virtual std::vector<std::optional<BlockMesh>> take(Index3 window) = 0;
   /// All of a window's results become visible at once, and the window is done.
+  /// Memory for them comes out of what admit() set aside; the rest of that is given back.
   /// REQUIRES: canonical, one for each block of the window, in the order of take().
   virtual void commit(Index3 window, std::vector<BlockMesh> blocks) = 0;
 

@@ -33,6 +33,13 @@ std::unique_ptr<Workdir> open_workdir(const io::VolumeInfo& volume, const MeshSe
                                    options.identity + identity_text(volume, settings));
 }
 
+/// Tells at once the least that works for the first march.  What a later window takes depends on
+/// what earlier ones leave.
+void require_least(const RunLayout& layout, const io::DenseVolume& volume, MemoryBudget& budget) {
+  (void)budget.reserve(Purpose::kWindows, program_bytes(volume) + index_bytes(layout) +
+                                              start_window_bytes(layout.grid(0)));
+}
+
 void march_all(const RunLayout& layout, const io::DenseVolume& volume, const MeshSettings& settings,
                RunStore& store, const RunHooks& hooks, RunReport& report) {
   const std::uint64_t done_before = store.facts().resumed_windows;
@@ -42,8 +49,8 @@ void march_all(const RunLayout& layout, const io::DenseVolume& volume, const Mes
     WindowVisitor visitor(volume, settings, grid, blocks, report);
     const VisitWindow visit = [&](Index3 window) {
       if (blocks.is_done(window)) return;
-      const auto room =
-          store.reserve(Purpose::kWindows, window_bytes(grid, window, blocks, settings));
+      // Alone in flight, it is admitted or this throws.
+      (void)blocks.admit(window, window_bytes(grid, window, blocks));
       visitor.visit(window);
       if (hooks.progress) hooks.progress(done_before + report.windows, layout.windows());
     };
@@ -66,14 +73,16 @@ void write_mesh(const RunLayout& layout, RunStore& store, const io::DenseVolume&
 }
 
 /// After an error: what can be saved is, and the first error stays the one that is told.
-void keep_work(RunStore& store, Workdir* workdir) noexcept {
+void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
   if (workdir == nullptr) return;
   try {
     store.save();
   } catch (...) {
     // The disk is full or broken, or memory is out: what was saved before remains.
   }
-  if (store.has_saved_work()) workdir->keep();
+  if (!store.has_saved_work()) return;
+  workdir->keep();
+  if (options.kept) options.kept();
 }
 
 }  // namespace
@@ -84,6 +93,7 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   RunReport report;
   const RunLayout layout(march_grids(volume.info().shape, settings));
   MemoryBudget budget(hooks.store.memory);
+  require_least(layout, volume, budget);
   const auto program = budget.reserve(Purpose::kProgram, program_bytes(volume));
   const auto workdir = open_workdir(volume.info(), settings, hooks.store);
   RunStore store(layout, budget, workdir.get(), hooks.store.group);
@@ -91,10 +101,11 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
     march_all(layout, volume, settings, store, hooks, report);
     write_mesh(layout, store, volume, sink, report);
   } catch (...) {
-    keep_work(store, workdir.get());
+    keep_work(store, workdir.get(), hooks.store);
     throw;
   }
   if (workdir != nullptr) workdir->discard();
+  report.memory_budget_bytes = budget.limit();
   report.peak_accounted_bytes = budget.peak();
   report.store = store.facts();
   return report;

@@ -27,6 +27,7 @@ struct RunReport {
   double optimise_seconds = 0.0;
   double exchange_seconds = 0.0;  ///< gather and scatter
   double output_seconds = 0.0;
+  std::uint64_t memory_budget_bytes = 0;
   std::uint64_t peak_accounted_bytes = 0;
   StoreFacts store;
 };

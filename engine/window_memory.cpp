@@ -7,25 +7,35 @@ namespace mw::engine {
 namespace {
 
 constexpr std::uint64_t kMebibyte = 1 << 20;
-constexpr std::uint64_t kBytesPerStartVoxel = 1000;
+// The most that any volume took (noise, where every voxel has a label of its own; connectome and
+// CT take a third of it), from start mesh to scatter.
+constexpr std::uint64_t kBytesPerStartVoxel = 2900;
 constexpr std::uint64_t kBytesPerStoredByte = 6;
 constexpr std::uint64_t kBytesPerLabelVoxel = 16;
 constexpr std::uint64_t kProgramBytes = 24 * kMebibyte;
 constexpr std::uint64_t kBytesPerLabel = 64;
 
+std::uint64_t voxels_of(const WindowGrid& grid, Index3 block) {
+  return static_cast<std::uint64_t>(grid.block_box(block).voxels());
+}
+
 }  // namespace
 
-std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockStore& store,
-                           const MeshSettings& settings) {
-  static_cast<void>(settings);
-  std::uint64_t fresh = 0, all = 0;
+std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockStore& store) {
+  std::uint64_t sum = store.taken_bytes(window) * kBytesPerStoredByte;
   for (Index3 block : grid.blocks_of(window)) {
-    const auto voxels = static_cast<std::uint64_t>(grid.block_box(block).voxels());
-    if (store.loaded_bytes(block) == 0) fresh += voxels;
-    all += voxels;
+    const bool fresh = store.loaded_bytes(block) == 0;
+    sum += voxels_of(grid, block) * (kBytesPerLabelVoxel + (fresh ? kBytesPerStartVoxel : 0));
   }
-  return fresh * kBytesPerStartVoxel + store.taken_bytes(window) * kBytesPerStoredByte +
-         all * kBytesPerLabelVoxel;
+  return sum;
+}
+
+std::uint64_t start_window_bytes(const WindowGrid& grid) {
+  std::uint64_t sum = 0;
+  for (Index3 block : grid.blocks_of({0, 0, 0})) {
+    sum += voxels_of(grid, block) * (kBytesPerLabelVoxel + kBytesPerStartVoxel);
+  }
+  return sum;
 }
 
 std::uint64_t program_bytes(const io::DenseVolume& volume) {

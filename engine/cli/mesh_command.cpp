@@ -9,8 +9,10 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/fingerprint.h"
 #include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
+#include "engine/cli/machine_memory.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/run_report.h"
@@ -58,12 +60,13 @@ SelectingSink::Wanted wanted_labels(const MeshRequest& request, const io::LabelT
 
 /// Vertices and tets of the result are those written.
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
-                            io::MeshSink& sink) {
+                            io::MeshSink& sink, const engine::StoreOptions& store) {
   Progress progress(request.progress);
-  const engine::RunHooks hooks{.progress = [&](std::uint64_t done, std::uint64_t total) {
+  const engine::OnProgress show = [&](std::uint64_t done, std::uint64_t total) {
     stop_if_interrupted();
     progress.show(done, total);
-  }};
+  };
+  const engine::RunHooks hooks{.progress = show, .pick = {}, .store = store};
   if (!request.labels && !request.background) {
     return engine::mesh_volume(volume, request.settings, sink, hooks);
   }
@@ -72,6 +75,29 @@ engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& v
   run.vertices = selection.mesh().vertices.size();
   run.tets = selection.mesh().tets.size();
   return run;
+}
+
+/// Says where the work is when a run that ends early leaves some.
+engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume& volume,
+                               io::MeshSink& sink, const std::string& fingerprint) {
+  std::string work;
+  const engine::StoreOptions store{
+      .memory = request.memory.value_or(default_memory_budget()),
+      .workdir = request.workdir,
+      .resume = request.resume,
+      .identity = "version = " MW_VERSION "\nlabel fingerprint = " + fingerprint + "\n",
+      .group = {},
+      .kept = [&] {
+        work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
+      }};
+  try {
+    return mesh_into(request, volume, sink, store);
+  } catch (const Interrupted&) {
+    throw Interrupted{work};
+  } catch (const Error& error) {
+    if (work.empty()) throw;
+    throw Error(error.kind(), error.what() + ("; " + work));
+  }
 }
 
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
@@ -88,6 +114,16 @@ void print_summary(const FinishedRun& run, const MeshRequest& request) {
             << "file        " << request.output.string() << std::endl;
 }
 
+void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
+  if (!request.resume) return;
+  if (facts.resumed_windows == 0) {
+    spdlog::warn("{}: no saved work to resume, started from the beginning",
+                 request.workdir.string());
+  } else {
+    spdlog::info("{} windows were done before", facts.resumed_windows);
+  }
+}
+
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   const ResourceMeter meter;
@@ -95,11 +131,14 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
   const InterruptibleVolume volume(*opened);
-  const io::LabelTable table = io::collect_labels(volume);
+  const FingerprintVolume fingerprint(volume);
+  const io::LabelTable table = io::collect_labels(fingerprint);
   FinishedRun run{.volume = volume.info(), .labels = table.size()};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
-  run.engine = mesh_into(request, io::DenseVolume(volume, table), *files.sink);
+  run.engine =
+      mesh_or_keep(request, io::DenseVolume(volume, table), *files.sink, fingerprint.text());
+  tell_resume(request, run.engine.store);
   run.resources = meter.read();
   print_summary(run, request);
   if (files.report) {

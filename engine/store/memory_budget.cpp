@@ -55,6 +55,16 @@ MemoryBudget::Reservation MemoryBudget::reserve(Purpose purpose, std::uint64_t b
   return std::move(*reserved);
 }
 
+MemoryBudget::Reservation MemoryBudget::carve(Reservation& from, Purpose purpose,
+                                              std::uint64_t bytes) {
+  MW_ASSERT(from.budget_ == this && from.bytes_ >= bytes);
+  const std::lock_guard lock(mutex_);
+  accounts_[place(from.purpose_)].used -= bytes;
+  accounts_[place(purpose)].add(bytes);
+  from.bytes_ -= bytes;
+  return {*this, purpose, bytes};
+}
+
 void MemoryBudget::release(Purpose purpose, std::uint64_t bytes) {
   const std::lock_guard lock(mutex_);
   MW_ASSERT(accounts_[place(purpose)].used >= bytes);

@@ -56,6 +56,10 @@ class MemoryBudget {
   /// ERRORS: as fail() when it would exceed the limit.
   [[nodiscard]] Reservation reserve(Purpose purpose, std::uint64_t bytes);
 
+  /// Moves bytes from one reservation to a new one, for another purpose; the sum stays.
+  /// REQUIRES: from is of this budget and holds that many.
+  [[nodiscard]] Reservation carve(Reservation& from, Purpose purpose, std::uint64_t bytes);
+
   /// The smallest limit under which `bytes` could be reserved now, blocks all spilled.
   [[nodiscard]] std::uint64_t least_with(std::uint64_t bytes) const;
   /// ERRORS: mw::Error(kResource) with the limit and least_with(bytes).

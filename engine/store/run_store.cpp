@@ -34,6 +34,9 @@ class RunStore::March : public BlockStore {
  public:
   March(RunStore& run, std::uint32_t march) : run_(run), march_(march) {}
 
+  [[nodiscard]] bool admit(Index3 window, std::uint64_t bytes) override {
+    return run_.admit({march_, window}, bytes);
+  }
   [[nodiscard]] std::vector<std::optional<BlockMesh>> take(Index3 window) override {
     // The next of its row cannot start before this one has ended, and will right then.
     run_.prefetch({march_, window + Index3{1, 0, 0}});
@@ -201,20 +204,39 @@ MemoryBudget::Reservation RunStore::reserve(Purpose purpose, std::uint64_t bytes
   return std::move(*reserved);
 }
 
-BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh) {
+BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh,
+                          MemoryBudget::Reservation& room) {
   auto block = std::make_shared<EncodedBlock>();
   block->bytes = encode_block(key, mesh);
   block->memory_bytes = memory_bytes(mesh);
-  block->room = reserve(Purpose::kBlocks, block->bytes.size() + sizeof(EncodedBlock));
+  const std::uint64_t bytes = block->bytes.size() + sizeof(EncodedBlock);
+  block->room = room.bytes() >= bytes ? budget_.carve(room, Purpose::kBlocks, bytes)
+                                      : reserve(Purpose::kBlocks, bytes);
   return block;
+}
+
+bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
+  auto room = try_reserve(Purpose::kWindows, bytes);
+  const std::lock_guard lock(mutex_);
+  if (!room && in_flight_.empty()) budget_.fail(bytes);
+  if (!room) return false;
+  in_flight_.emplace(layout_.window(key), std::move(*room));
+  return true;
 }
 
 void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
   const std::vector<BlockKey> keys = blocks_of(key);
   MW_ASSERT(blocks.size() == keys.size());
+  MemoryBudget::Reservation room;
+  {
+    const std::lock_guard lock(mutex_);
+    if (auto admitted = in_flight_.extract(layout_.window(key))) {
+      room = std::move(admitted.mapped());
+    }
+  }
   std::vector<BlockPin> pins;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    pins.push_back(encode(keys[i], blocks[i]));
+    pins.push_back(encode(keys[i], blocks[i], room));
     blocks[i] = {};
   }
   bool full = false;

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <mutex>
 
 #include "engine/block_store.h"
@@ -69,6 +70,7 @@ class RunStore {
     std::vector<std::uint64_t> slots;
   };
 
+  [[nodiscard]] bool admit(const WindowKey& key, std::uint64_t bytes);
   [[nodiscard]] std::vector<std::optional<BlockMesh>> take(const WindowKey& key) const;
   void commit(const WindowKey& key, std::vector<BlockMesh> blocks);
   [[nodiscard]] BlockMesh load(const BlockKey& key) const;
@@ -82,7 +84,9 @@ class RunStore {
   void find(const BlockKey& key, std::vector<Source>& out) const;
   [[nodiscard]] BlockMesh read(const Source& source) const;
   [[nodiscard]] std::optional<BlockMesh> assemble(const std::vector<Source>& sources) const;
-  [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh);
+  /// Its memory comes out of `room` if it fits there.
+  [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh,
+                                MemoryBudget::Reservation& room);
   void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin> pins);
   [[nodiscard]] bool group_is_full() const;
   void write_group();
@@ -100,6 +104,7 @@ class RunStore {
   DoneWindows done_;
   std::unique_ptr<SegmentFile> disk_;
   BlockTable table_;
+  std::map<std::uint64_t, MemoryBudget::Reservation> in_flight_;  ///< by window
   Group group_;
   Clock::time_point group_since_ = Clock::now();
 

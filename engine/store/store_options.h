@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "engine/store/memory_budget.h"
@@ -19,6 +20,8 @@ struct StoreOptions {
   /// The engine adds shape, spacing and settings.
   std::string identity;
   GroupCommit group;
+  /// Called when a run that ends early leaves work in the folder.
+  std::function<void()> kept;
 };
 
 }  // namespace mw::engine

@@ -49,6 +49,22 @@ TEST(MemoryBudget, ReservationsMove) {
   EXPECT_EQ(budget.used(), 0U);
 }
 
+TEST(MemoryBudget, CarvesWithoutAskingForMore) {
+  MemoryBudget budget(100);
+  Reservation window = budget.reserve(Purpose::kWindows, 100);
+  {
+    const Reservation block = budget.carve(window, Purpose::kBlocks, 30);
+    EXPECT_EQ(block.bytes(), 30U);
+    EXPECT_EQ(window.bytes(), 70U);
+    EXPECT_EQ(budget.used(Purpose::kBlocks), 30U);
+    EXPECT_EQ(budget.used(), 100U);
+    window = Reservation();
+    EXPECT_EQ(budget.used(), 30U);
+  }
+  EXPECT_EQ(budget.used(), 0U);
+  EXPECT_EQ(budget.peak(), 100U);
+}
+
 TEST(MemoryBudget, SaysTheLeastThatWorks) {
   constexpr std::uint64_t kMebibyte = 1 << 20;
   MemoryBudget budget(10 * kMebibyte);
