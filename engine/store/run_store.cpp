@@ -230,19 +230,20 @@ void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
   MemoryBudget::Reservation room;
   {
     const std::lock_guard lock(mutex_);
-    if (auto admitted = in_flight_.extract(layout_.window(key))) {
-      room = std::move(admitted.mapped());
-    }
+    const auto admitted = in_flight_.find(layout_.window(key));
+    if (admitted != in_flight_.end()) room = std::move(admitted->second);
   }
   std::vector<BlockPin> pins;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     pins.push_back(encode(keys[i], blocks[i], room));
     blocks[i] = {};
   }
+  room = {};
   bool full = false;
   {
     const std::lock_guard lock(mutex_);
     replace(key, keys, std::move(pins));
+    in_flight_.erase(layout_.window(key));  // now all that it held can be spilled
     full = group_is_full();
   }
   if (!full) return;
