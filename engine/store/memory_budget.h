@@ -13,14 +13,13 @@
 namespace mw::engine {
 
 enum class Purpose {
-  kProgram,  ///< code, stacks, the allocator's slack
+  kProgram,  ///< code, stacks, the allocator's slack, the pages of the work folder being written
   kIndex,    ///< where blocks are, which windows are done
   kBlocks,   ///< encoded blocks in memory; they can be spilled to make room
-  kMapped,   ///< mapped pages of the work folder
-  kWindows,  ///< windows in flight
+  kWindows,  ///< windows in flight, pages that they map to read their blocks among them
   kOutput,   ///< what the writing of the mesh needs
 };
-inline constexpr std::size_t kPurposes = 6;
+inline constexpr std::size_t kPurposes = 5;
 
 /// Thread safety: all members, and reservations of one budget, may be used from many threads.
 class MemoryBudget {

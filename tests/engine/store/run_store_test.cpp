@@ -15,6 +15,7 @@ namespace {
 using test::expect_closed;
 using test::fake_layout;
 using test::fake_run;
+using test::fake_work;
 using test::final_bytes;
 using test::FinalBytes;
 using test::reference_run;
@@ -95,6 +96,25 @@ TEST(RunStore, SaysTheLeastBudgetThatWorks) {
     EXPECT_EQ(e.kind(), ErrorKind::kResource);
     EXPECT_NE(std::string(e.what()).find("--memory 6MiB"), std::string::npos) << e.what();
   }
+}
+
+/// A window in flight keeps others out; alone, what it cannot have is an error.
+TEST(RunStore, AdmitsWhatFits) {
+  const RunLayout layout = fake_layout({20, 20, 20}, 1);
+  MemoryBudget budget(index_bytes(layout) + 2 * kTightBytes);
+  VolatileFiles files;
+  RunStore store(layout, budget, &files, kNever);
+  BlockStore& blocks = store.march(0);
+  const Index3 near{0, 0, 0}, far{4, 4, 4};
+  EXPECT_THROW((void)blocks.admit(near, 3 * kTightBytes), Error);
+  EXPECT_TRUE(blocks.admit(near, kTightBytes));
+  EXPECT_FALSE(blocks.admit(far, kTightBytes + 1));
+  EXPECT_TRUE(blocks.admit(far, kTightBytes));
+  EXPECT_EQ(budget.used(Purpose::kWindows), 2 * kTightBytes);
+  blocks.commit(near, fake_work(layout, {0, near}, blocks.take(near)));
+  EXPECT_EQ(budget.used(Purpose::kWindows), kTightBytes);
+  EXPECT_TRUE(blocks.admit(near, kTightBytes)) << "the blocks are spilled";
+  EXPECT_EQ(budget.used(Purpose::kBlocks), 0U);
 }
 
 TEST(RunStore, WithoutADiskMemoryIsAllThereIs) {
