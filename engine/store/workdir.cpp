@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLockFile = "lock";
 constexpr const char* kSettingsFile = "settings.txt";
-constexpr std::array<const char*, 4> kFiles{kSettingsFile, kJournalFile, kBlocksFile, kLockFile};
+// In the order of removal: a kill on the way leaves nothing that looks like saved work.
+constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettingsFile, kLockFile};
 constexpr const char* kPartialSettings = ".settings.txt.partial-";  // AtomicFile, after a kill
 
 bool is_ours(const std::string& name) {
