@@ -11,14 +11,8 @@
 namespace mw::test {
 namespace {
 
-BlockMesh graded_block(const SmallVolume& volume, const Box3& block, int level) {
-  const Index3 halo{start_halo(level), start_halo(level), start_halo(level)};
-  return graded_start(labels_in(volume, {block.lo - halo, block.hi + halo}), block, volume.shape,
-                      {.max_level = level});
-}
-
 BlockMesh graded_whole(const SmallVolume& volume, int level) {
-  return graded_block(volume, {{0, 0, 0}, volume.shape}, level);
+  return start_block(volume, level_map(volume), {{0, 0, 0}, volume.shape}, {.max_level = level});
 }
 
 /// Mostly uniform, so that there are larger cells.
@@ -81,6 +75,7 @@ TEST(Sec51GradedStart, IsTheSameHoweverItIsCutIntoBlocks) {
     const int level = 1 + i % 3;
     const SmallVolume volume = random_coarse(random, level == 3 ? 17 : 9);
     const BlockMesh whole = graded_whole(volume, level);
+    const LevelMap levels = level_map(volume);
     std::map<VertexId, BlockVertex> vertices;
     for (const BlockVertex& v : whole.vertices) vertices[v.id] = v;
     GlobalTets expected, found;
@@ -93,7 +88,7 @@ TEST(Sec51GradedStart, IsTheSameHoweverItIsCutIntoBlocks) {
           const Box3 box{
               lo,
               {std::min(lo.x + edge, s.x), std::min(lo.y + edge, s.y), std::min(lo.z + edge, s.z)}};
-          const BlockMesh block = graded_block(volume, box, level);
+          const BlockMesh block = start_block(volume, levels, box, {.max_level = level});
           add_global(found, block);
           for (const BlockVertex& v : block.vertices) EXPECT_EQ(vertices.at(v.id), v);
         }
