@@ -1,30 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Global rows for vertices, then tets in block order.
+// Two passes over the final blocks: count, then write.
 #include "engine/finish.h"
 
-#include <algorithm>
+#include "engine/vertex_rows.h"
 
 namespace mw::engine {
 namespace {
-
-struct FinalVertex {
-  VertexId id = 0;
-  Point position;
-};
-
-std::vector<FinalVertex> unique_vertices(const std::vector<BlockMesh>& blocks) {
-  std::vector<FinalVertex> all;
-  for (const BlockMesh& b : blocks) {
-    for (const BlockVertex& v : b.vertices) all.push_back({v.id, v.position});
-  }
-  std::sort(all.begin(), all.end(),
-            [](const FinalVertex& a, const FinalVertex& b) { return a.id < b.id; });
-  all.erase(std::unique(all.begin(), all.end(),
-                        [](const FinalVertex& a, const FinalVertex& b) { return a.id == b.id; }),
-            all.end());
-  return all;
-}
 
 io::Position physical(Point p, const io::VolumeInfo& info) {
   const std::array<double, 3> corner{static_cast<double>(p.x) / kUnitsPerVoxel,
@@ -35,47 +17,97 @@ io::Position physical(Point p, const io::VolumeInfo& info) {
   return out;
 }
 
-void write_block(const BlockMesh& block, const std::vector<FinalVertex>& vertices,
-                 const io::LabelTable& table, io::MeshSink& sink) {
-  std::vector<std::uint64_t> rows;
-  std::vector<Point> positions;
-  for (const BlockVertex& v : block.vertices) {
-    const auto found =
-        std::lower_bound(vertices.begin(), vertices.end(), v.id,
-                         [](const FinalVertex& a, VertexId id) { return a.id < id; });
-    rows.push_back(static_cast<std::uint64_t>(found - vertices.begin()));
-    positions.push_back(v.position);
-  }
-  std::vector<io::TetRows> tets;
-  std::vector<RawLabel> labels;
+std::vector<io::Position> positions_of(const BlockMesh& block, const io::VolumeInfo& info) {
+  std::vector<io::Position> out;
+  out.reserve(block.vertices.size());
+  for (const BlockVertex& v : block.vertices) out.push_back(physical(v.position, info));
+  return out;
+}
+
+/// The block's tets, positively oriented, rows being those of the block.
+std::vector<io::TetRows> oriented_tets(const BlockMesh& block) {
+  std::vector<io::TetRows> out;
+  out.reserve(block.tets.size());
+  const auto at = [&](std::uint32_t v) { return block.vertices[v].position; };
   for (const BlockTet& t : block.tets) {
     auto [a, b, c, d] = t.vertices;
-    if (volume6(positions[a], positions[b], positions[c], positions[d]) < 0) std::swap(c, d);
-    tets.push_back({rows[a], rows[b], rows[c], rows[d]});
-    labels.push_back(table.raw(t.label));
+    if (volume6(at(a), at(b), at(c), at(d)) < 0) std::swap(c, d);
+    out.push_back({a, b, c, d});
   }
-  sink.write_tets(tets, labels);
+  return out;
 }
+
+/// Second pass.
+class Writer {
+ public:
+  Writer(VertexUses uses, const io::DenseVolume& volume, io::MeshSink& sink)
+      : rows_(std::move(uses)), volume_(volume), sink_(sink) {}
+
+  void write(Index3 where, const BlockMesh& block, audit::QualityMeter* quality) {
+    const std::vector<io::Position> positions = positions_of(block, volume_.info());
+    std::vector<io::TetRows> tets = oriented_tets(block);
+    if (quality != nullptr) {
+      for (const auto& [a, b, c, d] : tets) {
+        quality->add(positions[a], positions[b], positions[c], positions[d]);
+      }
+    }
+    const std::vector<std::uint64_t> rows = write_vertices(where, block, positions);
+    std::vector<RawLabel> labels;
+    labels.reserve(tets.size());
+    for (const BlockTet& t : block.tets) labels.push_back(volume_.table().raw(t.label));
+    for (io::TetRows& tet : tets) {
+      for (std::uint64_t& v : tet) v = rows[v];
+    }
+    sink_.write_tets(tets, labels);
+  }
+
+  [[nodiscard]] const VertexRows& rows() const { return rows_; }
+
+ private:
+  std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
+                                            const std::vector<io::Position>& positions) {
+    const std::uint64_t first_new = rows_.count();
+    std::vector<std::uint64_t> rows = rows_.assign(where, block.vertices);
+    std::vector<io::Position> added;
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+      if (rows[v] >= first_new) added.push_back(positions[v]);
+    }
+    sink_.write_vertices(added);
+    return rows;
+  }
+
+  VertexRows rows_;
+  const io::DenseVolume& volume_;
+  io::MeshSink& sink_;
+};
 
 }  // namespace
 
-FinishedMesh finish(BlockStore& store, const WindowGrid& grid, const io::DenseVolume& volume,
-                    io::MeshSink& sink) {
-  std::vector<BlockMesh> blocks;
+FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::DenseVolume& volume,
+                    io::MeshSink& sink, const OutputOptions& options) {
+  const LabelSelection selection(options.wanted, volume.table());
+  const auto load = [&](Index3 where) {
+    BlockMesh block = blocks.load(where);
+    selection.apply(block);
+    return block;
+  };
   FinishedMesh out;
+  VertexUses uses(grid);
   each_index(grid.blocks(), [&](Index3 b) {
-    blocks.push_back(store.take(b).value());
-    out.tets += blocks.back().tets.size();
+    const BlockMesh block = load(b);
+    uses.add(b, block.vertices);
+    out.tets += block.tets.size();
   });
-  const std::vector<FinalVertex> vertices = unique_vertices(blocks);
-  out.vertices = vertices.size();
-  sink.begin({out.vertices, out.tets, volume.table().is_signed()});
-  std::vector<io::Position> positions;
-  positions.reserve(vertices.size());
-  for (const FinalVertex& v : vertices) positions.push_back(physical(v.position, volume.info()));
-  sink.write_vertices(positions);
-  for (const BlockMesh& b : blocks) write_block(b, vertices, volume.table(), sink);
+  sink.begin({.tets = out.tets, .labels_signed = volume.table().is_signed()});
+  Writer writer(std::move(uses), volume, sink);
+  audit::QualityMeter quality;
+  each_index(grid.blocks(), [&](Index3 b) {
+    writer.write(b, load(b), options.measure_quality ? &quality : nullptr);
+  });
   sink.finish();
+  out.vertices = writer.rows().count();
+  out.most_remembered = writer.rows().most_remembered();
+  if (options.measure_quality) out.quality = quality.report();
   return out;
 }
 

@@ -60,10 +60,10 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
 }  // namespace
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings)
-    : original_(volume.info().shape, volume.table().size()) {
+    : original_(volume.info().shape, volume.table().size(), io::scratch_folder()) {
   read_bricks(volume);
   if (settings.start == StartMesh::kCoarse) {
-    coarse_.emplace(original_.shape(), volume.table().size());
+    coarse_.emplace(original_.shape(), volume.table().size(), io::scratch_folder());
     coarsen_tiles(settings.max_distance.value_or(kMostCoarseDistance));
   }
   if (settings.start != StartMesh::kDense) find_levels();

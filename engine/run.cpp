@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "engine/block_store.h"
-#include "engine/finish.h"
 #include "engine/stopwatch.h"
 #include "engine/window.h"
 #include "engine/window_visitor.h"
@@ -69,10 +68,12 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
     }
   }
   Stopwatch watch;
-  const FinishedMesh finished = finish(*store, grids.back(), volume, sink);
+  StoredBlocks blocks(*store);
+  const FinishedMesh finished = finish(blocks, grids.back(), volume, sink, hooks.output);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;
+  report.quality = finished.quality;
   return report;
 }
 

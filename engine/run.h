@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "engine/finish.h"
 #include "engine/march.h"
 #include "engine/settings.h"
 #include "io/labels/label_table.h"
@@ -27,6 +28,7 @@ struct RunReport {
   double optimise_seconds = 0.0;
   double exchange_seconds = 0.0;  ///< gather and scatter
   double output_seconds = 0.0;
+  std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
 };
 
 /// Called after each window with the number done and the total; may throw to stop the run.
@@ -35,6 +37,7 @@ using OnProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 struct RunHooks {
   OnProgress progress;  ///< optional
   PickReady pick;       ///< order among ready windows; empty: raster (the result is the same)
+  OutputOptions output;
 };
 
 /// Meshes the whole box of the volume into `sink`.

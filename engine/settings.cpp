@@ -32,6 +32,9 @@ void check(const MeshSettings& s) {
   if (s.edge_variance && !(*s.edge_variance > 0.0)) {
     refuse("edge-variance", "positive, or none");
   }
+  if (s.target_reduction && !(*s.target_reduction > 0.0 && *s.target_reduction < 1.0)) {
+    refuse("target-reduction", "between 0 and 1, or none");
+  }
   if (s.max_distance &&
       !(*s.max_distance >= DistanceGuard::least_distance() && *s.max_distance <= kMaxDistance)) {
     refuse("max-distance", "from 0.71 to 16 voxels, or none (the samples are 0.71 voxels apart)");

@@ -21,11 +21,13 @@ enum class StartMesh {
 struct MeshSettings {
   int window = 32;  ///< window edge in voxels, even
   int marches = 2;  ///< each over the whole volume, with windows twice as large
-  StartMesh start = StartMesh::kOctree;
+  StartMesh start = StartMesh::kCoarse;
   std::optional<double> edge_variance;       ///< bound on Eq (3), none: unbounded
   double quality_floor = 0.2;                ///< no tet below this radius ratio
   std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
-  bool optimise = true;                      ///< local optimisation after each simplification
+  /// Each window stops collapsing at this many vertices a voxel; none: only the bounds stop it.
+  std::optional<double> target_reduction;
+  bool optimise = true;  ///< local optimisation after each simplification
 };
 
 /// ERRORS: mw::Error(kUsage) naming the setting, its value and what is allowed.

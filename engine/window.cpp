@@ -156,7 +156,10 @@ WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume) {
   CarriedSamples samples;
   for (const BlockSample& s : merged.samples) samples.add(s.triangle, s.side, s.sample);
   const Point box{lattice(volume.x), lattice(volume.y), lattice(volume.z)};
-  return {TetMesh(merged.vertices, merged.tets, box), std::move(samples)};
+  const bool one_label =
+      std::all_of(merged.tets.begin(), merged.tets.end(),
+                  [&](const BlockTet& t) { return t.label == merged.tets[0].label; });
+  return {TetMesh(merged.vertices, merged.tets, box), std::move(samples), one_label};
 }
 
 std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,

@@ -20,6 +20,7 @@ namespace mw::engine {
 struct WindowContent {
   TetMesh mesh;
   CarriedSamples samples;
+  bool one_label = false;  ///< there is no interface
 };
 
 /// Merges blocks into the content of a window; as merge().

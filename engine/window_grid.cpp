@@ -32,6 +32,11 @@ Box3 WindowGrid::block_box(Index3 block) const {
            std::min(lo.z + block_edge_, volume_.z)}};
 }
 
+Box3 WindowGrid::window_box(Index3 window) const {
+  const std::vector<Index3> blocks = blocks_of(window);
+  return {block_box(blocks.front()).lo, block_box(blocks.back()).hi};
+}
+
 std::vector<Index3> WindowGrid::blocks_of(Index3 window) const {
   std::vector<Index3> out;
   for (std::int64_t z = window.z; z < std::min(window.z + 2, blocks_.z); ++z) {

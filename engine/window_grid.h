@@ -26,6 +26,8 @@ class WindowGrid {
 
   /// Voxels of a block, cut off at the volume.
   [[nodiscard]] Box3 block_box(Index3 block) const;
+  /// Voxels of the window's blocks.
+  [[nodiscard]] Box3 window_box(Index3 window) const;
 
   /// The blocks of a window, ascending in raster order: 8, fewer along axes of a single block.
   [[nodiscard]] std::vector<Index3> blocks_of(Index3 window) const;

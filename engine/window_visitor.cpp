@@ -36,7 +36,8 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
              .max_distance = settings.max_distance.value_or(kMostCoarseDistance)},
       simplify_{.quality_floor = settings.quality_floor, .edge_variance = settings.edge_variance},
       optimise_{.sweeps = settings.optimise ? 1 : 0, .quality_floor = settings.quality_floor},
-      max_distance_(settings.max_distance) {}
+      max_distance_(settings.max_distance),
+      target_reduction_(settings.target_reduction) {}
 
 void WindowVisitor::visit(Index3 window) {
   Stopwatch watch;
@@ -46,7 +47,7 @@ void WindowVisitor::visit(Index3 window) {
   watch.lap(report_.start_seconds);
   WindowContent window_content = gather(content, grid_.volume());
   watch.lap(report_.exchange_seconds);
-  work_on(window_content);
+  work_on(window, window_content);
   watch.restart();
   content = scatter(window_content, grid_, window);
   for (std::size_t i = 0; i < blocks.size(); ++i) store_.put(blocks[i], std::move(content[i]));
@@ -54,17 +55,22 @@ void WindowVisitor::visit(Index3 window) {
   ++report_.windows;
 }
 
-void WindowVisitor::work_on(WindowContent& content) {
+void WindowVisitor::work_on(Index3 window, WindowContent& content) {
   LabelBox labels;
   std::optional<DistanceGuard> guard;
-  if (max_distance_) {
+  if (max_distance_ && !content.one_label) {
     const std::int64_t halo = LabelReach::search_reach(*max_distance_);
     labels = labels_.original(voxels_around(content.mesh, halo));
     guard.emplace(labels, *max_distance_, content.samples);
   }
   DistanceGuard* const keep_distance = guard ? &*guard : nullptr;
   Stopwatch watch;
-  report_.simplify += simplify(content.mesh, metric_, simplify_, keep_distance);
+  SimplifyOptions options = simplify_;
+  if (target_reduction_) {
+    const auto voxels = static_cast<double>(grid_.window_box(window).voxels());
+    options.enough_vertices = static_cast<std::size_t>(*target_reduction_ * voxels);
+  }
+  report_.simplify += simplify(content.mesh, metric_, options, keep_distance);
   watch.lap(report_.simplify_seconds);
   report_.optimise += optimise(content.mesh, metric_, optimise_, keep_distance);
   watch.lap(report_.optimise_seconds);

@@ -23,7 +23,7 @@ class WindowVisitor {
   void visit(Index3 window);
 
  private:
-  void work_on(WindowContent& content);
+  void work_on(Index3 window, WindowContent& content);
   [[nodiscard]] BlockMesh take(Index3 block);
 
   const PreparedLabels& labels_;
@@ -35,6 +35,7 @@ class WindowVisitor {
   SimplifyOptions simplify_;
   OptimiseOptions optimise_;
   std::optional<double> max_distance_;
+  std::optional<double> target_reduction_;
 };
 
 }  // namespace mw::engine

@@ -15,10 +15,12 @@ void add_digest_command(CLI::App& program, Action& chosen) {
   CLI::App* command =
       program.add_subcommand("digest", "prints the digest of a mesh, the same in every format");
   const auto mesh = std::make_shared<std::string>();
-  command->add_option("MESH", *mesh, "mesh: .vtu or .mesh")->required();
+  command->add_option("MESH", *mesh, "mesh: .vtkhdf, .vtu or .mesh")->required();
   command->callback([mesh, &chosen] {
     chosen = [mesh] {
-      std::cout << io::mesh_digest(io::read_mesh(*mesh)) << "\n";
+      io::DigestSink sink(io::scratch_folder());
+      io::copy_mesh(*mesh, sink);
+      std::cout << sink.digest() << "\n";
       return kExitDone;
     };
   });

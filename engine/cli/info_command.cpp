@@ -10,8 +10,10 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/volume_options.h"
+#include "io/labels/label_set.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
+#include "io/mesh/tee_sink.h"
 
 namespace mw::cli {
 namespace {
@@ -53,28 +55,49 @@ ordered_json volume_facts(const VolumeRequest& request) {
           {"labels", labels_json(io::collect_labels(*volume))}};
 }
 
-ordered_json box_json(const io::MeshData& mesh) {
-  if (mesh.vertices.empty()) return nullptr;
-  io::Position lo = mesh.vertices[0];
-  io::Position hi = lo;
-  for (const io::Position& v : mesh.vertices) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      lo[i] = std::min(lo[i], v[i]);
-      hi[i] = std::max(hi[i], v[i]);
+/// What a mesh that streams by tells of itself.
+class FactSink : public io::MeshSink {
+ public:
+  void begin(const io::MeshHeader& header) override { header_ = header; }
+  void write_vertices(std::span<const io::Position> positions) override {
+    for (const io::Position& v : positions) {
+      if (vertices_++ == 0) lo_ = hi_ = v;
+      for (std::size_t i = 0; i < 3; ++i) {
+        lo_[i] = std::min(lo_[i], v[i]);
+        hi_[i] = std::max(hi_[i], v[i]);
+      }
     }
   }
-  return {{"lo", lo}, {"hi", hi}};
-}
+  void write_tets(std::span<const io::TetRows>, std::span<const RawLabel> labels) override {
+    labels_.insert(labels);
+  }
+  void finish() override {}
+
+  [[nodiscard]] ordered_json json() const {
+    return {
+        {"vertices", vertices_},
+        {"tets", header_.tets},
+        {"labels", labels_json(io::LabelTable(labels_.values(), header_.labels_signed))},
+        {"box", vertices_ == 0 ? ordered_json(nullptr) : ordered_json{{"lo", lo_}, {"hi", hi_}}}};
+  }
+
+ private:
+  io::MeshHeader header_;
+  std::uint64_t vertices_ = 0;
+  io::Position lo_{};
+  io::Position hi_{};
+  io::LabelSet labels_;
+};
 
 ordered_json mesh_facts(const std::filesystem::path& path) {
-  const io::MeshData mesh = io::read_mesh(path);
-  return {{"kind", "mesh"},
-          {"file", path.string()},
-          {"vertices", mesh.vertices.size()},
-          {"tets", mesh.tets.size()},
-          {"labels", labels_json(io::LabelTable(mesh.labels, mesh.labels_signed))},
-          {"box", box_json(mesh)},
-          {"digest", io::mesh_digest(mesh)}};
+  FactSink facts;
+  io::DigestSink digest(io::scratch_folder());
+  io::TeeSink both(facts, digest);
+  io::copy_mesh(path, both);
+  ordered_json out{{"kind", "mesh"}, {"file", path.string()}};
+  out.update(facts.json());
+  out["digest"] = digest.digest();
+  return out;
 }
 
 std::string plain_text(const ordered_json& value) {

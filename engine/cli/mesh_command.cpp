@@ -14,9 +14,10 @@
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/run_report.h"
-#include "engine/cli/selecting_sink.h"
 #include "engine/cli/values.h"
+#include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
+#include "io/mesh/tee_sink.h"
 
 namespace mw::cli {
 namespace {
@@ -31,11 +32,19 @@ struct MeshJob {
 /// The files of a run, created before any work so that a bad path fails at once.
 struct MeshFiles {
   explicit MeshFiles(const MeshRequest& request) : sink(io::open_mesh_sink(request.output)) {
-    if (!request.report.empty()) report.emplace(request.report);
+    if (request.report.empty()) return;
+    report.emplace(request.report);
+    digest.emplace(request.output.parent_path());
+    both.emplace(*sink, *digest);
   }
+
+  /// Where the mesh goes.
+  [[nodiscard]] io::MeshSink& all() { return both ? static_cast<io::MeshSink&>(*both) : *sink; }
 
   std::unique_ptr<io::MeshSink> sink;
   std::optional<io::AtomicFile> report;
+  std::optional<io::DigestSink> digest;  ///< for the report; it waits beside the output
+  std::optional<io::TeeSink> both;
 };
 
 void require_label(RawLabel label, const io::LabelTable& table, const char* option) {
@@ -45,7 +54,8 @@ void require_label(RawLabel label, const io::LabelTable& table, const char* opti
 }
 
 /// What --labels and --background leave to write.
-SelectingSink::Wanted wanted_labels(const MeshRequest& request, const io::LabelTable& table) {
+engine::WantedLabel wanted_labels(const MeshRequest& request, const io::LabelTable& table) {
+  if (!request.labels && !request.background) return {};
   if (request.background) {
     require_label(*request.background, table, "--background");
     if (table.size() == 1) throw Error(ErrorKind::kUsage, "--background: it is the only label");
@@ -56,22 +66,17 @@ SelectingSink::Wanted wanted_labels(const MeshRequest& request, const io::LabelT
   return [kept](RawLabel label) { return kept.contains(label); };
 }
 
-/// Vertices and tets of the result are those written.
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
                             io::MeshSink& sink) {
   Progress progress(request.progress);
-  const engine::RunHooks hooks{.progress = [&](std::uint64_t done, std::uint64_t total) {
-    stop_if_interrupted();
-    progress.show(done, total);
-  }};
-  if (!request.labels && !request.background) {
-    return engine::mesh_volume(volume, request.settings, sink, hooks);
-  }
-  SelectingSink selection(sink, wanted_labels(request, volume.table()));
-  engine::RunReport run = engine::mesh_volume(volume, request.settings, selection, hooks);
-  run.vertices = selection.mesh().vertices.size();
-  run.tets = selection.mesh().tets.size();
-  return run;
+  const engine::RunHooks hooks{.progress =
+                                   [&](std::uint64_t done, std::uint64_t total) {
+                                     stop_if_interrupted();
+                                     progress.show(done, total);
+                                   },
+                               .output = {.wanted = wanted_labels(request, volume.table()),
+                                          .measure_quality = !request.report.empty()}};
+  return engine::mesh_volume(volume, request.settings, sink, hooks);
 }
 
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
@@ -99,11 +104,11 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   FinishedRun run{.volume = volume.info(), .labels = table.size()};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
-  run.engine = mesh_into(request, io::DenseVolume(volume, table), *files.sink);
+  run.engine = mesh_into(request, io::DenseVolume(volume, table), files.all());
   run.resources = meter.read();
   print_summary(run, request);
   if (files.report) {
-    spdlog::info("reading the mesh back for the report");
+    run.digest = files.digest->digest();
     write_json(*files.report, run_report(run, request.output, options.json()));
   }
   return kExitDone;

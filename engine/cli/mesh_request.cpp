@@ -3,7 +3,10 @@
 // The options of `mwmesh mesh`.
 #include "engine/cli/mesh_request.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <utility>
 
 #include "engine/cli/values.h"
 #include "kernels/core/error.h"
@@ -34,15 +37,28 @@ int parse_count(const std::string& text) {
   throw Error(ErrorKind::kUsage, "not available in this version; " + alternative);
 }
 
+constexpr std::array<std::pair<const char*, engine::StartMesh>, 3> kStartMeshes{
+    {{"coarse", engine::StartMesh::kCoarse},
+     {"octree", engine::StartMesh::kOctree},
+     {"dense", engine::StartMesh::kDense}}};
+
+/// REQUIRES: one of the choices.
 engine::StartMesh parse_start(const std::string& text) {
-  if (text == "coarse") refuse_for_now("octree and dense are");
-  return text == "dense" ? engine::StartMesh::kDense : engine::StartMesh::kOctree;
+  return std::find_if(kStartMeshes.begin(), kStartMeshes.end(),
+                      [&](const auto& s) { return text == s.first; })
+      ->second;
+}
+
+std::string start_text(engine::StartMesh start) {
+  return std::find_if(kStartMeshes.begin(), kStartMeshes.end(),
+                      [&](const auto& s) { return start == s.second; })
+      ->first;
 }
 
 void add_output_option(OptionSet& options, MeshRequest& request) {
   options.add({.name = "output",
                .value = "OUTPUT",
-               .help = "mesh to write: .vtu or .mesh",
+               .help = "mesh to write: .vtkhdf, .vtu or .mesh",
                .flags = "-o,--output",
                .assign = [&](const std::string& text) { request.output = text; }});
 }
@@ -103,12 +119,15 @@ void add_bound_options(OptionSet& options, MeshRequest& request) {
 }
 
 void add_method_options(OptionSet& options, MeshRequest& request) {
-  options.add({.name = "target-reduction",
-               .value = "F|none",
-               .help = "stop collapsing at this fraction of the voxel corners",
-               .kind = ValueKind::kNumberOrNone,
-               .fallback = kNone,
-               .today = kNone});
+  const engine::MeshSettings defaults;
+  add_setting(
+      options, request,
+      {.name = "target-reduction",
+       .value = "F|none",
+       .help = "each window stops collapsing at this fraction of its voxel corners",
+       .kind = ValueKind::kNumberOrNone,
+       .fallback = bound_text(defaults.target_reduction)},
+      [](engine::MeshSettings& s, const std::string& t) { s.target_reduction = parse_bound(t); });
   options.add({.name = "topology",
                .value = "WHAT",
                .help = "what is kept: labels, or interfaces as well",
@@ -119,7 +138,7 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
               {.name = "optimizer",
                .value = "WHICH",
                .help = "what improves tets after collapse: local, none; tetgen comes later",
-               .fallback = engine::MeshSettings{}.optimise ? "local" : kNone,
+               .fallback = defaults.optimise ? "local" : kNone,
                .choices = {"local", "tetgen", kNone}},
               [](engine::MeshSettings& s, const std::string& t) {
                 if (t == "tetgen") refuse_for_now("local is");
@@ -129,8 +148,9 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
       options, request,
       {.name = "start",
        .value = "MESH",
-       .help = "start mesh: octree (larger cells inside labels), dense; coarse comes later",
-       .fallback = engine::MeshSettings{}.start == engine::StartMesh::kDense ? "dense" : "octree",
+       .help = "start mesh: coarse (labels coarsened first, larger cells inside them), octree "
+               "(larger cells only), dense (the paper's)",
+       .fallback = start_text(defaults.start),
        .choices = {"coarse", "octree", "dense"}},
       [](engine::MeshSettings& s, const std::string& t) { s.start = parse_start(t); });
 }

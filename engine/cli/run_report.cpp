@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/cli/mesh_facts.h"
-#include "io/mesh/digest.h"
-#include "io/mesh/open_mesh.h"
 
 namespace mw::cli {
 namespace {
@@ -25,12 +23,11 @@ ordered_json input_json(const FinishedRun& run) {
           {"voxels", info.shape.product()}};
 }
 
-ordered_json output_json(const FinishedRun& run, const io::MeshData& mesh,
-                         const std::filesystem::path& path) {
+ordered_json output_json(const FinishedRun& run, const std::filesystem::path& path) {
   return {{"file", path.string()},
-          {"vertices", mesh.vertices.size()},
-          {"tets", mesh.tets.size()},
-          {"vertex_fraction", vertex_fraction(mesh.vertices.size(), run.volume.shape)}};
+          {"vertices", run.engine.vertices},
+          {"tets", run.engine.tets},
+          {"vertex_fraction", vertex_fraction(run.engine.vertices, run.volume.shape)}};
 }
 
 ordered_json performance_json(const FinishedRun& run) {
@@ -67,17 +64,16 @@ double vertex_fraction(std::uint64_t vertices, Index3 shape) {
 
 ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
                         ordered_json settings) {
-  const io::MeshData data = io::read_mesh(mesh);
   return {{"version", MW_VERSION},
           {"settings", std::move(settings)},
           {"input", input_json(run)},
-          {"output", output_json(run, data, mesh)},
-          {"quality", quality_json(audit::measure_quality(audit_view(data, {})))},
+          {"output", output_json(run, mesh)},
+          {"quality", quality_json(run.engine.quality.value())},
           {"distance", {{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}}},
           {"topology", {{"checked", false}, {"labels_changed", nullptr}}},
           {"performance", performance_json(run)},
           {"engine", engine_json(run)},
-          {"digest", io::mesh_digest(data)}};
+          {"digest", run.digest}};
 }
 
 }  // namespace mw::cli

@@ -18,12 +18,13 @@ struct FinishedRun {
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels
   Resources resources;        ///< until the mesh was written
+  std::string digest;
 };
 
 /// Vertices of a mesh per corner of the volume's voxels.
 [[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
 
-/// Reads the finished mesh back for quality and digest.  What nobody measured is null.
+/// What nobody measured is null.  REQUIRES: run.engine.quality.
 [[nodiscard]] nlohmann::ordered_json run_report(const FinishedRun& run,
                                                 const std::filesystem::path& mesh,
                                                 nlohmann::ordered_json settings);

@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -72,7 +73,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::append(std::span<const std::byte> bytes) {
   if (buffer_.size() + bytes.size() > kBufferBytes) flush();
   if (bytes.size() >= kBufferBytes) {
-    write_at(flushed_, bytes);
+    write(flushed_, bytes);
     flushed_ += bytes.size();
   } else {
     buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
@@ -84,6 +85,11 @@ void AtomicFile::append(std::string_view text) {
 }
 
 void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  flush();
+  write(offset, bytes);
+}
+
+void AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
   MW_ASSERT(!committed_);
   while (!bytes.empty()) {
     const ssize_t wrote =
@@ -95,8 +101,27 @@ void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes
   }
 }
 
+void AtomicFile::read_at(std::uint64_t offset, std::span<std::byte> out) const {
+  while (!out.empty()) {
+    const ssize_t got = ::pread(file_.get(), out.data(), out.size(), static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_output(target_.string(), "read back", errno);
+    if (got == 0) break;
+    offset += static_cast<std::uint64_t>(got);
+    out = out.subspan(static_cast<std::size_t>(got));
+  }
+  std::fill(out.begin(), out.end(), std::byte{0});
+}
+
+void AtomicFile::resize(std::uint64_t bytes) {
+  MW_ASSERT(!committed_);
+  if (::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0) {
+    fail_output(target_.string(), "resize", errno);
+  }
+}
+
 void AtomicFile::flush() {
-  write_at(flushed_, buffer_);
+  write(flushed_, buffer_);
   flushed_ += buffer_.size();
   buffer_.clear();
 }

@@ -28,8 +28,14 @@ class AtomicFile {
   /// Adds bytes at the end of what was appended before; buffered.
   void append(std::span<const std::byte> bytes);
   void append(std::string_view text);
-  /// Writes bytes at offset, unbuffered; does not move the place where append() writes.
+  /// Writes bytes at offset, unbuffered, over what was appended there; does not move the place
+  /// where append() writes.
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+  /// What is in the file there; zeros behind its end.  Sees what write_at() wrote, not what
+  /// append() still buffers.
+  void read_at(std::uint64_t offset, std::span<std::byte> out) const;
+  /// Cuts or extends the file.
+  void resize(std::uint64_t bytes);
   /// Number of bytes appended so far.
   [[nodiscard]] std::uint64_t appended() const { return flushed_ + buffer_.size(); }
   /// Flushes, syncs and renames.  REQUIRES: called once; nothing is written afterwards.
@@ -37,6 +43,7 @@ class AtomicFile {
 
  private:
   void flush();
+  void write(std::uint64_t offset, std::span<const std::byte> bytes);
 
   std::filesystem::path target_;
   std::filesystem::path partial_;

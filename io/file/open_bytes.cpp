@@ -96,14 +96,13 @@ std::unique_ptr<ByteSource> inflate_bytes(const ByteSource& packed, std::uint64_
   if (!is_gzip(packed, offset)) {
     fail_input(packed.name(), "gzip data", "no gzip data at offset " + std::to_string(offset));
   }
-  ScratchFile scratch("inflated data");
+  ScratchFile scratch(scratch_folder());
   Inflater inflater(packed, offset);
   std::vector<std::byte> buffer(kChunkBytes);
-  std::uint64_t total = 0;
   while (const std::size_t count = inflater.read(buffer)) {
-    scratch.write_at(total, std::span(buffer).first(count));
-    total += count;
+    scratch.append(std::span(buffer).first(count));
   }
+  const std::uint64_t total = scratch.size();
   return std::make_unique<FileSource>(scratch.release(), total, packed.name());
 }
 

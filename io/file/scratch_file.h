@@ -1,36 +1,42 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A temporary file without a name: gone when it is closed, however the program ends.
+// What must wait but must not wait in memory.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
+#include <string_view>
+#include <vector>
 
-#include "io/file/file_descriptor.h"
+#include "io/file/nameless_file.h"
 
 namespace mw::io {
 
-/// Thread safety: reads and writes of different places may go on at once.
+/// Bytes are appended, then read by place.  The space is free again when the object goes, or the
+/// process, however it ends.
+/// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
+/// the folder cannot be written.  Thread safety: none.
 class ScratchFile {
  public:
-  /// Creates the file in the folder that TMPDIR names, else /tmp.
-  /// purpose: what it holds, for error messages.
-  /// ERRORS: mw::Error(kResource) naming folder and reason, here and when the disk is full later.
-  explicit ScratchFile(std::string purpose);
+  /// REQUIRES: an existing folder.
+  explicit ScratchFile(const std::filesystem::path& folder) : file_(folder) {}
 
-  void write_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
-  /// REQUIRES: the bytes were written.
-  void read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
-
-  /// The descriptor, for those who keep the file under another type.
-  [[nodiscard]] FileDescriptor release() { return std::move(file_); }
+  void append(std::span<const std::byte> bytes);
+  void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
+  [[nodiscard]] std::uint64_t size() const { return flushed_ + buffer_.size(); }
+  /// REQUIRES: offset + out.size() <= size().
+  void read_at(std::uint64_t offset, std::span<std::byte> out);
+  /// The file itself, all bytes in it.  REQUIRES: the object is not used afterwards.
+  [[nodiscard]] FileDescriptor release();
 
  private:
-  std::string purpose_;
-  std::string folder_;
-  FileDescriptor file_;
+  void flush();
+  void write(std::span<const std::byte> bytes);
+
+  NamelessFile file_;
+  std::vector<std::byte> buffer_;
+  std::uint64_t flushed_ = 0;
 };
 
 }  // namespace mw::io

@@ -37,14 +37,15 @@ Box3 common(const Box3& a, const Box3& b) {
 
 }  // namespace
 
-BrickVolume::BrickVolume(Index3 shape, std::size_t labels)
+BrickVolume::BrickVolume(Index3 shape, std::size_t labels,
+                         const std::filesystem::path& folder)
     : shape_(shape),
       bricks_{bricks_along(shape.x), bricks_along(shape.y), bricks_along(shape.z)},
       label_bytes_(labels <= 0x100     ? 1
                    : labels <= 0x10000 ? 2
                                        : 4),
       places_(static_cast<std::size_t>(bricks_.product())),
-      file_("labels") {}
+      file_(folder) {}
 
 std::size_t BrickVolume::row(Index3 brick) const {
   return static_cast<std::size_t>(Box3{{0, 0, 0}, bricks_}.offset(brick));

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <vector>
 
-#include "io/file/scratch_file.h"
+#include "io/file/nameless_file.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
 
@@ -22,8 +22,9 @@ class BrickVolume {
  public:
   static constexpr std::int64_t kEdge = 16;
 
+  /// folder: where the temporary file goes.
   /// REQUIRES: labels > 0, all labels below it.
-  BrickVolume(Index3 shape, std::size_t labels);
+  BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder);
 
   [[nodiscard]] Index3 shape() const { return shape_; }
   [[nodiscard]] Index3 bricks() const { return bricks_; }
@@ -51,7 +52,7 @@ class BrickVolume {
   std::size_t label_bytes_;
   std::vector<std::uint64_t> places_;  ///< label of a uniform brick, or kInFile + offset
   std::atomic<std::uint64_t> file_size_ = 0;
-  ScratchFile file_;
+  NamelessFile file_;
 };
 
 }  // namespace mw::io

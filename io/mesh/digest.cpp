@@ -1,66 +1,18 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The digest of a mesh's content.
+// The digest of a mesh's content by external sorting.
 #include "io/mesh/digest.h"
-
-#include <openssl/evp.h>
 
 #include <algorithm>
 #include <bit>
-#include <memory>
-#include <numeric>
-#include <string_view>
 
-#include "io/file/byte_order.h"
-#include "kernels/core/error.h"
+#include "io/file/errors.h"
+#include "io/mesh/hasher.h"
 
 namespace mw::io {
 namespace {
 
-/// SHA-256 of a stream of 64-bit words.
-class Hasher {
- public:
-  Hasher() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-    check(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
-  }
-
-  void add(std::string_view characters) {
-    flush();
-    check(EVP_DigestUpdate(context_.get(), characters.data(), characters.size()) == 1);
-  }
-  void add(std::uint64_t word) {
-    buffer_.resize(buffer_.size() + sizeof word);
-    store_little(word, buffer_.data() + buffer_.size() - sizeof word);
-    if (buffer_.size() >= kBufferBytes) flush();
-  }
-  [[nodiscard]] std::string finish() {
-    flush();
-    std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
-    unsigned length = 0;
-    check(EVP_DigestFinal_ex(context_.get(), bytes.data(), &length) == 1);
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string hex;
-    for (unsigned i = 0; i < length; ++i) {
-      hex.push_back(kDigits[bytes[i] >> 4]);
-      hex.push_back(kDigits[bytes[i] & 15]);
-    }
-    return hex;
-  }
-
- private:
-  static constexpr std::size_t kBufferBytes = 1 << 16;
-
-  static void check(bool done) {
-    if (!done) throw Error(ErrorKind::kInternal, "SHA-256 is not available in this OpenSSL");
-  }
-  void flush() {
-    check(EVP_DigestUpdate(context_.get(), buffer_.data(), buffer_.size()) == 1);
-    buffer_.clear();
-  }
-
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-  std::vector<std::byte> buffer_;
-};
+using TetKey = std::array<std::uint64_t, 5>;
 
 /// Bits that order like the double they stand for; a total order, whatever the double.
 std::uint64_t sortable(double x) {
@@ -68,63 +20,125 @@ std::uint64_t sortable(double x) {
   return (bits >> 63) != 0 ? ~bits : bits | std::uint64_t{1} << 63;
 }
 
-double unsortable(std::uint64_t key) {
-  return std::bit_cast<double>((key >> 63) != 0 ? key & ~(std::uint64_t{1} << 63) : ~key);
+/// The bits of the double.
+std::uint64_t unsortable(std::uint64_t key) {
+  return (key >> 63) != 0 ? key & ~(std::uint64_t{1} << 63) : ~key;
 }
 
-struct Vertex {
-  std::array<std::uint64_t, 3> key;
-  std::uint64_t row;
+/// Numbers in a temporary file, looked up through a cache of pages.
+class LookupFile {
+ public:
+  explicit LookupFile(const std::filesystem::path& folder)
+      : file_(folder), pages_(kPages), held_(kPages, kNone) {}
+
+  void append(std::uint64_t number) { file_.append(std::as_bytes(std::span(&number, 1))); }
+  [[nodiscard]] std::uint64_t size() const { return file_.size() / sizeof(std::uint64_t); }
+  /// REQUIRES: at < size(); nothing is appended any more.
+  [[nodiscard]] std::uint64_t operator[](std::uint64_t at) {
+    const std::uint64_t page = at / kPageNumbers;
+    const std::size_t slot = page % kPages;
+    if (held_[slot] != page) load(page, slot);
+    return pages_[slot][at % kPageNumbers];
+  }
+
+ private:
+  static constexpr std::size_t kPageNumbers = 512;
+  static constexpr std::size_t kPages = 2048;  ///< 8 MiB
+  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
+
+  void load(std::uint64_t page, std::size_t slot) {
+    const std::uint64_t first = page * kPageNumbers;
+    pages_[slot].resize(std::min<std::uint64_t>(kPageNumbers, size() - first));
+    file_.read_at(first * sizeof(std::uint64_t), std::as_writable_bytes(std::span(pages_[slot])));
+    held_[slot] = page;
+  }
+
+  ScratchFile file_;
+  std::vector<std::vector<std::uint64_t>> pages_;
+  std::vector<std::uint64_t> held_;  ///< by slot: its page
 };
 
-/// The vertices in order of position; rank[row] is the number of those before a row's position.
-std::vector<Vertex> sort_vertices(const MeshData& mesh, std::vector<std::uint64_t>& rank) {
-  std::vector<Vertex> vertices(mesh.vertices.size());
-  for (std::size_t row = 0; row < vertices.size(); ++row) {
-    const Position& p = mesh.vertices[row];
-    vertices[row] = {{sortable(p[0]), sortable(p[1]), sortable(p[2])}, row};
-  }
-  std::sort(vertices.begin(), vertices.end(),
-            [](const Vertex& a, const Vertex& b) { return a.key < b.key; });
-  rank.resize(vertices.size());
-  std::uint64_t first = 0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (vertices[i].key != vertices[first].key) first = i;
-    rank[vertices[i].row] = first;
-  }
-  return vertices;
+/// Hashes the vertices in order and leaves the rank of each row.
+void hash_vertices(ExternalSort<4>& positions, ExternalSort<2>& ranks, Hasher& hasher) {
+  std::uint64_t place = 0;
+  std::uint64_t rank = 0;
+  std::array<std::uint64_t, 3> last{};
+  positions.each([&](const std::array<std::uint64_t, 4>& vertex) {
+    const std::array<std::uint64_t, 3> key{vertex[0], vertex[1], vertex[2]};
+    if (key != last) rank = place;
+    last = key;
+    ranks.add({vertex[3], rank});
+    for (const std::uint64_t coordinate : key) hasher.add(unsortable(coordinate));
+    ++place;
+  });
 }
 
-using TetKey = std::array<std::uint64_t, 5>;
-
-std::vector<TetKey> sort_tets(const MeshData& mesh, const std::vector<std::uint64_t>& rank) {
-  std::vector<TetKey> tets(mesh.tets.size());
-  for (std::size_t i = 0; i < tets.size(); ++i) {
-    const TetRows& rows = mesh.tets[i];
-    tets[i] = {rank[rows[0]], rank[rows[1]], rank[rows[2]], rank[rows[3]], mesh.labels[i]};
-    std::sort(tets[i].begin(), tets[i].begin() + 4);
+/// The tets with ranks instead of rows.
+void rank_tets(ScratchFile& tet_rows, LookupFile& rank, ExternalSort<5>& keys) {
+  std::vector<TetKey> batch;
+  for (std::uint64_t at = 0; at < tet_rows.size(); at += batch.size() * sizeof(TetKey)) {
+    batch.resize(std::min<std::uint64_t>(4096, (tet_rows.size() - at) / sizeof(TetKey)));
+    tet_rows.read_at(at, std::as_writable_bytes(std::span(batch)));
+    for (TetKey& tet : batch) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (tet[i] >= rank.size()) {
+          throw Error(ErrorKind::kInternal,
+                      text("digest: a tet names vertex ", tet[i], " of ", rank.size()));
+        }
+        tet[i] = rank[tet[i]];
+      }
+      std::sort(tet.begin(), tet.begin() + 4);
+      keys.add(tet);
+    }
   }
-  std::sort(tets.begin(), tets.end());
-  return tets;
 }
 
 }  // namespace
 
-std::string mesh_digest(const MeshData& mesh) {
+DigestSink::DigestSink(const std::filesystem::path& folder, std::size_t memory_bytes)
+    : folder_(folder),
+      memory_bytes_(memory_bytes),
+      positions_(folder, memory_bytes),
+      tet_rows_(folder) {}
+
+void DigestSink::write_vertices(std::span<const Position> positions) {
+  for (const Position& p : positions) {
+    positions_.add({sortable(p[0]), sortable(p[1]), sortable(p[2]), vertices_++});
+  }
+}
+
+void DigestSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    const auto [a, b, c, d] = tets[i];
+    const TetKey key{a, b, c, d, labels[i]};
+    tet_rows_.append(std::as_bytes(std::span(key)));
+  }
+  tets_ += tets.size();
+}
+
+std::string DigestSink::digest() {
   Hasher hasher;
   hasher.add(std::string_view("mwmesh-digest-1"));
-  hasher.add(std::uint64_t{mesh.vertices.size()});
-  hasher.add(std::uint64_t{mesh.tets.size()});
-  std::vector<std::uint64_t> rank;
-  for (const Vertex& vertex : sort_vertices(mesh, rank)) {
-    for (const std::uint64_t key : vertex.key) {
-      hasher.add(std::bit_cast<std::uint64_t>(unsortable(key)));
-    }
+  hasher.add(vertices_);
+  hasher.add(tets_);
+  LookupFile rank(folder_);
+  {
+    ExternalSort<2> ranks(folder_, memory_bytes_);
+    hash_vertices(positions_, ranks, hasher);
+    ranks.each([&](const std::array<std::uint64_t, 2>& row) { rank.append(row[1]); });
   }
-  for (const TetKey& tet : sort_tets(mesh, rank)) {
+  ExternalSort<5> keys(folder_, memory_bytes_);
+  rank_tets(tet_rows_, rank, keys);
+  keys.each([&](const TetKey& tet) {
     for (const std::uint64_t number : tet) hasher.add(number);
-  }
+  });
   return "sha256:" + hasher.finish();
+}
+
+std::string mesh_digest(const MeshData& mesh) {
+  DigestSink sink(scratch_folder());
+  write_mesh(mesh, sink);
+  return sink.digest();
 }
 
 }  // namespace mw::io

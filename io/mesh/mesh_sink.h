@@ -14,22 +14,23 @@ namespace mw::io {
 using Position = std::array<double, 3>;        ///< physical units
 using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive orientation
 
+/// What is known before the first row.  The number of vertices is not: whoever merges blocks learns
+/// it with the last of them.
 struct MeshHeader {
-  std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
   bool labels_signed = false;  ///< labels are two's complement int64 and are written as such
 };
 
-/// Receives a mesh: begin, all vertices in row order, all tets, finish.
-/// Nothing appears under the final name before finish() returns; a sink destroyed earlier leaves
-/// no file behind.  ERRORS: mw::Error(kResource) on a full disk, kUsage when the path cannot be
-/// written.
+/// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink
+/// holds buffers whose size does not grow with the mesh. Nothing appears under the final name
+/// before finish() returns; a sink destroyed earlier leaves no file behind.  ERRORS:
+/// mw::Error(kResource) on a full disk, kUsage when the path cannot be written.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;
   virtual void begin(const MeshHeader& header) = 0;
   virtual void write_vertices(std::span<const Position> positions) = 0;
-  /// REQUIRES: tets.size() == labels.size(); all vertices have been written.
+  /// REQUIRES: tets.size() == labels.size(); the vertices of these tets have been written.
   virtual void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) = 0;
   virtual void finish() = 0;
 };

@@ -10,14 +10,14 @@
 
 namespace mw::io {
 
-/// .vtu and .mesh.  ERRORS: mw::Error(kUsage) for another extension; kInput with file and place
-/// when missing, truncated, corrupt or not of tetrahedra.
+/// .vtkhdf, .vtu and .mesh.  ERRORS: mw::Error(kUsage) for another extension; kInput with file and
+/// place when missing, truncated, corrupt or not of tetrahedra.
 [[nodiscard]] MeshData read_mesh(const std::filesystem::path& path);
+
+/// The same into a sink, begin to finish; .vtkhdf in bounded memory, the others by way of MeshData.
+void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
 /// ERRORS: mw::Error(kUsage) for another extension or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path);
-
-/// Writes all of a mesh: begin to finish.
-void write_mesh(const MeshData& mesh, MeshSink& sink);
 
 }  // namespace mw::io

@@ -9,8 +9,7 @@
 
 namespace mw::io {
 
-/// ERRORS: mw::Error(kInternal) when the rows written are not those the header promised.
-void check_sink_counts(std::string_view file, const MeshHeader& header, std::uint64_t vertices,
-                       std::uint64_t tets);
+/// ERRORS: mw::Error(kInternal) when the tets written are not those the header promised.
+void check_sink_counts(std::string_view file, const MeshHeader& header, std::uint64_t tets);
 
 }  // namespace mw::io

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/audit/compensated_sum.h"
-
 namespace mw::audit {
 namespace {
 
@@ -58,31 +56,9 @@ double TetShape::radius_ratio() const {
   return below > 0 ? std::min(3 * det * det / below, 1.0) : 0;
 }
 
-/// Cosines of the sharpest and the bluntest dihedral angle so far.
-struct DihedralRange {
-  double largest = -2;
-  double smallest = 2;
-
-  void add(const TetShape& tet) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t k = i + 1; k < 4; ++k) {
-        const double lengths = tet.lengths[i] * tet.lengths[k];
-        if (lengths == 0) continue;
-        const double cosine = std::clamp(-dot(tet.normals[i], tet.normals[k]) / lengths, -1., 1.);
-        largest = std::max(largest, cosine);
-        smallest = std::min(smallest, cosine);
-      }
-    }
-  }
-};
-
 /// For the report only, so a last bit that depends on the C library does no harm.
 double degrees_of_cosine(double cosine) {
   return std::acos(cosine) * 180 / std::numbers::pi;
-}
-
-TetShape shape_of(const AuditMesh& mesh, const TetRow& t) {
-  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]]};
 }
 
 }  // namespace
@@ -91,34 +67,48 @@ double radius_ratio(const Position& a, const Position& b, const Position& c, con
   return TetShape(a, b, c, d).radius_ratio();
 }
 
-QualityReport measure_quality(const AuditMesh& mesh) {
-  QualityReport report;
-  if (mesh.tets.empty()) return report;
-  const auto bins = report.radius_ratio_histogram.size();
-  CompensatedSum sum;
-  DihedralRange dihedral;
-  std::uint64_t slivers = 0;
-  report.radius_ratio_min = 2;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const TetShape tet = shape_of(mesh, mesh.tets[t]);
-    const double ratio = tet.radius_ratio();
-    if (ratio < report.radius_ratio_min) {
-      report.radius_ratio_min = ratio;
-      report.worst_tet = t;
-    }
-    sum.add(ratio);
-    if (ratio < kSliverRadiusRatio) ++slivers;
-    const auto bin = static_cast<std::size_t>(ratio * static_cast<double>(bins));
-    ++report.radius_ratio_histogram[std::min(bin, bins - 1)];
-    dihedral.add(tet);
+void QualityMeter::add(const Position& a, const Position& b, const Position& c, const Position& d) {
+  const TetShape tet(a, b, c, d);
+  const double ratio = tet.radius_ratio();
+  if (tets_ == 0 || ratio < report_.radius_ratio_min) {
+    report_.radius_ratio_min = ratio;
+    report_.worst_tet = tets_;
   }
-  const auto count = static_cast<double>(mesh.tets.size());
-  report.radius_ratio_mean = sum.value() / count;
-  report.sliver_fraction = static_cast<double>(slivers) / count;
-  if (dihedral.largest < -1) return report;
-  report.dihedral_min_deg = degrees_of_cosine(dihedral.largest);
-  report.dihedral_max_deg = degrees_of_cosine(dihedral.smallest);
+  ++tets_;
+  sum_.add(ratio);
+  if (ratio < kSliverRadiusRatio) ++slivers_;
+  const auto bins = report_.radius_ratio_histogram.size();
+  const auto bin = static_cast<std::size_t>(ratio * static_cast<double>(bins));
+  ++report_.radius_ratio_histogram[std::min(bin, bins - 1)];
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = i + 1; k < 4; ++k) {
+      const double lengths = tet.lengths[i] * tet.lengths[k];
+      if (lengths == 0) continue;
+      const double cosine = std::clamp(-dot(tet.normals[i], tet.normals[k]) / lengths, -1., 1.);
+      largest_cosine_ = std::max(largest_cosine_, cosine);
+      smallest_cosine_ = std::min(smallest_cosine_, cosine);
+    }
+  }
+}
+
+QualityReport QualityMeter::report() const {
+  QualityReport report = report_;
+  if (tets_ == 0) return report;
+  const auto count = static_cast<double>(tets_);
+  report.radius_ratio_mean = sum_.value() / count;
+  report.sliver_fraction = static_cast<double>(slivers_) / count;
+  if (largest_cosine_ < -1) return report;
+  report.dihedral_min_deg = degrees_of_cosine(largest_cosine_);
+  report.dihedral_max_deg = degrees_of_cosine(smallest_cosine_);
   return report;
+}
+
+QualityReport measure_quality(const AuditMesh& mesh) {
+  QualityMeter meter;
+  for (const auto& [a, b, c, d] : mesh.tets) {
+    meter.add(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]);
+  }
+  return meter.report();
 }
 
 }  // namespace mw::audit

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/subject.h"
 
 namespace mw::audit {
@@ -27,6 +28,23 @@ struct QualityReport {
 /// 3 r_in / r_circ: 1 for a regular tet, 0 for a flat one, whatever its orientation.
 [[nodiscard]] double radius_ratio(const Position& a, const Position& b, const Position& c,
                                   const Position& d);
+
+/// Takes tets one after the other.
+class QualityMeter {
+ public:
+  /// REQUIRES: finite coordinates.
+  void add(const Position& a, const Position& b, const Position& c, const Position& d);
+  /// Of all tets so far.
+  [[nodiscard]] QualityReport report() const;
+
+ private:
+  QualityReport report_;  ///< without the figures that need the number of tets
+  std::uint64_t tets_ = 0;
+  std::uint64_t slivers_ = 0;
+  CompensatedSum sum_;
+  double largest_cosine_ = -2;  ///< of the sharpest dihedral angle
+  double smallest_cosine_ = 2;  ///< of the bluntest
+};
 
 /// P3.  An empty mesh gives zeros.  Flat tets count as radius ratio 0; faces without area are left
 /// out of the dihedral angles.

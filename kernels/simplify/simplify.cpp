@@ -114,6 +114,8 @@ class Simplifier {
     std::vector<LocalVertex> round;
     while (queue_.take_round(round)) {
       for (LocalVertex v : round) {
+        const std::size_t left = mesh_.vertex_count() - stats_.contracted;
+        if (left <= options_.enough_vertices) return stats_;
         if (mesh_.is_alive(v)) visit(v);
       }
     }

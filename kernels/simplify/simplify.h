@@ -21,6 +21,8 @@ struct SimplifyOptions {
   double inner_quality = 0.3;
   /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none: unbounded.
   std::optional<double> edge_variance;
+  /// Contraction ends when no more than this many vertices, fixed ones included, are left.
+  std::size_t enough_vertices = 0;
   /// Runs the loop over all vertices that fills the queue (4 to 5 % of the time, bench).  The
   /// result is the same for any number of threads in it.
   ParallelFor seeding = serial_for;

@@ -66,12 +66,14 @@ class MemorySink : public io::MeshSink {
     mesh_.labels_signed = header.labels_signed;
   }
   void write_vertices(std::span<const io::Position> positions) override {
-    EXPECT_TRUE(begun_ == 1 && mesh_.tets.empty());
+    EXPECT_TRUE(begun_ == 1 && finished_ == 0);
     mesh_.vertices.insert(mesh_.vertices.end(), positions.begin(), positions.end());
   }
   void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override {
-    EXPECT_EQ(mesh_.vertices.size(), header_.vertices);
     EXPECT_EQ(tets.size(), labels.size());
+    for (const io::TetRows& tet : tets) {
+      for (const std::uint64_t row : tet) ASSERT_LT(row, mesh_.vertices.size());
+    }
     mesh_.tets.insert(mesh_.tets.end(), tets.begin(), tets.end());
     mesh_.labels.insert(mesh_.labels.end(), labels.begin(), labels.end());
   }

@@ -71,7 +71,7 @@ bool io_may(const Include& include) {
   const std::string& name = include.name;
   if (include.quoted) return is_below(name, {"io/", "kernels/core/"});
   return is_standard(name) || is_posix(name) ||
-         is_below(name, {"zlib.h", "openssl/", "pugixml.hpp", "nlohmann/"});
+         is_below(name, {"zlib.h", "hdf5.h", "openssl/", "pugixml.hpp", "nlohmann/"});
 }
 
 bool engine_may(const Include& include) {

@@ -3,6 +3,7 @@
 // Streams a mesh into an ASCII MEDIT .mesh file.
 #include "io/mesh/medit/medit_sink.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -12,6 +13,11 @@
 
 namespace mw::io {
 namespace {
+
+constexpr std::string_view kHead = "MeshVersionFormatted 2\nDimension 3\nVertices\n";
+/// Room for any number of vertices, which is known last.
+constexpr std::size_t kCountWidth = 20;
+constexpr std::uint64_t kCopyBytes = 1 << 18;
 
 /// One line of numbers; room for five of the longest.
 class Line {
@@ -36,7 +42,8 @@ class Line {
 
 void MeditSink::begin(const MeshHeader& header) {
   header_ = header;
-  file_.append(text("MeshVersionFormatted 2\nDimension 3\nVertices\n", header.vertices, "\n"));
+  file_.append(kHead);
+  file_.append(std::string(kCountWidth, ' ') + "\n");
 }
 
 void MeditSink::write_vertices(std::span<const Position> positions) {
@@ -49,15 +56,8 @@ void MeditSink::write_vertices(std::span<const Position> positions) {
   vertices_ += positions.size();
 }
 
-void MeditSink::begin_tets() {
-  if (tets_begun_) return;
-  tets_begun_ = true;
-  file_.append(text("Tetrahedra\n", header_.tets, "\n"));
-}
-
 void MeditSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
   MW_ASSERT(tets.size() == labels.size());
-  begin_tets();
   for (std::size_t i = 0; i < tets.size(); ++i) {
     Line line;
     for (const std::uint64_t row : tets[i]) line.add(row + 1);
@@ -66,15 +66,28 @@ void MeditSink::write_tets(std::span<const TetRows> tets, std::span<const RawLab
     } else {
       line.add(labels[i]);
     }
-    file_.append(line.finish());
+    tet_lines_.append(line.finish());
   }
   tets_ += tets.size();
 }
 
+void MeditSink::append_tets() {
+  file_.append(text("Tetrahedra\n", header_.tets, "\n"));
+  std::vector<std::byte> bytes;
+  for (std::uint64_t at = 0; at < tet_lines_.size(); at += bytes.size()) {
+    bytes.resize(std::min(kCopyBytes, tet_lines_.size() - at));
+    tet_lines_.read_at(at, bytes);
+    file_.append(bytes);
+  }
+}
+
 void MeditSink::finish() {
-  check_sink_counts(name_, header_, vertices_, tets_);
-  begin_tets();
+  check_sink_counts(name_, header_, tets_);
+  append_tets();
   file_.append("End\n");
+  std::string count = std::to_string(vertices_);
+  count.insert(0, kCountWidth - count.size(), ' ');
+  file_.write_at(kHead.size(), std::as_bytes(std::span(count)));
   file_.commit();
 }
 

@@ -7,15 +7,18 @@
 #include <string>
 
 #include "io/file/atomic_file.h"
+#include "io/file/scratch_file.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
 
 /// Coordinates are printed with the fewest digits that give back the same double; the reference of
-/// a tet is its label, of a vertex 0; rows count from 1.
+/// a tet is its label, of a vertex 0; rows count from 1.  The lines of the tets, which come last in
+/// the file, wait in a temporary file in the same folder.
 class MeditSink : public MeshSink {
  public:
-  explicit MeditSink(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
+  explicit MeditSink(const std::filesystem::path& path)
+      : name_(path.string()), file_(path), tet_lines_(path.parent_path()) {}
 
   void begin(const MeshHeader& header) override;
   void write_vertices(std::span<const Position> positions) override;
@@ -23,14 +26,14 @@ class MeditSink : public MeshSink {
   void finish() override;
 
  private:
-  void begin_tets();
+  void append_tets();
 
   std::string name_;
   AtomicFile file_;
+  ScratchFile tet_lines_;
   MeshHeader header_;
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;
-  bool tets_begun_ = false;
 };
 
 }  // namespace mw::io

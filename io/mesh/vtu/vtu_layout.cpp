@@ -3,53 +3,60 @@
 // What a .vtu file written here looks like.
 #include "io/mesh/vtu/vtu_layout.h"
 
+#include <string_view>
+
 #include "io/file/errors.h"
+#include "kernels/core/assert.h"
 
 namespace mw::io {
 namespace {
 
-struct ArrayTag {
-  const char* before;  ///< tags that open or close around it
-  const char* type;
-  const char* name;
-  int components;
-};
+/// Longer than any head.
+constexpr std::size_t kHeadBytes = 1536;
+constexpr std::string_view kAppended = "  <AppendedData encoding=\"raw\">\n_";
 
-std::array<ArrayTag, VtuLayout::kArrays> array_tags(bool labels_signed) {
-  return {{{"      <Points>\n", "Float64", "Points", 3},
-           {"      </Points>\n      <Cells>\n", "Int64", "connectivity", 1},
-           {"", "Int64", "offsets", 1},
-           {"", "UInt8", "types", 1},
-           {"      </Cells>\n      <CellData Scalars=\"label\">\n",
-            labels_signed ? "Int64" : "UInt64", "label", 1}}};
+std::string array_tag(const char* type, const char* name, int components, std::uint64_t offset) {
+  return text("        <DataArray type=\"", type, "\" Name=\"", name, "\" NumberOfComponents=\"",
+              components, "\" format=\"appended\" offset=\"", offset, "\"/>\n");
+}
+
+/// `offset` of each array is relative to the '_'.
+std::string make_head(const MeshHeader& header, std::uint64_t vertices,
+                      const std::array<std::uint64_t, VtuLayout::kArrays>& offset) {
+  std::string head = text(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n"
+      "    <Piece NumberOfPoints=\"",
+      vertices, "\" NumberOfCells=\"", header.tets, "\">\n      <Points>\n",
+      array_tag("Float64", "Points", 3, offset[VtuLayout::kPoints]),
+      "      </Points>\n      <Cells>\n",
+      array_tag("Int64", "connectivity", 1, offset[VtuLayout::kConnectivity]),
+      array_tag("Int64", "offsets", 1, offset[VtuLayout::kOffsets]),
+      array_tag("UInt8", "types", 1, offset[VtuLayout::kTypes]),
+      "      </Cells>\n      <CellData Scalars=\"label\">\n",
+      array_tag(header.labels_signed ? "Int64" : "UInt64", "label", 1, offset[VtuLayout::kLabel]),
+      "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n");
+  MW_ASSERT(head.size() + kAppended.size() <= kHeadBytes);
+  head.resize(kHeadBytes - kAppended.size(), ' ');
+  head.back() = '\n';
+  return head.append(kAppended);
 }
 
 }  // namespace
 
-VtuLayout make_vtu_layout(const MeshHeader& header) {
+VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices) {
   VtuLayout layout;
-  layout.length = {header.vertices * 24, header.tets * 32, header.tets * 8, header.tets,
-                   header.tets * 8};
-  layout.head = text(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n"
-      "    <Piece NumberOfPoints=\"",
-      header.vertices, "\" NumberOfCells=\"", header.tets, "\">\n");
-  const auto tags = array_tags(header.labels_signed);
-  std::uint64_t offset = 0;
+  layout.length = {header.tets * 32, header.tets * 8, header.tets, header.tets * 8, vertices * 24};
+  std::array<std::uint64_t, VtuLayout::kArrays> offset{};
+  std::uint64_t next = 0;
   for (std::size_t i = 0; i < VtuLayout::kArrays; ++i) {
-    layout.head += text(tags[i].before, "        <DataArray type=\"", tags[i].type, "\" Name=\"",
-                        tags[i].name, "\" NumberOfComponents=\"", tags[i].components,
-                        "\" format=\"appended\" offset=\"", offset, "\"/>\n");
-    layout.start[i] = offset;
-    offset += 8 + layout.length[i];
+    offset[i] = next;
+    layout.start[i] = kHeadBytes + next;
+    next += 8 + layout.length[i];
   }
-  layout.head +=
-      "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n"
-      "  <AppendedData encoding=\"raw\">\n_";
+  layout.head = make_head(header, vertices, offset);
   layout.tail = "\n  </AppendedData>\n</VTKFile>\n";
-  for (std::uint64_t& start : layout.start) start += layout.head.size();
-  layout.tail_start = layout.head.size() + offset;
+  layout.tail_start = kHeadBytes + next;
   return layout;
 }
 

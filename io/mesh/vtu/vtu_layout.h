@@ -10,11 +10,12 @@
 
 namespace mw::io {
 
-/// The file: XML head, '_', then for each array a UInt64 byte count and the numbers, little-endian
-/// (points Float64 x 3, connectivity Int64 x 4, offsets Int64, types UInt8, label UInt64 or
-/// Int64), then the closing tags.
+/// The file: XML head of a fixed length, '_', then for each array a UInt64 byte count and the
+/// numbers, little-endian (connectivity Int64 x 4, offsets Int64, types UInt8, label UInt64 or
+/// Int64, points Float64 x 3), then the closing tags.  The points are last, so that every place
+/// but the end is known before their number is.
 struct VtuLayout {
-  enum Array { kPoints, kConnectivity, kOffsets, kTypes, kLabel, kArrays };
+  enum Array { kConnectivity, kOffsets, kTypes, kLabel, kPoints, kArrays };
   std::string head;                             ///< up to and including '_'
   std::string tail;                             ///< behind the last array
   std::array<std::uint64_t, kArrays> start{};   ///< file offset of the byte count
@@ -22,7 +23,7 @@ struct VtuLayout {
   std::uint64_t tail_start = 0;
 };
 
-/// Pure.  Cost: O(1).
-[[nodiscard]] VtuLayout make_vtu_layout(const MeshHeader& header);
+/// ENSURES: head.size() and start are those of any other number of vertices.  Cost: O(1).
+[[nodiscard]] VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices);
 
 }  // namespace mw::io

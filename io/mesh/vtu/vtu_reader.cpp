@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/file/errors.h"
+#include "io/mesh/label_names.h"
 #include "io/mesh/vtu/vtu_document.h"
 
 namespace mw::io {
@@ -33,21 +34,17 @@ bool is_integer_scalar(pugi::xml_node array) {
 }
 
 pugi::xml_node label_array(pugi::xml_node cell_data, const VtuDocument& document) {
-  for (const char* name : {"label", "Label", "labels", "material", "medit:ref"}) {
-    const auto array = cell_data.find_child_by_attribute("DataArray", "Name", name);
-    if (array && is_integer_scalar(array)) return array;
-  }
-  pugi::xml_node only;
-  int found = 0;
+  std::vector<std::string> integers;
   for (const pugi::xml_node array : cell_data.children("DataArray")) {
-    if (!is_integer_scalar(array)) continue;
-    only = array;
-    ++found;
+    if (is_integer_scalar(array)) integers.emplace_back(array.attribute("Name").as_string());
   }
-  if (found == 1) return only;
-  fail_input(document.file(), "cell data",
-             text("none of ", found, " integer arrays is called 'label'"),
-             "store the labels as an integer cell array 'label'");
+  const std::string* name = choose_label(integers);
+  if (name == nullptr) {
+    fail_input(document.file(), "cell data",
+               text("none of ", integers.size(), " integer arrays is called 'label'"),
+               "store the labels as an integer cell array 'label'");
+  }
+  return named_array(cell_data, name->c_str(), document);
 }
 
 void read_points(pugi::xml_node piece, VtuDocument& document, MeshData& mesh) {

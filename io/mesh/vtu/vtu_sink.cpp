@@ -31,11 +31,9 @@ void FileRegion::flush() {
 
 void VtuSink::begin(const MeshHeader& header) {
   header_ = header;
-  layout_ = make_vtu_layout(header);
-  file_.append(layout_.head);
-  for (std::size_t i = 0; i < VtuLayout::kArrays; ++i) {
-    regions_.emplace_back(file_, layout_.start[i]);
-    regions_[i].add(layout_.length[i]);
+  // Where the numbers of an array start does not depend on how many vertices there will be.
+  for (const std::uint64_t start : make_vtu_layout(header, 0).start) {
+    regions_.emplace_back(file_, start + sizeof(std::uint64_t));
   }
 }
 
@@ -58,9 +56,16 @@ void VtuSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel
 }
 
 void VtuSink::finish() {
-  check_sink_counts(name_, header_, vertices_, tets_);
+  check_sink_counts(name_, header_, tets_);
   for (FileRegion& region : regions_) region.flush();
-  file_.write_at(layout_.tail_start, std::as_bytes(std::span(layout_.tail)));
+  const VtuLayout layout = make_vtu_layout(header_, vertices_);
+  file_.write_at(0, std::as_bytes(std::span(layout.head)));
+  for (std::size_t i = 0; i < VtuLayout::kArrays; ++i) {
+    std::array<std::byte, sizeof(std::uint64_t)> length;
+    store_little(layout.length[i], length.data());
+    file_.write_at(layout.start[i], length);
+  }
+  file_.write_at(layout.tail_start, std::as_bytes(std::span(layout.tail)));
   file_.commit();
 }
 

@@ -41,7 +41,6 @@ class VtuSink : public MeshSink {
   std::string name_;
   AtomicFile file_;
   MeshHeader header_;
-  VtuLayout layout_;
   std::vector<FileRegion> regions_;
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;

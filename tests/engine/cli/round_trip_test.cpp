@@ -36,6 +36,21 @@ TEST_F(RoundTripTest, MeshVerifyDigestInfoConvert) {
   EXPECT_EQ(volume["labels"]["count"], mesh["labels"]["count"]);
 }
 
+TEST_F(RoundTripTest, EveryFormatHoldsTheSameMesh) {
+  make_volume();
+  for (const std::string name : {"v.vtkhdf", "v.vtu", "v.mesh"}) {
+    expect_done("mesh v.npy -o " + name + " --window 8 --report r.json");
+    expect_done("verify v.npy " + name);
+    EXPECT_EQ(run("digest " + name).out, run("digest v.vtkhdf").out);
+    EXPECT_EQ(report("r.json")["digest"].get<std::string>() + "\n", run("digest v.vtkhdf").out);
+    const json facts = json::parse(run("info " + name + " --json").out);
+    EXPECT_EQ(facts["tets"], report("r.json")["output"]["tets"]);
+    EXPECT_EQ(facts["vertices"], report("r.json")["output"]["vertices"]);
+    expect_done("convert " + name + " back.vtkhdf");
+    EXPECT_TRUE(read("back.vtkhdf") == read("v.vtkhdf")) << name;
+  }
+}
+
 TEST_F(RoundTripTest, VerifyFailsForAnotherVolume) {
   make_volume("v.npy", 1);
   make_volume("other.npy", 2);
@@ -84,6 +99,10 @@ TEST_F(RoundTripTest, SelectedLabelsOnlyAreWritten) {
   EXPECT_EQ(some["labels"]["count"], 2);
   EXPECT_EQ(rest["labels"]["count"], all["labels"]["count"].get<int>() - 1);
   EXPECT_LT(some["vertices"], all["vertices"]);
+  expect_done("mesh v.npy -o some.vtkhdf --labels 1,2 --report r.json");
+  EXPECT_EQ(report("r.json")["output"]["vertices"], some["vertices"]);
+  EXPECT_EQ(report("r.json")["output"]["tets"], some["tets"]);
+  EXPECT_EQ(report("r.json")["digest"], some["digest"]);
 }
 
 TEST_F(RoundTripTest, ReportHasEveryDocumentedKey) {

@@ -58,6 +58,24 @@ TEST(AtomicFile, RefusesPathsThatCannotBeWritten) {
   expect_error(ErrorKind::kUsage, {"/dev/null"}, [&] { AtomicFile file("/dev/null"); });
 }
 
+TEST(AtomicFile, WritesOverWhatWasAppendedReadsBackAndResizes) {
+  const TempDir dir;
+  AtomicFile file(dir.path() / "out.bin");
+  file.append("0123456789");
+  file.write_at(3, std::as_bytes(std::span(std::string_view("abc"))));
+  file.append("!");
+  std::string read(4, '?');
+  file.read_at(2, std::as_writable_bytes(std::span(read)));
+  EXPECT_EQ(read, "2abc");
+  file.read_at(8, std::as_writable_bytes(std::span(read)));
+  EXPECT_EQ(read, std::string("89\0\0", 4));
+  file.resize(7);
+  file.read_at(5, std::as_writable_bytes(std::span(read)));
+  EXPECT_EQ(read, std::string("c6\0\0", 4));
+  file.commit();
+  EXPECT_EQ(content_of(dir.path() / "out.bin"), std::string("012abc6\0\0\0!", 11));
+}
+
 /// The limit on the size of files stands in for a full disk.
 TEST(AtomicFile, OutOfRoomIsAResourceErrorAndLeavesNothing) {
   const TempDir dir;

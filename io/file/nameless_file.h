@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A temporary file without a name: gone when it is closed, however the program ends.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "io/file/file_descriptor.h"
+
+namespace mw::io {
+
+/// Bytes by place.
+/// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
+/// the folder cannot be written.  Thread safety: different places may be used at once.
+class NamelessFile {
+ public:
+  /// REQUIRES: an existing folder.
+  explicit NamelessFile(const std::filesystem::path& folder);
+
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
+  /// REQUIRES: the bytes were written.
+  void read_at(std::uint64_t offset, std::span<std::byte> out) const;
+  /// The file itself.  REQUIRES: the object is not used afterwards.
+  [[nodiscard]] FileDescriptor release() { return std::move(file_); }
+
+ private:
+  std::string folder_;
+  FileDescriptor file_;
+};
+
+/// $TMPDIR, or /tmp when it is not set.
+[[nodiscard]] std::filesystem::path scratch_folder();
+
+}  // namespace mw::io

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// .vtkhdf files as other tools write them, and what ours hold.
+#include <map>
+
+#include "io/mesh/open_mesh.h"
+#include "io/mesh/vtkhdf/hdf5_handle.h"
+#include "tests/io/mesh/sample_mesh.h"
+
+namespace mw::io {
+namespace {
+
+/// How numbers are stored.
+struct Array {
+  std::vector<std::int64_t> numbers;
+  hid_t type = H5T_STD_I64LE;
+  hsize_t components = 1;
+};
+
+/// Two tets of five points each, labels 3 and 200, in two partitions; changed at will by tests.
+struct Sample {
+  std::string type = "UnstructuredGrid";
+  bool deflated = false;
+  std::map<std::string, Array> arrays{
+      {"NumberOfPoints", {{4, 5}}},
+      {"NumberOfCells", {{1, 2}}},
+      {"NumberOfConnectivityIds", {{4, 8}}},
+      {"Points",
+       {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 0, 0, 6, 0, 0, 5, 1, 0, 5, 0, 1, 6, 1, 1},
+        H5T_IEEE_F32LE,
+        3}},
+      {"Connectivity", {{0, 1, 2, 3, 0, 1, 2, 3, 1, 2, 3, 4}}},
+      {"Offsets", {{0, 4, 0, 4, 8}}},
+      {"Types", {{10, 10, 10}, H5T_STD_U8LE}},
+      {"CellData/label", {{3, 200, 7}, H5T_STD_U16BE}},
+      {"CellData/quality", {{0, 0, 0}, H5T_IEEE_F64LE}}};
+};
+
+void write_array(hid_t group, const std::string& name, const Array& array, bool deflated) {
+  const std::array<hsize_t, 2> size{array.numbers.size() / array.components, array.components};
+  const int rank = array.components == 1 ? 1 : 2;
+  const Hdf5Handle space(H5Screate_simple(rank, size.data(), nullptr), &H5Sclose);
+  const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+  if (deflated) {
+    H5Pset_chunk(properties.get(), rank, size.data());
+    H5Pset_shuffle(properties.get());
+    H5Pset_deflate(properties.get(), 1);
+  }
+  const Hdf5Handle set(H5Dcreate2(group, name.c_str(), array.type, space.get(), H5P_DEFAULT,
+                                  properties.get(), H5P_DEFAULT),
+                       &H5Dclose);
+  EXPECT_GE(
+      H5Dwrite(set.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.numbers.data()),
+      0);
+}
+
+std::filesystem::path write_file(const TempDir& dir, const Sample& sample) {
+  const auto path = dir.path() / "other.vtkhdf";
+  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                        &H5Fclose);
+  const Hdf5Handle group(H5Gcreate2(file.get(), "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         &H5Gclose);
+  const Hdf5Handle cells(H5Gcreate2(group.get(), "CellData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         &H5Gclose);
+  const Hdf5Handle string(H5Tcopy(H5T_C_S1), &H5Tclose);
+  H5Tset_size(string.get(), sample.type.size());
+  const Hdf5Handle scalar(H5Screate(H5S_SCALAR), &H5Sclose);
+  const Hdf5Handle type(
+      H5Acreate2(group.get(), "Type", string.get(), scalar.get(), H5P_DEFAULT, H5P_DEFAULT),
+      &H5Aclose);
+  H5Awrite(type.get(), string.get(), sample.type.data());
+  for (const auto& [name, array] : sample.arrays) {
+    write_array(group.get(), name, array, sample.deflated);
+  }
+  return path;
+}
+
+TEST(VtkhdfVariants, PartitionsTypesAndFilters) {
+  const TempDir dir;
+  for (const bool deflated : {false, true}) {
+    for (const hid_t real : {H5T_IEEE_F32LE, H5T_IEEE_F64BE}) {
+      for (const hid_t index : {H5T_STD_I32LE, H5T_STD_I64BE, H5T_STD_U64LE}) {
+        Sample sample;
+        sample.deflated = deflated;
+        sample.arrays["Points"].type = real;
+        for (const char* name : {"Connectivity", "Offsets", "NumberOfCells"}) {
+          sample.arrays[name].type = index;
+        }
+        const MeshData mesh = read_mesh(write_file(dir, sample));
+        ASSERT_EQ(mesh.vertices.size(), 9U);
+        EXPECT_EQ(mesh.vertices[8], (Position{6, 1, 1}));
+        EXPECT_EQ(mesh.tets, (std::vector<TetRows>{{0, 1, 2, 3}, {4, 5, 6, 7}, {5, 6, 7, 8}}));
+        EXPECT_EQ(mesh.labels, (std::vector<RawLabel>{3, 200, 7}));
+        EXPECT_FALSE(mesh.labels_signed);
+      }
+    }
+  }
+}
+
+TEST(VtkhdfVariants, SignedAndOtherwiseNamedLabels) {
+  const TempDir dir;
+  for (const std::string name : {"Label", "labels", "material", "anything"}) {
+    Sample sample;
+    sample.arrays.erase("CellData/label");
+    sample.arrays["CellData/" + name] = {{-3, 2, 7}, H5T_STD_I8LE};
+    const MeshData mesh = read_mesh(write_file(dir, sample));
+    EXPECT_EQ(mesh.labels, (std::vector<RawLabel>{static_cast<RawLabel>(-3), 2, 7})) << name;
+    EXPECT_TRUE(mesh.labels_signed);
+  }
+}
+
+TEST(VtkhdfVariants, RefusesWhatIsBrokenOrNoTetMesh) {
+  const TempDir dir;
+  const auto refuse = [&](std::vector<std::string> pieces, auto change) {
+    Sample sample;
+    change(sample);
+    const auto path = write_file(dir, sample);
+    pieces.push_back(path.string());
+    expect_error(ErrorKind::kInput, pieces, [&] { static_cast<void>(read_mesh(path)); });
+  };
+  const auto set = [](const char* array, std::size_t at, std::int64_t number) {
+    return [=](Sample& sample) { sample.arrays[array].numbers[at] = number; };
+  };
+  refuse({"type 12"}, set("Types", 2, 12));
+  refuse({"Offsets", "9 is not 8"}, set("Offsets", 4, 9));
+  refuse({"Connectivity", "point 5, there are 5"}, set("Connectivity", 11, 5));
+  refuse({"Connectivity", "point 4, there are 4"}, set("Connectivity", 0, 4));
+  refuse({"Connectivity", "point -1"}, set("Connectivity", 7, -1));
+  refuse({"Types", "3 rows"}, set("NumberOfCells", 1, 3));
+  refuse({"Points", "9 rows"}, set("NumberOfPoints", 1, 6));
+  refuse({"not credible"}, set("NumberOfCells", 1, std::int64_t{1} << 60));
+  refuse({"Type", "PolyData"}, [](Sample& s) { s.type = "PolyData"; });
+  for (const char* name : {"Points", "Types", "Offsets", "Connectivity", "NumberOfCells"}) {
+    refuse({name, "missing"}, [&](Sample& s) { s.arrays.erase(name); });
+  }
+  refuse({"cell data", "0 integer arrays"},
+         [](Sample& s) { s.arrays["CellData/label"].type = H5T_IEEE_F64LE; });
+  refuse({"Points", "3 components"}, [](Sample& s) { s.arrays["Points"].components = 1; });
+  refuse({"partitions"}, [](Sample& s) { s.arrays["NumberOfPoints"].numbers.push_back(0); });
+  expect_error(ErrorKind::kInput, {"text.vtkhdf", "no HDF5 file"},
+               [&] { static_cast<void>(read_mesh(dir.file("text.vtkhdf", "hello"))); });
+  expect_error(ErrorKind::kInput, {"gone.vtkhdf"},
+               [] { static_cast<void>(read_mesh("gone.vtkhdf")); });
+}
+
+/// Version, type and counts as VTK 9.1 asks for them.
+TEST(Vtkhdf, FileIsVersionOneOfOnePartition) {
+  const TempDir dir;
+  const auto path = dir.path() / "m.vtkhdf";
+  write_mesh(sample_mesh(7, false), *open_mesh_sink(path));
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose);
+  const Hdf5Handle version(
+      H5Aopen_by_name(file.get(), "VTKHDF", "Version", H5P_DEFAULT, H5P_DEFAULT), &H5Aclose);
+  std::array<int, 2> numbers{};
+  EXPECT_GE(H5Aread(version.get(), H5T_NATIVE_INT, numbers.data()), 0);
+  EXPECT_EQ(numbers, (std::array<int, 2>{1, 0}));
+  const std::map<std::string, std::int64_t> counts{
+      {"NumberOfPoints", 10}, {"NumberOfCells", 7}, {"NumberOfConnectivityIds", 28}};
+  for (const auto& [name, expected] : counts) {
+    const Hdf5Handle set(H5Dopen2(file.get(), ("VTKHDF/" + name).c_str(), H5P_DEFAULT), &H5Dclose);
+    std::int64_t count = 0;
+    EXPECT_EQ(H5Dget_storage_size(set.get()), sizeof count);
+    EXPECT_GE(H5Dread(set.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &count), 0);
+    EXPECT_EQ(count, expected) << name;
+  }
+  H5O_info_t info{};
+  for (const char* name : {"VTKHDF", "VTKHDF/Points", "VTKHDF/CellData/label"}) {
+    EXPECT_GE(H5Oget_info_by_name1(file.get(), name, &info, H5P_DEFAULT), 0);
+    EXPECT_TRUE(info.mtime == 0 && info.ctime == 0 && info.btime == 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace mw::io
