@@ -25,7 +25,9 @@ std::unique_ptr<MemoryBlockStore> marched_blocks(const Trial& trial, const io::D
                                                  const WindowGrid& grid) {
   auto store = std::make_unique<MemoryBlockStore>(grid.blocks());
   RunReport report;
-  WindowVisitor visitor(volume, trial.settings, grid, *store, report);
+  const PreparedLabels labels(volume, trial.settings);
+  const Metric metric(trial.frame.spacing);
+  WindowVisitor visitor(labels, metric, trial.settings, grid, *store, report);
   march(grid, [&](Index3 window) { visitor.visit(window); });
   return store;
 }

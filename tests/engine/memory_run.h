@@ -107,7 +107,8 @@ struct Trial {
     };
     return volume.text() + " window " + std::to_string(settings.window) + " edge variance " +
            optional(settings.edge_variance) + " floor " + std::to_string(settings.quality_floor) +
-           " distance " + optional(settings.max_distance) +
+           " distance " + optional(settings.max_distance) + " target " +
+           optional(settings.target_reduction) +
            (settings.start == StartMesh::kDense    ? " dense"
             : settings.start == StartMesh::kOctree ? " octree"
                                                    : " coarse") +
@@ -153,6 +154,7 @@ inline io::MeshData run_in_memory(const Trial& trial, const RunHooks& hooks = {}
   if (below(random, 3) == 0) trial.settings.edge_variance = 0.1;
   trial.settings.quality_floor = kFloors[below(random, 4)];
   trial.settings.max_distance = kDistances[below(random, 3)];
+  if (below(random, 6) == 0) trial.settings.target_reduction = 0.3;
   if (below(random, 2) == 0) trial.frame = {{0.25, 0.25, 0.25}, {-3, 100, 0.5}};
   return trial;
 }

@@ -215,7 +215,8 @@ TEST(Promise3Quality, FloorIsThatOfTheStartMeshUnderStrongAnisotropy) {
 TEST(Promise3Quality, DefaultFloorHoldsWithoutExceptionOnIsotropicVolumes) {
   std::mt19937 random(110);
   for (int i = 0; i < 300 && !HasFailure(); ++i) {
-    const Trial trial{.volume = random_small(random, 4, 18, 4), .settings = {}, .frame = {}};
+    Trial trial{.volume = random_small(random, 4, 18, 4), .settings = {}, .frame = {}};
+    if (i % 3 == 0) trial.settings.start = StartMesh::kOctree;
     SCOPED_TRACE(trial.text());
     const SmallMesh mesh = small_mesh(run_in_memory(trial));
     EXPECT_GE(measure_quality(mesh.view()).radius_ratio_min,
