@@ -10,6 +10,7 @@
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
 #include "kernels/synth/synth.h"
+#include "tests/kernels/lattice/level_maps.h"
 
 namespace mw {
 namespace {
@@ -18,12 +19,13 @@ constexpr std::int64_t kEdge = 32;
 constexpr Index3 kShape{kEdge, kEdge, kEdge};
 constexpr Box3 kBlock{{0, 0, 0}, kShape};
 
-LabelBox grains(int max_level) {
-  const std::int64_t halo = start_halo(max_level);
+LabelBox grains() {
   std::vector<RawLabel> raw(static_cast<std::size_t>(kBlock.voxels()));
   synth_slab({.kind = SynthKind::kVoronoi, .shape = kShape, .labels = 40, .seed = 1}, 0, kEdge,
              raw);
-  LabelBox out{{{-halo, -halo, -halo}, {kEdge + halo, kEdge + halo, kEdge + halo}}, {}};
+  LabelBox out{{{-kStartHalo, -kStartHalo, -kStartHalo},
+                {kEdge + kStartHalo, kEdge + kStartHalo, kEdge + kStartHalo}},
+               {}};
   out.labels.assign(static_cast<std::size_t>(out.box.voxels()), kExterior);
   for (Index3 v; v.z < kEdge; ++v.z) {
     for (v.y = 0; v.y < kEdge; ++v.y) {
@@ -36,17 +38,30 @@ LabelBox grains(int max_level) {
   return out;
 }
 
+LevelMap levels(const LabelBox& all) {
+  return test::level_map(kShape, [&](const Box3& box) {
+    LabelBox out{box, {}};
+    each_index(
+        box, [&](Index3 v) { out.labels.push_back(all.box.contains(v) ? all.at(v) : kExterior); });
+    return out;
+  });
+}
+
 TetMesh window(int max_level) {
-  BlockMesh start = graded_start(grains(max_level), kBlock, kShape, {.max_level = max_level});
+  const LabelBox labels = grains();
+  const BlockMesh start = graded_start({.shape = labels, .original = labels}, levels(labels),
+                                       kBlock, kShape, {.max_level = max_level});
   constexpr auto kFar = static_cast<std::int32_t>(kEdge * kUnitsPerVoxel);
-  return TetMesh(std::move(start.vertices), start.tets, {kFar, kFar, kFar});
+  return TetMesh(start.vertices, start.tets, {kFar, kFar, kFar});
 }
 
 void start_mesh(benchmark::State& state) {
   const int level = static_cast<int>(state.range(0));
-  const LabelBox labels = grains(level);
+  const LabelBox labels = grains();
+  const LevelMap map = levels(labels);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(graded_start(labels, kBlock, kShape, {.max_level = level}));
+    benchmark::DoNotOptimize(graded_start({.shape = labels, .original = labels}, map, kBlock,
+                                          kShape, {.max_level = level}));
   }
   state.SetItemsProcessed(state.iterations() * kBlock.voxels());
 }

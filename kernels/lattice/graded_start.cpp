@@ -39,14 +39,16 @@ bool on_triangle(Point p, const CornerTriangle& t, unsigned axis) {
   return left == 0 || right == 0;
 }
 
-/// The point of a voxel face nearest to p.
+/// The point of a voxel face nearest to p, one unit off its rim: triangles beside the face, between
+/// other labels, may touch the rim.  (Sample points lie at quarters of a voxel, so the triangle
+/// that holds this point holds the nearest one as well.)
 Point nearest_on(const VoxelFace& face, Point p) {
   const Point lo = lattice_point(face.lower), hi = lattice_point(face.upper() + Index3{1, 1, 1});
   // `hi` is one voxel too far along the face's axis; there only its lower side, `upper`, counts.
   const Point upper = lattice_point(face.upper());
   const auto within = [&face](unsigned axis, std::int32_t v, std::int32_t from, std::int32_t to,
                               std::int32_t plane) {
-    return axis == face.axis ? plane : std::clamp(v, from, to);
+    return axis == face.axis ? plane : std::clamp(v, from + 1, to - 1);
   };
   return {within(0, p.x, lo.x, hi.x, upper.x), within(1, p.y, lo.y, hi.y, upper.y),
           within(2, p.z, lo.z, hi.z, upper.z)};

@@ -49,6 +49,7 @@ TEST(Promise4Distance, IsNotKeptByChance) {
         random_trial(random, random_volume_of(random, VolumeKind::kBlobs, {18, 14, 12}, 3));
     trial.settings.max_distance.reset();
     trial.settings.edge_variance.reset();
+    trial.settings.target_reduction.reset();
     farthest = std::max(farthest, measured(trial));
   }
   EXPECT_GT(farthest, 2.5);

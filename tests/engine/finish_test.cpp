@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "engine/store/run_store.h"
 #include "engine/window_visitor.h"
 #include "io/mesh/digest.h"
 #include "tests/engine/memory_run.h"
@@ -21,14 +22,27 @@ using test::MemoryVolume;
 using test::random_trial;
 using test::Trial;
 
-std::unique_ptr<MemoryBlockStore> marched_blocks(const Trial& trial, const io::DenseVolume& volume,
-                                                 const WindowGrid& grid) {
-  auto store = std::make_unique<MemoryBlockStore>(grid.blocks());
-  RunReport report;
-  WindowVisitor visitor(volume, trial.settings, grid, *store, report);
-  march(grid, [&](Index3 window) { visitor.visit(window); });
-  return store;
-}
+/// The blocks after one march.
+class MarchedBlocks : public FinalBlocks {
+ public:
+  MarchedBlocks(const Trial& trial, const io::DenseVolume& volume, const WindowGrid& grid)
+      : layout_({grid}, trial.settings.order), store_(layout_, budget_, nullptr) {
+    const PreparedLabels labels(volume, trial.settings);
+    const Metric metric(trial.frame.spacing);
+    const WindowVisitor visitor(labels, metric, trial.settings, layout_.grid(0), store_.march(0));
+    march(WindowOrder(layout_.grid(0), trial.settings.order), [&](Index3 window) {
+      EXPECT_TRUE(store_.march(0).admit(window, 0));
+      visitor.visit(window);
+    });
+  }
+
+  [[nodiscard]] BlockMesh load(Index3 block) override { return store_.march(0).load(block); }
+
+ private:
+  RunLayout layout_;
+  MemoryBudget budget_;
+  RunStore store_;
+};
 
 /// All vertices ascending by id, all tets with wanted labels: the whole mesh in memory at once.
 io::MeshData list_of_everything(FinalBlocks& blocks, const WindowGrid& grid,
@@ -89,8 +103,7 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     const io::LabelTable table = io::collect_labels(file);
     const io::DenseVolume volume(file, table);
     const WindowGrid grid(trial.volume.shape, trial.settings.window);
-    const auto store = marched_blocks(trial, volume, grid);
-    StoredBlocks blocks(*store);
+    MarchedBlocks blocks(trial, volume, grid);
     OutputOptions options{.wanted = {}, .measure_quality = true};
     if (i % 3 == 0) options.wanted = [](RawLabel label) { return test::test_label(label) != 0; };
     MemorySink sink;

@@ -107,8 +107,11 @@ struct Trial {
     };
     return volume.text() + " window " + std::to_string(settings.window) + " edge variance " +
            optional(settings.edge_variance) + " floor " + std::to_string(settings.quality_floor) +
-           " distance " + optional(settings.max_distance) +
-           (settings.start == StartMesh::kDense ? " dense" : " octree") +
+           " distance " + optional(settings.max_distance) + " target " +
+           optional(settings.target_reduction) +
+           (settings.start == StartMesh::kDense    ? " dense"
+            : settings.start == StartMesh::kOctree ? " octree"
+                                                   : " coarse") +
            (settings.order == Order::kRaster ? " raster" : " colour") + " marches " +
            std::to_string(settings.marches) +
            (settings.topology == KeptTopology::kInterfaces ? " interfaces" : "") +
@@ -149,16 +152,19 @@ inline void expect_same(const io::MeshData& actual, const io::MeshData& expected
   using audit::test::below;
   constexpr std::array<int, 5> kWindows{4, 6, 8, 12, 16};
   constexpr std::array<double, 4> kFloors{0.1, 0.05, 0.2, 0.3};
+  constexpr std::array<StartMesh, 4> kStarts{StartMesh::kDense, StartMesh::kOctree,
+                                             StartMesh::kCoarse, StartMesh::kCoarse};
   constexpr std::array<std::optional<double>, 3> kDistances{std::nullopt, 1.5, 1.0};
   Trial trial{.volume = std::move(volume), .settings = {}, .frame = {}};
   trial.settings.window = kWindows[below(random, 5)];
   trial.settings.marches = static_cast<int>(1 + below(random, 3));
-  trial.settings.start = below(random, 2) == 0 ? StartMesh::kDense : StartMesh::kOctree;
+  trial.settings.start = kStarts[below(random, 4)];
   trial.settings.order = below(random, 3) == 0 ? Order::kColour : Order::kRaster;
   trial.settings.optimise = below(random, 3) != 0;
   if (below(random, 3) == 0) trial.settings.edge_variance = 0.1;
   trial.settings.quality_floor = kFloors[below(random, 4)];
   trial.settings.max_distance = kDistances[below(random, 3)];
+  if (below(random, 6) == 0) trial.settings.target_reduction = 0.3;
   if (below(random, 2) == 0) trial.frame = {{0.25, 0.25, 0.25}, {-3, 100, 0.5}};
   return trial;
 }

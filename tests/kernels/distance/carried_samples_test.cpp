@@ -1,62 +1,144 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Samples by triangle, and where samples lie.
+// Samples by triangle against std::map, and where samples lie.
 #include "kernels/distance/carried_samples.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <random>
+#include <set>
 
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::test {
 namespace {
 
+using audit::test::below;
+
+/// What the table should hold.
+struct Carried {
+  Label side = 0;
+  std::multiset<FaceSample> samples;
+};
+using Expected = std::map<TriangleKey, Carried>;
+
+std::multiset<FaceSample> listed(const CarriedSamples& samples, const TriangleKey& key) {
+  std::multiset<FaceSample> out;
+  EXPECT_TRUE(samples.each(key, [&](FaceSample s) {
+    out.insert(s);
+    return true;
+  }));
+  return out;
+}
+
+void expect_same(const CarriedSamples& samples, const Expected& expected, const TriangleKey& key) {
+  const auto found = expected.find(key);
+  if (found == expected.end()) {
+    ASSERT_TRUE(listed(samples, key).empty());
+    for (Label side : {0U, 1U, 2U}) ASSERT_FALSE(samples.has(key, side));
+    return;
+  }
+  ASSERT_EQ(listed(samples, key), found->second.samples);
+  for (Label side : {0U, 1U, 2U}) ASSERT_EQ(samples.has(key, side), side == found->second.side);
+}
+
 /// Rows beyond 21 bits once shared a list with smaller ones.
 TEST(CarriedSamples, TellLargeRowsApart) {
   CarriedSamples samples;
   samples.add(triangle_key(1, 2, (1U << 21) | 5U), 0, 7);
-  EXPECT_EQ(samples.find(triangle_key(1, 3, 5)), nullptr);
-  ASSERT_NE(samples.find(triangle_key((1U << 21) | 5U, 1, 2)), nullptr);
+  EXPECT_FALSE(samples.has(triangle_key(1, 3, 5), 0));
+  EXPECT_TRUE(samples.has(triangle_key((1U << 21) | 5U, 1, 2), 0));
 }
 
+/// Few triangles and many samples, or many triangles of which most go again; the table fills, grows
+/// and empties several times.
 TEST(CarriedSamples, FindWhatWasAddedAndNotErased) {
   std::mt19937 random(921);
-  CarriedSamples samples;
-  std::map<TriangleKey, std::vector<FaceSample>> expected;
-  for (FaceSample s = 0; s < 3000; ++s) {
-    const auto row = [&] { return audit::test::below(random, 12); };
-    const TriangleKey key = triangle_key(row(), row(), row());
-    if (s % 5 == 0) {
-      samples.erase(key);
-      expected.erase(key);
-    } else {
-      samples.add(key, 3, s);
-      expected[key].push_back(s);
-    }
-    const CarriedSamples::List* list = samples.find(key);
-    ASSERT_EQ(list != nullptr, expected.count(key) == 1);
-    if (list != nullptr) {
-      ASSERT_EQ(list->samples, expected[key]);
+  for (const std::uint32_t rows : {3U, 6U, 12U, 40U}) {
+    for (const std::uint32_t erased_of_10 : {1U, 5U, 8U}) {
+      CarriedSamples samples;
+      Expected expected;
+      std::set<TriangleKey> seen;
+      for (FaceSample s = 0; s < 4000; ++s) {
+        const auto row = [&] { return below(random, rows); };
+        const auto a = row(), b = row(), c = row();
+        const TriangleKey key = triangle_key(a, b, c);
+        seen.insert(key);
+        // Phases: mostly growing, then mostly shrinking.
+        const std::uint32_t erased = s / 1000 % 2 == 0 ? 1 : erased_of_10;
+        if (below(random, 10) < erased) {
+          samples.erase(key);
+          expected.erase(key);
+        } else {
+          const Label side = below(random, 3);
+          samples.add(key, side, s % 7);
+          expected.try_emplace(key, Carried{side, {}}).first->second.samples.insert(s % 7);
+        }
+        ASSERT_EQ(samples.empty(), expected.empty());
+        expect_same(samples, expected, key);
+        if (s % 500 != 499) continue;
+        for (const TriangleKey& k : seen) expect_same(samples, expected, k);
+      }
+      for (const TriangleKey& k : seen) samples.erase(k);
+      EXPECT_TRUE(samples.empty());
     }
   }
 }
 
+/// Every removal from a table as full as it gets: each of the others must still be found.
+TEST(CarriedSamples, FindTheOthersAfterEachRemovalFromAFullTable) {
+  std::mt19937 random(922);
+  for (int round = 0; round < 60; ++round) {
+    CarriedSamples samples;
+    Expected expected;
+    while (expected.size() < 32) {
+      const auto a = below(random, 1000), b = below(random, 1000), c = below(random, 1000);
+      const TriangleKey key = triangle_key(a, b, c);
+      samples.add(key, 1, 5);
+      expected.try_emplace(key, Carried{1, {}}).first->second.samples.insert(5);
+    }
+    while (!expected.empty()) {
+      const auto gone =
+          std::next(expected.begin(), below(random, static_cast<std::uint32_t>(expected.size())));
+      const TriangleKey key = gone->first;
+      samples.erase(key);
+      expected.erase(gone);
+      expect_same(samples, expected, key);
+      for (const auto& [other, carried] : expected) expect_same(samples, expected, other);
+    }
+  }
+}
+
+TEST(CarriedSamples, StopWhenTheVisitorSaysSo) {
+  CarriedSamples samples;
+  for (FaceSample s = 0; s < 5; ++s) samples.add({1, 2, 3}, 0, s);
+  int visited = 0;
+  EXPECT_FALSE(samples.each({1, 2, 3}, [&](FaceSample) { return ++visited < 3; }));
+  EXPECT_EQ(visited, 3);
+}
+
+/// Of its voxel, however far out that lies.
 TEST(FaceSample, LiesInItsQuarterOfItsFace) {
-  const Index3 volume{5, 7, 3};
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-      const Index3 voxel{3, 6, 1};
-      const Point p = position(face_sample(voxel, axis, quarter, volume), volume);
-      const std::array<std::int64_t, 3> at{p.x, p.y, p.z}, v{voxel.x, voxel.y, voxel.z};
-      unsigned bit = 0;
-      for (unsigned i = 0; i < 3; ++i) {
-        const std::int64_t inside = at[i] - v[i] * kUnitsPerVoxel;
-        if (i == axis) {
-          EXPECT_EQ(inside, kUnitsPerVoxel);
-        } else {
-          EXPECT_EQ(inside, (quarter >> bit++ & 1U) != 0 ? 768 : 256);
+  constexpr std::int64_t kLast = kMaxSampledVoxels - 1;
+  for (const Index3 voxel : {Index3{3, 6, 1},
+                             {0, 0, 0},
+                             {kLast, 0, 5},
+                             {1, kLast, 0},
+                             {0, 2, kLast},
+                             {kLast, kLast, kLast}}) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+        const Point p = position(face_sample(voxel, axis, quarter));
+        const std::array<std::int64_t, 3> at{p.x, p.y, p.z}, v{voxel.x, voxel.y, voxel.z};
+        unsigned bit = 0;
+        for (unsigned i = 0; i < 3; ++i) {
+          const std::int64_t inside = at[i] - v[i] * kUnitsPerVoxel;
+          if (i == axis) {
+            EXPECT_EQ(inside, kUnitsPerVoxel);
+          } else {
+            EXPECT_EQ(inside, (quarter >> bit++ & 1U) != 0 ? 768 : 256);
+          }
         }
       }
     }

@@ -31,11 +31,43 @@ TEST(PointTriangle, IsTheLeastDistanceOverTheTriangle) {
     if (i % 5 == 0) t[2] = 0.5 * (t[0] + t[1]);  // a segment
     if (i % 17 == 0) t[1] = t[0];
     const Vec3 p = i % 7 == 0 ? Vec3(0.3 * t[0] + 0.3 * t[1] + 0.4 * t[2]) : random_point(random);
-    const double exact = std::sqrt(squared_distance(p, t));
+    const double exact = std::sqrt(DistanceTriangle(t).squared_distance(p));
     const double grid = std::sqrt(walked(p, t, kSteps));
     const double spacing = ((t[1] - t[0]).norm() + (t[2] - t[0]).norm()) / kSteps;
     EXPECT_LE(exact, grid + 1e-12);
     EXPECT_GE(exact, grid - spacing);
+  }
+}
+
+/// However its corners are named, and for as many points as one asks.
+TEST(PointTriangle, ForgetsTheOrderOfCorners) {
+  std::mt19937 random(902);
+  for (int i = 0; i < 200; ++i) {
+    std::array<Vec3, 3> t{random_point(random), random_point(random), random_point(random)};
+    if (i % 4 == 0) t[2] = t[0] + 1e-7 * (t[2] - t[0]);
+    const DistanceTriangle one(t), turned({t[1], t[2], t[0]}), mirrored({t[1], t[0], t[2]});
+    EXPECT_EQ(one.corners(), t);
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 p = random_point(random);
+      EXPECT_NEAR(turned.squared_distance(p), one.squared_distance(p), 1e-6);
+      EXPECT_NEAR(mirrored.squared_distance(p), one.squared_distance(p), 1e-6);
+    }
+    for (const Vec3& corner : t) EXPECT_NEAR(one.squared_distance(corner), 0.0, 1e-12);
+  }
+}
+
+/// Slivers of every width, down to where only edges count.
+TEST(PointTriangle, IsExactForNarrowTriangles) {
+  std::mt19937 random(903);
+  for (int i = 0; i < 300; ++i) {
+    const double width = std::pow(10.0, -(i % 15));
+    const Vec3 a = random_point(random), b = random_point(random);
+    const std::array<Vec3, 3> t{a, b, 0.4 * a + 0.6 * b + width * random_point(random, 1.0)};
+    const Vec3 p = random_point(random);
+    const double exact = std::sqrt(DistanceTriangle(t).squared_distance(p));
+    const double grid = std::sqrt(walked(p, t, 60));
+    EXPECT_LE(exact, grid + 1e-8);
+    EXPECT_GE(exact, grid - ((t[1] - t[0]).norm() + (t[2] - t[0]).norm()) / 60);
   }
 }
 

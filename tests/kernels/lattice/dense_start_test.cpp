@@ -193,9 +193,9 @@ TEST(Sec51StartMesh, SamplesCoverEveryInterfaceFaceOnce) {
       for (const BlockSample& s : mesh.samples) {
         found.insert(s.sample);
         const auto at = [&](std::size_t k) { return mesh.vertices[s.triangle[k]].position; };
-        EXPECT_EQ(volume6(position(s.sample, shape), at(0), at(1), at(2)), 0);
+        EXPECT_EQ(volume6(position(s.sample), at(0), at(1), at(2)), 0);
         for (std::size_t k = 0; k < 3; ++k) {
-          const Vec3 d = Metric().vector(position(s.sample, shape), at(k));
+          const Vec3 d = Metric().vector(position(s.sample), at(k));
           EXPECT_LE(d.cwiseAbs().maxCoeff(), 0.75);
         }
       }
@@ -207,7 +207,7 @@ TEST(Sec51StartMesh, SamplesCoverEveryInterfaceFaceOnce) {
             const Index3 next = v + Index3{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
             if (!all.contains(next) || labels.at(v) == labels.at(next)) continue;
             for (unsigned quarter = 0; quarter < 4; ++quarter) {
-              expected.insert(face_sample(v, axis, quarter, shape));
+              expected.insert(face_sample(v, axis, quarter));
             }
           }
         }

@@ -5,20 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/coarsen/carrier_faces.h"
+#include "kernels/distance/point_triangle.h"
 #include "kernels/quality/mesh_quality.h"
-#include "tests/kernels/mesh/dense_mesh.h"
+#include "tests/kernels/coarsen/coarse_volume.h"
+#include "tests/kernels/lattice/large_cells.h"
 
 namespace mw::test {
 namespace {
 
-BlockMesh graded_block(const SmallVolume& volume, const Box3& block, int level) {
-  const Index3 halo{start_halo(level), start_halo(level), start_halo(level)};
-  return graded_start(labels_in(volume, {block.lo - halo, block.hi + halo}), block, volume.shape,
-                      {.max_level = level});
-}
-
 BlockMesh graded_whole(const SmallVolume& volume, int level) {
-  return graded_block(volume, {{0, 0, 0}, volume.shape}, level);
+  return start_block(volume, level_map(volume), {{0, 0, 0}, volume.shape}, {.max_level = level});
 }
 
 /// Mostly uniform, so that there are larger cells.
@@ -81,6 +78,7 @@ TEST(Sec51GradedStart, IsTheSameHoweverItIsCutIntoBlocks) {
     const int level = 1 + i % 3;
     const SmallVolume volume = random_coarse(random, level == 3 ? 17 : 9);
     const BlockMesh whole = graded_whole(volume, level);
+    const LevelMap levels = level_map(volume);
     std::map<VertexId, BlockVertex> vertices;
     for (const BlockVertex& v : whole.vertices) vertices[v.id] = v;
     GlobalTets expected, found;
@@ -93,13 +91,186 @@ TEST(Sec51GradedStart, IsTheSameHoweverItIsCutIntoBlocks) {
           const Box3 box{
               lo,
               {std::min(lo.x + edge, s.x), std::min(lo.y + edge, s.y), std::min(lo.z + edge, s.z)}};
-          const BlockMesh block = graded_block(volume, box, level);
+          const BlockMesh block = start_block(volume, levels, box, {.max_level = level});
           add_global(found, block);
           for (const BlockVertex& v : block.vertices) EXPECT_EQ(vertices.at(v.id), v);
         }
       }
     }
     EXPECT_TRUE(found == expected);
+  }
+}
+
+/// A volume with the labels that its start mesh takes its shape from.
+struct CoarseVolume {
+  SmallVolume original;
+  SmallVolume shape;
+  LevelMap levels;
+  StartOptions options;
+
+  [[nodiscard]] BlockMesh block(const Box3& box) const {
+    const Index3 halo{kStartHalo, kStartHalo, kStartHalo};
+    const Box3 wide{box.lo - halo, box.hi + halo};
+    const LabelBox shape_labels = labels_in(shape, wide), labels = labels_in(original, wide);
+    return graded_start({.shape = shape_labels, .original = labels}, levels, box, shape.shape,
+                        options);
+  }
+  [[nodiscard]] BlockMesh whole() const { return block({{0, 0, 0}, shape.shape}); }
+};
+
+/// Coarsened, or with cells of 16 voxels, or both.
+CoarseVolume random_start(std::mt19937& random, int i) {
+  const bool coarse = i % 3 != 2;
+  const double bound = i % 2 == 0 ? 1.5 : 1.0;
+  CoarseVolume out;
+  if (i % 4 == 3) {
+    out.original = random_with_large_cells(random);
+  } else {
+    const auto any = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
+    const VolumeKind kind = below(random, 3) == 0 ? any : VolumeKind::kBlobs;
+    const Index3 shape{5 + below(random, 13), 4 + below(random, 12), 2 + below(random, 12)};
+    out.original = random_volume_of(random, kind, shape, 1 + below(random, 5));
+  }
+  out.shape = coarse ? coarsened(out.original, bound) : out.original;
+  out.levels = level_map(out.shape);
+  out.options = {
+      .max_level = 4, .coarse = coarse, .with_samples = true, .max_distance = bound, .weights = {}};
+  return out;
+}
+
+std::multiset<FaceSample> samples_of_input(const SmallVolume& volume) {
+  std::multiset<FaceSample> out;
+  const LabelBox labels = labels_in(volume, {{0, 0, 0}, volume.shape + Index3{1, 1, 1}});
+  each_index(volume.shape, [&](Index3 v) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const Label next = labels.at(VoxelFace{v, axis}.upper());
+      if (next == kExterior || next == labels.at(v)) continue;
+      for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+        out.insert(face_sample(v, axis, quarter));
+      }
+    }
+  });
+  return out;
+}
+
+TEST(Sec51GradedStart, OfCoarsenedLabelsAndLargestCellsIsConformingAndExact) {
+  std::mt19937 random(515);
+  double worst = 1.0;
+  int changed = 0;
+  for (int i = 0; i < 120 && !HasFailure(); ++i) {
+    const CoarseVolume start = random_start(random, i);
+    changed += start.shape.labels != start.original.labels ? 1 : 0;
+    const BlockMesh block = start.whole();
+    const TetMesh mesh(block.vertices, block.tets, far_corner(start.shape.shape));
+    std::map<Label, std::int64_t> volume6_by_label, voxels;
+    for (const LocalTet& t : mesh.tets()) {
+      EXPECT_GT(volume6_of(mesh, t), 0);
+      volume6_by_label[t.label] += volume6_of(mesh, t);
+      worst = std::min(worst, radius_ratio(mesh, Metric(), t));
+    }
+    for (const Label l : start.shape.labels) voxels[l] += std::int64_t{6} << 30;
+    EXPECT_EQ(volume6_by_label, voxels);
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) EXPECT_TRUE(mesh.is_free(v));
+    for (const auto& [key, stars] : tets_by_stars(mesh)) {
+      ASSERT_EQ(stars, key.label == kExterior ? 3 : 4);
+    }
+  }
+  EXPECT_GT(changed, 25);
+  EXPECT_GE(worst, 0.2) << "the default quality floor could not be promised";
+}
+
+/// Labels on both sides of each triangle of the mesh, by the ids of its corners.
+std::map<std::array<VertexId, 3>, std::set<Label>> labels_at_triangles(const BlockMesh& mesh) {
+  std::map<std::array<VertexId, 3>, std::set<Label>> out;
+  for (const BlockTet& t : mesh.tets) {
+    for (std::size_t skip = 0; skip < 4; ++skip) {
+      std::array<VertexId, 3> key{};
+      for (std::size_t i = 0, k = 0; i < 4; ++i) {
+        if (i != skip) key[k++] = mesh.vertices[t.vertices[i]].id;
+      }
+      out[key].insert(t.label);
+    }
+  }
+  return out;
+}
+
+/// Each sample of each input face once, on a triangle between the same labels, near enough that the
+/// bound holds for all of the face.
+TEST(Promise4Distance, SamplesOfTheCoarseStartAreNearTheirTriangles) {
+  std::mt19937 random(516);
+  std::int64_t samples = 0, moved = 0;
+  for (int i = 0; i < 120 && !HasFailure(); ++i) {
+    const CoarseVolume start = random_start(random, i);
+    const BlockMesh mesh = start.whole();
+    const auto labels = labels_at_triangles(mesh);
+    const LabelBox input = labels_in(start.original, {{0, 0, 0}, start.original.shape});
+    const double reach = start.options.max_distance - kSampleCoveringRadius;
+    std::multiset<FaceSample> found;
+    for (const BlockSample& s : mesh.samples) {
+      found.insert(s.sample);
+      std::array<VertexId, 3> ids{};
+      std::array<Vec3, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        ids[k] = mesh.vertices[s.triangle[k]].id;
+        corners[k] = Metric().vector({0, 0, 0}, mesh.vertices[s.triangle[k]].position);
+      }
+      const Point p = position(s.sample);
+      const double distance =
+          std::sqrt(DistanceTriangle(corners).squared_distance(Metric().vector({0, 0, 0}, p)));
+      ASSERT_LE(distance, (start.options.coarse ? reach : 0.0) + 1e-12);
+      moved += distance > 1e-12 ? 1 : 0;
+      const auto axis = static_cast<unsigned>(s.sample >> 2 & 3U);
+      const std::int64_t unit = kUnitsPerVoxel;
+      const VoxelFace face{{p.x / unit - (axis == 0 ? 1 : 0), p.y / unit - (axis == 1 ? 1 : 0),
+                            p.z / unit - (axis == 2 ? 1 : 0)},
+                           axis};
+      const LabelPair pair = labels_beside(input, face);
+      ASSERT_EQ(s.side, pair.low);
+      ASSERT_EQ(labels.at(ids), (std::set<Label>{pair.low, pair.high}));
+    }
+    EXPECT_TRUE(found == samples_of_input(start.original));
+    samples += std::ssize(found);
+  }
+  EXPECT_GT(samples, 20000);
+  EXPECT_GT(moved, 2000);
+}
+
+using GlobalSamples = std::multiset<std::tuple<std::array<VertexId, 3>, Label, FaceSample>>;
+
+void add_samples(GlobalSamples& out, const BlockMesh& block) {
+  for (const BlockSample& s : block.samples) {
+    std::array<VertexId, 3> ids{};
+    for (std::size_t k = 0; k < 3; ++k) ids[k] = block.vertices[s.triangle[k]].id;
+    out.insert({ids, s.side, s.sample});
+  }
+}
+
+TEST(Promise5SameBytes, CoarseStartIsTheSameHoweverItIsCutIntoBlocks) {
+  std::mt19937 random(517);
+  for (int i = 0; i < 24 && !HasFailure(); ++i) {
+    CoarseVolume start = random_start(random, i);
+    start.options.max_level = i % 4 == 3 ? 4 : 1 + i % 3;
+    const BlockMesh whole = start.whole();
+    std::map<VertexId, BlockVertex> vertices;
+    for (const BlockVertex& v : whole.vertices) vertices[v.id] = v;
+    GlobalTets expected, found;
+    GlobalSamples expected_samples, found_samples;
+    add_global(expected, whole);
+    add_samples(expected_samples, whole);
+    const std::int64_t edge = std::int64_t{1} << start.options.max_level;
+    const Index3 s = start.shape.shape;
+    each_index(Index3{(s.x + edge - 1) / edge, (s.y + edge - 1) / edge, (s.z + edge - 1) / edge},
+               [&](Index3 b) {
+                 const Index3 lo{b.x * edge, b.y * edge, b.z * edge};
+                 const Index3 hi = lo + Index3{edge, edge, edge};
+                 const BlockMesh block = start.block(
+                     {lo, {std::min(hi.x, s.x), std::min(hi.y, s.y), std::min(hi.z, s.z)}});
+                 add_global(found, block);
+                 add_samples(found_samples, block);
+                 for (const BlockVertex& v : block.vertices) EXPECT_EQ(vertices.at(v.id), v);
+               });
+    EXPECT_TRUE(found == expected);
+    EXPECT_TRUE(found_samples == expected_samples);
   }
 }
 

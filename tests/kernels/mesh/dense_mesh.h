@@ -10,6 +10,7 @@
 
 #include "kernels/lattice/graded_start.h"
 #include "kernels/mesh/tet_mesh.h"
+#include "tests/kernels/lattice/level_maps.h"
 #include "tests/oracle/cell_complex.h"
 #include "tests/oracle/small_volumes.h"
 
@@ -41,12 +42,22 @@ using audit::test::VolumeKind;
   return out;
 }
 
+[[nodiscard]] inline LevelMap level_map(const SmallVolume& volume) {
+  return level_map(volume.shape, [&](const Box3& box) { return labels_in(volume, box); });
+}
+
+/// Start mesh of a part of the volume, its labels as they are.
+[[nodiscard]] inline BlockMesh start_block(const SmallVolume& volume, const LevelMap& levels,
+                                           const Box3& block, const StartOptions& options) {
+  const Index3 halo{kStartHalo, kStartHalo, kStartHalo};
+  const LabelBox labels = labels_in(volume, {block.lo - halo, block.hi + halo});
+  return graded_start({.shape = labels, .original = labels}, levels, block, volume.shape, options);
+}
+
 /// Start mesh of a part of the volume: the paper's, five tets a voxel.
 [[nodiscard]] inline BlockMesh dense_block(const SmallVolume& volume, const Box3& block,
                                            const StartOptions& options = {}) {
-  const Index3 one{1, 1, 1};
-  return graded_start(labels_in(volume, {block.lo - one, block.hi + one}), block, volume.shape,
-                      options);
+  return start_block(volume, LevelMap(), block, options);
 }
 
 /// Tets by ids, with the label.
@@ -68,14 +79,14 @@ inline void add_global(GlobalTets& out, const BlockMesh& block) {
 
 /// Start mesh of the whole volume: every vertex is free.
 [[nodiscard]] inline TetMesh dense_mesh(const SmallVolume& volume) {
-  BlockMesh block = dense_block(volume, {{0, 0, 0}, volume.shape});
-  return {std::move(block.vertices), block.tets, far_corner(volume.shape)};
+  const BlockMesh block = dense_block(volume, {{0, 0, 0}, volume.shape});
+  return {block.vertices, block.tets, far_corner(volume.shape)};
 }
 
 /// A window cut out of a larger volume.  ENSURES: some vertices are fixed.
 [[nodiscard]] inline TetMesh dense_cutout(const SmallVolume& volume, const Box3& window) {
-  BlockMesh block = dense_block(volume, window);
-  return {std::move(block.vertices), block.tets, far_corner(volume.shape)};
+  const BlockMesh block = dense_block(volume, window);
+  return {block.vertices, block.tets, far_corner(volume.shape)};
 }
 
 /// Signed six-fold volume of a tet.

@@ -251,5 +251,40 @@ TEST(TetMesh, EitherPlaneOfAnAxisFixesTheAxis) {
   }
 }
 
+/// After contractions and moves: each real tet once, vertices and tets ascending.
+TEST(TetMesh, SortedTetsAreTheTetsInOrder) {
+  std::mt19937 random(411);
+  int contracted = 0;
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_volume(random);
+    TetMesh mesh = i % 3 == 0 ? random_part(volume, random, 4) : dense_mesh(volume);
+    for (int k = 0; k < 20; ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p == q || !stays_positive(mesh, p, q, mesh.position(p))) continue;
+      if (contraction_target(mesh, p, q, 0) == std::nullopt) continue;
+      mesh.contract(p, q, mesh.position(p), mesh.quadric(p));
+      ++contracted;
+    }
+    std::vector<BlockTet> expected;
+    for (const LocalTet& t : mesh.tets()) {
+      expected.push_back({t.vertices, t.label});
+      std::ranges::sort(expected.back().vertices);
+    }
+    std::ranges::sort(expected);
+    EXPECT_EQ(mesh.sorted_tets(), expected);
+  }
+  EXPECT_GT(contracted, 100);
+}
+
+TEST(TetMesh, TellsTheIdsOfItsVertices) {
+  const SmallVolume volume = volume_from({2, 3, 2}, 1, [](auto, auto, auto) { return 0; });
+  const BlockMesh block = dense_block(volume, {{0, 1, 0}, {2, 3, 2}});
+  const TetMesh mesh(block.vertices, block.tets, far_corner(volume.shape));
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    EXPECT_EQ(mesh.id(v), block.vertices[v].id);
+    EXPECT_EQ(mesh.vertex(v), block.vertices[v]);
+  }
+}
+
 }  // namespace
 }  // namespace mw::test

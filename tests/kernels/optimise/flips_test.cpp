@@ -106,34 +106,12 @@ TetMesh bad_mesh(std::mt19937& random, std::uint32_t labels) {
   return mesh;
 }
 
-/// Tries a random edge, or a random face named from a tet on it.
+/// Tries a random edge.
 bool random_flip(const TetMesh& mesh, Flipper& flipper, std::mt19937& random) {
   const auto tets = mesh.tets();
-  auto [a, b, c, d] = tets[below(random, static_cast<std::uint32_t>(tets.size()))].vertices;
-  // Even permutations bring each corner to the front.
-  switch (below(random, 4)) {
-    case 1:
-      std::swap(a, b), std::swap(c, d);
-      break;
-    case 2:
-      std::swap(a, c), std::swap(b, d);
-      break;
-    case 3:
-      std::swap(a, d), std::swap(b, c);
-      break;
-    default:
-      break;
-  }
-  switch (below(random, 6)) {
-    case 0:
-      return flipper.remove_edge(a, b);
-    case 1:
-      return flipper.remove_edge(a, c);
-    case 2:
-      return flipper.remove_edge(a, d);
-    default:
-      return flipper.remove_face(a, b, c, d);
-  }
+  const auto& v = tets[below(random, static_cast<std::uint32_t>(tets.size()))].vertices;
+  const std::size_t i = below(random, 4), j = (i + 1 + below(random, 3)) % 4;
+  return flipper.remove_edge(v[i], v[j]);
 }
 
 TEST(Flips, FillTheSameRegionWithBetterTets) {
@@ -163,7 +141,7 @@ TEST(Flips, FillTheSameRegionWithBetterTets) {
   EXPECT_GT(surface_flips, 100);
 }
 
-/// Every edge and face of the mesh once; number of flips.
+/// Every edge of the mesh once; number of flips.
 int flip_everywhere(TetMesh& mesh, const Metric& metric) {
   Flipper flipper(mesh, metric, kFloor);
   int flips = 0;
@@ -178,10 +156,6 @@ int flip_everywhere(TetMesh& mesh, const Metric& metric) {
     for (const auto& [p, q] : {std::pair(a, b), {a, c}, {a, d}, {b, c}, {c, d}, {d, b}}) {
       if (is_there()) flips += flipper.remove_edge(p, q) ? 1 : 0;
     }
-    if (is_there()) flips += flipper.remove_face(a, b, c, d) ? 1 : 0;
-    if (is_there()) flips += flipper.remove_face(b, a, d, c) ? 1 : 0;
-    if (is_there()) flips += flipper.remove_face(c, a, b, d) ? 1 : 0;
-    if (is_there()) flips += flipper.remove_face(d, a, c, b) ? 1 : 0;
   }
   return flips;
 }

@@ -26,7 +26,7 @@ SmallVolume random_five(std::mt19937& random) {
   return random_volume_of(random, kind, {5, 5, 5}, 1 + below(random, 4));
 }
 
-constexpr double kFloor = 0.1;
+constexpr SmoothOptions kOptions{.smooth_below = 1.0, .quality_floor = 0.1};
 
 /// Least radius ratio of the tets at v, and the sum of 1 / radius ratio.
 std::pair<double, double> shape_at_vertex(const TetMesh& mesh, const Metric& metric,
@@ -70,7 +70,7 @@ TEST(Smoothing, LowersTheEnergyWithinPlanesAndQuadrics) {
     for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
       if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
       const TetMesh before = mesh;
-      const bool moved = smooth_vertex(mesh, metric, v, kFloor);
+      const bool moved = smooth_vertex(mesh, metric, v, kOptions);
       ASSERT_EQ(moved, mesh.position(v) != before.position(v));
       for (LocalVertex w = 0; w < mesh.vertex_count(); ++w) {
         ASSERT_TRUE(std::ranges::equal(mesh.star(w), before.star(w)));

@@ -115,5 +115,43 @@ TEST(Sec54Quality, IsNegativeForInvertedAndZeroForFlatTets) {
   EXPECT_EQ(radius_ratio({Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{1, 1, 0}}), 0.0);
 }
 
+/// Fat and flat, large and small.
+Corners scaled_tet(std::mt19937& random, int i) {
+  Corners p = random_tet(random);
+  const double size = std::pow(10.0, i % 7 - 3), flat = std::pow(10.0, -(i % 5));
+  for (Vec3& v : p) v = size * Vec3(v[0], v[1], flat * v[2]);
+  return p;
+}
+
+TEST(Sec54Quality, ReachingARatioIsHavingIt) {
+  std::mt19937 random(604);
+  int above = 0, below = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const TetEdges t = edges(scaled_tet(random, i));
+    const double ratio = radius_ratio(t);
+    for (const double factor : {0.3, 0.9, 1.0 - 1e-9, 1.0 + 1e-9, 1.1, 3.0}) {
+      ASSERT_EQ(reaches_ratio(t, ratio * factor), factor < 1.0) << ratio << " * " << factor;
+    }
+    for (const double floor : {0.05, 0.1, 0.2, 0.3, 0.5}) {
+      if (std::abs(ratio - floor) < 1e-9 * floor) continue;
+      ASSERT_EQ(reaches_ratio(t, floor), ratio >= floor);
+      (ratio >= floor ? above : below) += 1;
+    }
+  }
+  EXPECT_GT(above, 5000);
+  EXPECT_GT(below, 5000);
+}
+
+TEST(Sec54Quality, InvertedAndFlatTetsReachNoRatio) {
+  std::mt19937 random(605);
+  for (int i = 0; i < 1000; ++i) {
+    Corners p = scaled_tet(random, i);
+    std::swap(p[0], p[1]);
+    for (const double floor : {0.0, 0.1}) EXPECT_FALSE(reaches_ratio(edges(p), floor));
+  }
+  const TetEdges flat{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)};
+  EXPECT_FALSE(reaches_ratio(flat, 0.0));
+}
+
 }  // namespace
 }  // namespace mw::test

@@ -7,6 +7,7 @@
 
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/simplify/shape_filter.h"
+#include "kernels/topology/collapse_test.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::test {
@@ -187,10 +188,16 @@ double ratio(const TetMesh& mesh, const Metric& metric, const LocalTet& t) {
 }
 
 /// By the list of tets: what changes, judged as the header says.
-ShapeVerdict expected_verdict(const TetMesh& mesh, const Metric& metric, const Contraction& c,
-                              const SimplifyOptions& options) {
-  double present = 1.0, worst = 1.0, variance = 0.0;
+struct ExpectedShape {
   bool inverted = false;
+  bool good = false;       ///< but for inversion
+  bool too_close = false;  ///< to tell: ratios of one tet differ in the last bits with its order
+};
+
+ExpectedShape expected_shape(const TetMesh& mesh, const Metric& metric, const Contraction& c,
+                             const SimplifyOptions& options) {
+  ExpectedShape out;
+  double present = 1.0, worst = 1.0, variance = 0.0;
   for (const LocalTet& t : mesh.tets()) {
     if (!has(t, c.keep) && !has(t, c.drop)) continue;
     present = std::min(present, ratio(mesh, metric, t));
@@ -200,20 +207,19 @@ ShapeVerdict expected_verdict(const TetMesh& mesh, const Metric& metric, const C
       const LocalVertex v = t.vertices[i];
       x[i] = v == c.keep || v == c.drop ? c.position : mesh.position(v);
     }
-    inverted |= volume6(x[0], x[1], x[2], x[3]) <= 0;
+    out.inverted |= volume6(x[0], x[1], x[2], x[3]) <= 0;
     const TetEdges edges = tet_edges(metric, x[0], x[1], x[2], x[3]);
     worst = std::min(worst, radius_ratio(edges));
     variance = std::max(variance, edge_length_variance(edges));
   }
-  if (inverted) return ShapeVerdict::kInverted;
   const bool inner = mesh.order(c.keep) == 1 || mesh.order(c.drop) == 1;
   const double asked =
       inner ? std::max(options.quality_floor, options.inner_quality) : options.quality_floor;
-  const double floor = std::min(asked, present);
-  const bool regular = !options.edge_variance || variance < *options.edge_variance;
-  // Ratios of one tet differ in the last bits with the order of its vertices.
-  if (std::abs(worst - floor) < 1e-12) return judge_shape(mesh, metric, c, options);
-  return worst >= floor && regular ? ShapeVerdict::kGood : ShapeVerdict::kLowQuality;
+  const double floor = present < options.quality_floor ? present : asked;
+  out.too_close =
+      std::abs(worst - floor) < 1e-9 || std::abs(present - options.quality_floor) < 1e-9;
+  out.good = worst >= floor && (!options.edge_variance || variance < *options.edge_variance);
+  return out;
 }
 
 TEST(Sec54Filters, JudgeTheTetsThatChange) {
@@ -225,13 +231,48 @@ TEST(Sec54Filters, JudgeTheTetsThatChange) {
     SimplifyOptions options{.quality_floor = 0.1 * below(random, 5),
                             .inner_quality = 0.1 * below(random, 5)};
     if (below(random, 2) == 0) options.edge_variance = 0.1;
-    const ShapeVerdict verdict = judge_shape(mesh, metric, *c, options);
-    ASSERT_EQ(verdict, expected_verdict(mesh, metric, *c, options));
+    const ShapeVerdict verdict = ShapeFilter(mesh, metric, options).judge(*c);
+    const ExpectedShape expected = expected_shape(mesh, metric, *c, options);
+    // What is inverted may be found badly shaped first.
+    if (expected.inverted) {
+      ASSERT_NE(verdict, ShapeVerdict::kGood);
+    } else if (!expected.too_close) {
+      ASSERT_EQ(verdict, expected.good ? ShapeVerdict::kGood : ShapeVerdict::kLowQuality);
+    }
     ++seen[verdict];
   });
   EXPECT_GT(seen[ShapeVerdict::kGood], 200);
   EXPECT_GT(seen[ShapeVerdict::kInverted], 200);
   EXPECT_GT(seen[ShapeVerdict::kLowQuality], 200);
+}
+
+/// The filter remembers where bad tets were; after any contractions it says what a new one says.
+TEST(Sec54Filters, JudgeAlikeAfterContractions) {
+  std::mt19937 random(720);
+  int contracted = 0, below_floor = 0;
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    const Metric metric = i % 2 == 0 ? Metric({1.0, 1.0, 5.0}) : Metric();
+    TetMesh mesh = dense_mesh(random_volume(random));
+    disturb(mesh, random);
+    const SimplifyOptions options{.quality_floor = 0.3, .inner_quality = 0.4};
+    ShapeFilter filter(mesh, metric, options);
+    CollapseTest topology(mesh);
+    for (int k = 0; k < 100; ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p == q) continue;
+      const auto c = plan_contraction(mesh, metric, p, q);
+      if (!c) continue;
+      const ShapeVerdict verdict = filter.judge(*c);
+      ASSERT_EQ(verdict, ShapeFilter(mesh, metric, options).judge(*c));
+      if (verdict != ShapeVerdict::kGood || !topology.keeps_topology(mesh, c->keep, c->drop))
+        continue;
+      below_floor += worst_of_star(mesh, metric, c->drop) < options.quality_floor ? 1 : 0;
+      mesh.contract(c->keep, c->drop, c->position, contracted_quadric(mesh, metric, *c));
+      ++contracted;
+    }
+  }
+  EXPECT_GT(contracted, 200);
+  EXPECT_GT(below_floor, 50);
 }
 
 }  // namespace
