@@ -18,7 +18,7 @@ trap 'rm -rf "$work"' EXIT
 echo "| volume | voxels | labels | vertices | share of corners | RR min / mean | labels changed | seconds | voxels/s | peak MiB |"
 echo "|---|---|---|---|---|---|---|---|---|---|"
 for volume in "$@"; do
-  "$program" mesh "$volume" -o "$work/m.vtu" --report "$work/run.json" >/dev/null
+  "$program" mesh "$volume" --threads 1 -o "$work/m.vtu" --report "$work/run.json" >/dev/null
   "$program" verify "$volume" "$work/m.vtu" --report "$work/check.json" >/dev/null || true
   jq -rs --arg name "$(basename "$volume")" '
     def digits($n): . * pow(10; $n) | round / pow(10; $n) | tostring;

@@ -15,6 +15,7 @@ namespace mw::engine {
 /// Holds the blocks that windows have written.  A block is taken out by the one window that works
 /// on it and put back by the same; a block that was never put is made from voxels by its first
 /// window.  The store knows nothing of what a window does.
+/// Thread safety: different blocks may be taken and put at the same time.
 class BlockStore {
  public:
   virtual ~BlockStore() = default;
@@ -25,7 +26,8 @@ class BlockStore {
   virtual void put(Index3 block, BlockMesh mesh) = 0;
 };
 
-/// Everything in memory.
+/// Everything in memory.  Blocks are elements of their own of an array that never grows, so
+/// different ones need no lock.
 class MemoryBlockStore : public BlockStore {
  public:
   explicit MemoryBlockStore(Index3 blocks)

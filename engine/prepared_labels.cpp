@@ -62,7 +62,8 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings)
     : original_(volume.info().shape, volume.table().size(), io::scratch_folder()) {
   read_bricks(volume);
-  if (settings.start == StartMesh::kCoarse) {
+  // Coarsening keeps the topology of labels, not that of interfaces.
+  if (settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels) {
     coarse_.emplace(original_.shape(), volume.table().size(), io::scratch_folder());
     coarsen_tiles(settings.max_distance.value_or(kMostCoarseDistance));
   }

@@ -6,37 +6,46 @@
 #include <functional>
 
 #include "engine/finish.h"
-#include "engine/march.h"
+#include "engine/march/march.h"
 #include "engine/settings.h"
+#include "engine/window_visitor.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
-#include "kernels/optimise/optimise.h"
-#include "kernels/simplify/simplify.h"
 
 namespace mw::engine {
 
-/// What a run did.  Times are wall seconds.
-struct RunReport {
-  std::uint64_t windows = 0;
+/// What a run did.  Times of windows are summed over threads, that of the output is wall seconds.
+struct RunReport : VisitStats {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
-  SimplifyStats simplify;
-  OptimiseStats optimise;
+  int threads = 1;
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
-  double start_seconds = 0.0;
-  double simplify_seconds = 0.0;
-  double optimise_seconds = 0.0;
-  double exchange_seconds = 0.0;  ///< gather and scatter
   double output_seconds = 0.0;
   std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
 };
 
-/// Called after each window with the number done and the total; may throw to stop the run.
+/// Called after each window with the number done and the total, never by two threads at a time; may
+/// throw to stop the run.
 using OnProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
+/// One visit in a run's trace; seconds since the run began.
+struct TraceEvent {
+  int march = 0;
+  Index3 window;
+  double start_seconds = 0.0;
+  double end_seconds = 0.0;
+  double cpu_seconds = 0.0;  ///< of the visiting thread
+  int slot = 0;              ///< of the visiting thread, below the number of threads
+};
+
+/// How a run goes and who looks on.  Nothing here changes the result.
 struct RunHooks {
   OnProgress progress;  ///< optional
-  PickReady pick;       ///< order among ready windows; empty: raster (the result is the same)
+  PickReady pick;       ///< sequential, in this order among ready windows; empty: by threads
+  int threads = 1;      ///< 1: the sequential reference; 0: all cores
+  std::function<void(const TraceEvent&)> trace;  ///< optional, never called by two threads at once
+  /// Optional; called by the visiting thread before each visit, by many threads at once.
+  std::function<void(Index3 window)> before_visit;
   OutputOptions output;
 };
 

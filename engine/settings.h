@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kernels/core/error.h"
+#include "kernels/topology/kept_topology.h"
 
 namespace mw::engine {
 
@@ -13,20 +14,28 @@ namespace mw::engine {
 inline constexpr int kMaxWindow = 256;
 
 enum class StartMesh {
-  kCoarse,  ///< labels coarsened first, then as kOctree
+  kCoarse,  ///< labels coarsened first, then as kOctree; not with interfaces kept: then kOctree
   kOctree,  ///< larger cells inside labels
   kDense,   ///< the paper's: five tets a voxel
+};
+
+/// Which of two windows that share a block comes first; each order has its own result.
+enum class Order {
+  kRaster,  ///< the paper's (Sec 4.1)
+  kColour,  ///< eight colours by parity of the window's position: far wider on small volumes
 };
 
 struct MeshSettings {
   int window = 32;  ///< window edge in voxels, even
   int marches = 2;  ///< each over the whole volume, with windows twice as large
+  Order order = Order::kRaster;
   StartMesh start = StartMesh::kCoarse;
   std::optional<double> edge_variance;       ///< bound on Eq (3), none: unbounded
   double quality_floor = 0.2;                ///< no tet below this radius ratio
   std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
   /// Each window stops collapsing at this many vertices a voxel; none: only the bounds stop it.
   std::optional<double> target_reduction;
+  KeptTopology topology = KeptTopology::kLabels;
   bool optimise = true;  ///< local optimisation after each simplification
 };
 

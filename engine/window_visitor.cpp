@@ -24,38 +24,51 @@ int max_level(int window) {
 
 WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
                              const MeshSettings& settings, const WindowGrid& grid,
-                             BlockStore& store, RunReport& report)
+                             BlockStore& store)
     : labels_(labels),
       grid_(grid),
       store_(store),
-      report_(report),
       metric_(metric),
       start_{.max_level = settings.start == StartMesh::kDense ? 0 : max_level(settings.window),
              .coarse = labels.is_coarse(),
              .with_samples = settings.max_distance.has_value(),
              .max_distance = settings.max_distance.value_or(kMostCoarseDistance)},
-      simplify_{.quality_floor = settings.quality_floor, .edge_variance = settings.edge_variance},
+      simplify_{.quality_floor = settings.quality_floor,
+                .edge_variance = settings.edge_variance,
+                .topology = settings.topology},
       optimise_{.sweeps = settings.optimise ? 1 : 0, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance),
       target_reduction_(settings.target_reduction) {}
 
-void WindowVisitor::visit(Index3 window) {
+VisitStats& VisitStats::operator+=(const VisitStats& other) {
+  windows += other.windows;
+  simplify += other.simplify;
+  optimise += other.optimise;
+  start_seconds += other.start_seconds;
+  simplify_seconds += other.simplify_seconds;
+  optimise_seconds += other.optimise_seconds;
+  exchange_seconds += other.exchange_seconds;
+  return *this;
+}
+
+VisitStats WindowVisitor::visit(Index3 window) const {
+  VisitStats stats{.windows = 1};
   Stopwatch watch;
   const std::vector<Index3> blocks = grid_.blocks_of(window);
   std::vector<BlockMesh> content;
   for (Index3 b : blocks) content.push_back(take(b));
-  watch.lap(report_.start_seconds);
+  watch.lap(stats.start_seconds);
   WindowContent window_content = gather(content, grid_.volume());
-  watch.lap(report_.exchange_seconds);
-  work_on(window, window_content);
+  watch.lap(stats.exchange_seconds);
+  work_on(window, window_content, stats);
   watch.restart();
   content = scatter(window_content, grid_, window);
   for (std::size_t i = 0; i < blocks.size(); ++i) store_.put(blocks[i], std::move(content[i]));
-  watch.lap(report_.exchange_seconds);
-  ++report_.windows;
+  watch.lap(stats.exchange_seconds);
+  return stats;
 }
 
-void WindowVisitor::work_on(Index3 window, WindowContent& content) {
+void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& stats) const {
   LabelBox labels;
   std::optional<DistanceGuard> guard;
   if (max_distance_ && !content.one_label) {
@@ -70,13 +83,13 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content) {
     const auto voxels = static_cast<double>(grid_.window_box(window).voxels());
     options.enough_vertices = static_cast<std::size_t>(*target_reduction_ * voxels);
   }
-  report_.simplify += simplify(content.mesh, metric_, options, keep_distance);
-  watch.lap(report_.simplify_seconds);
-  report_.optimise += optimise(content.mesh, metric_, optimise_, keep_distance);
-  watch.lap(report_.optimise_seconds);
+  stats.simplify += simplify(content.mesh, metric_, options, keep_distance);
+  watch.lap(stats.simplify_seconds);
+  stats.optimise += optimise(content.mesh, metric_, optimise_, keep_distance);
+  watch.lap(stats.optimise_seconds);
 }
 
-BlockMesh WindowVisitor::take(Index3 block) {
+BlockMesh WindowVisitor::take(Index3 block) const {
   if (auto stored = store_.take(block)) return std::move(*stored);
   const Box3 box = grid_.block_box(block);
   const Index3 around{kStartHalo, kStartHalo, kStartHalo};

@@ -7,29 +7,47 @@
 
 #include "engine/block_store.h"
 #include "engine/prepared_labels.h"
-#include "engine/run.h"
+#include "engine/settings.h"
 #include "engine/window.h"
+#include "io/labels/label_table.h"
 #include "kernels/lattice/graded_start.h"
+#include "kernels/optimise/optimise.h"
+#include "kernels/simplify/simplify.h"
 
 namespace mw::engine {
 
+/// What visits did.  Counts add up to the same sums in any order; times are wall seconds, summed
+/// over threads.
+struct VisitStats {
+  std::uint64_t windows = 0;
+  SimplifyStats simplify;
+  OptimiseStats optimise;
+  double start_seconds = 0.0;
+  double simplify_seconds = 0.0;
+  double optimise_seconds = 0.0;
+  double exchange_seconds = 0.0;  ///< gather and scatter
+
+  VisitStats& operator+=(const VisitStats& other);
+};
+
 /// Visits windows of one march.  Blocks that were never stored are made from voxels.
 /// REQUIRES: windows are visited in an order that respects predecessors; the references outlive it.
+/// Thread safety: windows that share no block may be visited at the same time.
 class WindowVisitor {
  public:
   WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
-                const WindowGrid& grid, BlockStore& store, RunReport& report);
+                const WindowGrid& grid, BlockStore& store);
 
-  void visit(Index3 window);
+  /// Returns what this visit did.
+  VisitStats visit(Index3 window) const;
 
  private:
-  void work_on(Index3 window, WindowContent& content);
-  [[nodiscard]] BlockMesh take(Index3 block);
+  void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
+  [[nodiscard]] BlockMesh take(Index3 block) const;
 
   const PreparedLabels& labels_;
   const WindowGrid& grid_;
   BlockStore& store_;
-  RunReport& report_;
   Metric metric_;
   StartOptions start_;
   SimplifyOptions simplify_;

@@ -14,6 +14,7 @@
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/run_report.h"
+#include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
@@ -32,6 +33,7 @@ struct MeshJob {
 /// The files of a run, created before any work so that a bad path fails at once.
 struct MeshFiles {
   explicit MeshFiles(const MeshRequest& request) : sink(io::open_mesh_sink(request.output)) {
+    if (!request.trace.empty()) trace.emplace(request.trace);
     if (request.report.empty()) return;
     report.emplace(request.report);
     digest.emplace(request.output.parent_path());
@@ -45,6 +47,7 @@ struct MeshFiles {
   std::optional<io::AtomicFile> report;
   std::optional<io::DigestSink> digest;  ///< for the report; it waits beside the output
   std::optional<io::TeeSink> both;
+  std::optional<TraceFile> trace;
 };
 
 void require_label(RawLabel label, const io::LabelTable& table, const char* option) {
@@ -67,16 +70,17 @@ engine::WantedLabel wanted_labels(const MeshRequest& request, const io::LabelTab
 }
 
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
-                            io::MeshSink& sink) {
+                            MeshFiles& files) {
   Progress progress(request.progress);
-  const engine::RunHooks hooks{.progress =
-                                   [&](std::uint64_t done, std::uint64_t total) {
-                                     stop_if_interrupted();
-                                     progress.show(done, total);
-                                   },
-                               .output = {.wanted = wanted_labels(request, volume.table()),
-                                          .measure_quality = !request.report.empty()}};
-  return engine::mesh_volume(volume, request.settings, sink, hooks);
+  engine::RunHooks hooks{.threads = request.threads};
+  hooks.progress = [&](std::uint64_t done, std::uint64_t total) {
+    stop_if_interrupted();
+    progress.show(done, total);
+  };
+  if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
+  hooks.output = {.wanted = wanted_labels(request, volume.table()),
+                  .measure_quality = !request.report.empty()};
+  return engine::mesh_volume(volume, request.settings, files.all(), hooks);
 }
 
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
@@ -104,7 +108,8 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   FinishedRun run{.volume = volume.info(), .labels = table.size()};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
-  run.engine = mesh_into(request, io::DenseVolume(volume, table), files.all());
+  run.engine = mesh_into(request, io::DenseVolume(volume, table), files);
+  if (files.trace) files.trace->finish();
   run.resources = meter.read();
   print_summary(run, request);
   if (files.report) {

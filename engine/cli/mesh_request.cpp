@@ -15,6 +15,9 @@ namespace mw::cli {
 namespace {
 
 constexpr const char* kNone = "none";
+constexpr int kMaxThreads = 1024;
+constexpr const char* kLabelsKept = "labels";
+constexpr const char* kInterfacesKept = "interfaces";
 
 std::optional<double> parse_bound(const std::string& text) {
   if (text == kNone) return std::nullopt;
@@ -128,12 +131,16 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
        .kind = ValueKind::kNumberOrNone,
        .fallback = bound_text(defaults.target_reduction)},
       [](engine::MeshSettings& s, const std::string& t) { s.target_reduction = parse_bound(t); });
-  options.add({.name = "topology",
+  add_setting(options, request,
+              {.name = "topology",
                .value = "WHAT",
                .help = "what is kept: labels, or interfaces as well",
-               .fallback = "labels",
-               .choices = {"labels", "interfaces"},
-               .today = "labels"});
+               .fallback = kLabelsKept,
+               .choices = {kLabelsKept, kInterfacesKept}},
+              [](engine::MeshSettings& s, const std::string& t) {
+                s.topology =
+                    t == kInterfacesKept ? KeptTopology::kInterfaces : KeptTopology::kLabels;
+              });
   add_setting(options, request,
               {.name = "optimizer",
                .value = "WHICH",
@@ -155,18 +162,20 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
       [](engine::MeshSettings& s, const std::string& t) { s.start = parse_start(t); });
 }
 
-void parse_threads(const std::string& text) {
-  if (parse_integer(text) < 1) throw Error(ErrorKind::kUsage, "must be at least 1");
+int parse_threads(const std::string& text) {
+  const std::int64_t threads = parse_integer(text);
+  if (threads >= 0 && threads <= kMaxThreads) return static_cast<int>(threads);
+  throw Error(ErrorKind::kUsage,
+              "must be from 1 to " + std::to_string(kMaxThreads) + ", or 0 for all cores");
 }
 
-void add_resource_options(OptionSet& options) {
+void add_resource_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "threads",
                .value = "N",
-               .help = "worker threads",
+               .help = "worker threads; 0: all cores",
                .kind = ValueKind::kInteger,
-               .fallback = "1",
-               .today = "1",
-               .assign = parse_threads});
+               .fallback = "0",
+               .assign = [&](const std::string& text) { request.threads = parse_threads(text); }});
   options.add({.name = "memory",
                .value = "SIZE",
                .help = "hard budget for the process, e.g. 512MiB",
@@ -181,12 +190,15 @@ void add_resource_options(OptionSet& options) {
                .kind = ValueKind::kSwitch,
                .fallback = "false",
                .today = "false"});
-  options.add({.name = "order",
+  add_setting(options, request,
+              {.name = "order",
                .value = "ORDER",
-               .help = "march order: raster, colour",
+               .help = "march order: raster, the paper's; colour, far wider on small volumes",
                .fallback = "raster",
-               .choices = {"raster", "colour"},
-               .today = "raster"});
+               .choices = {"raster", "colour"}},
+              [](engine::MeshSettings& s, const std::string& t) {
+                s.order = t == "colour" ? engine::Order::kColour : engine::Order::kRaster;
+              });
 }
 
 void add_selection_options(OptionSet& options, MeshRequest& request) {
@@ -207,6 +219,10 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .value = "FILE.json",
                .help = "writes a report of the run, read back from the finished mesh",
                .assign = [&](const std::string& text) { request.report = text; }});
+  options.add({.name = "trace",
+               .value = "FILE.csv",
+               .help = "writes when each window was worked on, and by which thread",
+               .assign = [&](const std::string& text) { request.trace = text; }});
   options.add(
       {.name = "progress",
        .value = "HOW",
@@ -222,6 +238,26 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = [&](const std::string& text) { request.log_level = text; }});
 }
 
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(a, b, ignored) || a.lexically_normal() == b.lexically_normal();
+}
+
+void require_names_used_once(const MeshRequest& request) {
+  if (is_same_file(request.volume.path, request.output)) {
+    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is the input");
+  }
+  const auto require_new = [](const char* flag, const std::filesystem::path& path,
+                              const std::vector<std::filesystem::path>& taken) {
+    for (const std::filesystem::path& other : taken) {
+      if (path.empty() || !is_same_file(path, other)) continue;
+      throw Error(ErrorKind::kUsage, flag + (" " + path.string()) + ": name used twice");
+    }
+  };
+  require_new("--report", request.report, {request.volume.path, request.output});
+  require_new("--trace", request.trace, {request.volume.path, request.output, request.report});
+}
+
 }  // namespace
 
 void add_mesh_options(OptionSet& options, MeshRequest& request) {
@@ -231,7 +267,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
   add_march_options(options, request);
   add_bound_options(options, request);
   add_method_options(options, request);
-  add_resource_options(options);
+  add_resource_options(options, request);
   add_selection_options(options, request);
   add_output_options(options, request);
 }
@@ -242,16 +278,7 @@ void check_mesh_request(const MeshRequest& request) {
   if (request.labels && request.background) {
     throw Error(ErrorKind::kUsage, "--labels and --background: give one of them, not both");
   }
-  std::error_code ignored;
-  if (std::filesystem::equivalent(request.volume.path, request.output, ignored)) {
-    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is the input");
-  }
-  for (const auto& path : {request.volume.path, request.output}) {
-    const bool same =
-        !request.report.empty() && (std::filesystem::equivalent(path, request.report, ignored) ||
-                                    path.lexically_normal() == request.report.lexically_normal());
-    if (same) throw Error(ErrorKind::kUsage, "--report " + path.string() + ": name used twice");
-  }
+  require_names_used_once(request);
 }
 
 }  // namespace mw::cli

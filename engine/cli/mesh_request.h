@@ -13,7 +13,9 @@ struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   std::filesystem::path report;  ///< empty: none
+  std::filesystem::path trace;   ///< empty: none
   engine::MeshSettings settings;
+  int threads = 0;                              ///< 0: all cores
   std::optional<std::vector<RawLabel>> labels;  ///< the only ones to write
   std::optional<RawLabel> background;           ///< the one not to write
   ProgressKind progress = ProgressKind::kNone;

@@ -37,7 +37,7 @@ ordered_json performance_json(const FinishedRun& run) {
   return {{"wall_s", run.resources.wall_seconds},
           {"cpu_s", run.resources.cpu_seconds},
           {"voxels_per_s", rate},
-          {"voxels_per_s_per_core", rate},  // one thread
+          {"voxels_per_s_per_core", rate / engine.threads},
           {"peak_rss_bytes", run.resources.peak_rss_bytes},
           {"stages",
            {{"labels_s", run.labels_seconds},
@@ -49,7 +49,7 @@ ordered_json performance_json(const FinishedRun& run) {
 }
 
 ordered_json engine_json(const FinishedRun& run) {
-  return {{"windows", run.engine.windows},  {"threads", 1},
+  return {{"windows", run.engine.windows},  {"threads", run.engine.threads},
           {"memory_budget_bytes", nullptr}, {"peak_accounted_bytes", nullptr},
           {"blocks_spilled", nullptr},      {"bytes_written", nullptr},
           {"bytes_read", nullptr}};

@@ -23,6 +23,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kNone = "none";
+constexpr const char* kInterfaces = "interfaces";
 
 struct VerifyJob {
   OptionSet options;
@@ -57,6 +58,13 @@ void add_verify_options(VerifyJob& job) {
                .flags = "MESH,--mesh",
                .assign = [&](const std::string& text) { job.mesh = text; }});
   add_volume_options(options, job.volume);
+  options.add(
+      {.name = "topology",
+       .value = "WHAT",
+       .help = "what P1 looks at: labels, or interfaces and meetings of labels as well",
+       .fallback = "labels",
+       .choices = {"labels", kInterfaces},
+       .assign = [&](const std::string& text) { job.audit.count_places = text == kInterfaces; }});
   options.add({.name = "quality-floor",
                .value = "R",
                .help = "P3 fails for a tet below this radius ratio",
@@ -134,10 +142,17 @@ ordered_json checks_json(const audit::AuditReport& audit) {
 
 ordered_json topology_json(const Verdict& verdict) {
   if (!verdict.looked_at()) return {{"checked", false}, {"labels_changed", nullptr}};
-  return {{"checked", true},
-          {"labels_changed", verdict.labels_changed.size()},
-          {"changed", verdict.labels_changed},
-          {"indicative_only", verdict.audit.topology_is_indicative}};
+  ordered_json out{{"checked", true},
+                   {"labels_changed", verdict.labels_changed.size()},
+                   {"changed", verdict.labels_changed},
+                   {"indicative_only", verdict.audit.topology_is_indicative}};
+  if (const auto& places = verdict.audit.places) {
+    out["interfaces"] = places->interfaces;
+    out["interfaces_changed"] = places->interfaces_changed.size();
+    out["meetings"] = places->meetings;
+    out["meetings_changed"] = places->meetings_changed.size();
+  }
+  return out;
 }
 
 ordered_json measured_distance(const Verdict& verdict) {

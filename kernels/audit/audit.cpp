@@ -15,7 +15,7 @@ std::string text_of(const Betti& b) {
 
 std::string change_text(const char* region, const Betti& before, const Betti& after) {
   if (before == after) return "";
-  return std::string(" ") + region + " " + text_of(before) + " -> " + text_of(after);
+  return std::string(" ") + region + text_of(before) + " -> " + text_of(after);
 }
 
 std::string label_text(Label label) {
@@ -33,13 +33,51 @@ Check compare_topology(AuditReport& report) {
     const Label label = row == exterior ? kExterior : static_cast<Label>(row);
     report.labels_changed.push_back(label);
     changed.add([&] {
-      return label_text(label) + change_text("closed", before.closed, after.closed) +
-             change_text("open", before.open, after.open);
+      return label_text(label) + change_text("closed ", before.closed, after.closed) +
+             change_text("open ", before.open, after.open);
     });
   }
   std::string detail = changed.text() + " of " + std::to_string(exterior + 1);
   if (report.topology_is_indicative) detail += "; only indicative, as P2 fails";
   return {"P1 topology", changed.count() == 0, detail};
+}
+
+/// "dense 3, dense 5, exterior".
+std::string labels_text(const PlaceLabels& labels, std::size_t label_count) {
+  std::string out;
+  for (const Label l : labels) {
+    if (l == kNoLabel) break;
+    if (!out.empty()) out += ", ";
+    out += l < label_count ? label_text(l) : label_text(l == label_count ? kExterior : kUnknown);
+  }
+  return out;
+}
+
+Check judge_places(const std::string& noun, const std::vector<PlaceChange>& changed,
+                   std::size_t count, const AuditReport& report) {
+  Offenders offenders(noun + " changed");
+  for (const PlaceChange& c : changed) {
+    offenders.add([&] {
+      return labels_text(c.labels, report.voxels.size() - 1) + ":" +
+             change_text("", c.before, c.after);
+    });
+  }
+  std::string detail = offenders.text() + " of " + std::to_string(count);
+  if (report.topology_is_indicative) detail += "; only indicative, as P2 fails";
+  return {"P1 " + noun, changed.empty(), detail};
+}
+
+void compare_places(const VoxelLabels& volume, std::size_t label_count, const AuditMesh& mesh,
+                    AuditReport& report) {
+  const Places before = voxel_places(volume, label_count);
+  const Places after = mesh_places(mesh, label_count);
+  report.places = {.interfaces = before.interfaces.size(),
+                   .meetings = before.meetings.size(),
+                   .interfaces_changed = changes(before.interfaces, after.interfaces),
+                   .meetings_changed = changes(before.meetings, after.meetings)};
+  const PlacesReport& p = *report.places;
+  report.checks.push_back(judge_places("interfaces", p.interfaces_changed, p.interfaces, report));
+  report.checks.push_back(judge_places("meetings", p.meetings_changed, p.meetings, report));
 }
 
 Check judge_quality(const QualityReport& quality, double floor) {
@@ -73,6 +111,20 @@ Check judge_distance(const DistanceReport& distance, const std::optional<double>
   return {"P4 distance", passed, detail};
 }
 
+/// Fails every check that needs a mesh.
+void refuse_all(const AuditOptions& options, std::vector<Check>& checks) {
+  const auto refuse = [&](const char* name) {
+    checks.push_back({name, false, "not looked at: the input is no mesh"});
+  };
+  refuse("P1 topology");
+  if (options.count_places) {
+    refuse("P1 interfaces");
+    refuse("P1 meetings");
+  }
+  refuse("P3 radius ratio");
+  if (options.max_distance) refuse("P4 distance");
+}
+
 }  // namespace
 
 bool AuditReport::passed() const {
@@ -87,15 +139,12 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
   report.checks = report.validity.checks;
   report.topology_is_indicative = !report.validity.passed();
   if (!report.checks.front().passed) {
-    report.checks.push_back({"P1 topology", false, "not looked at: the input is no mesh"});
-    report.checks.push_back({"P3 radius ratio", false, "not looked at: the input is no mesh"});
-    if (options.max_distance) {
-      report.checks.push_back({"P4 distance", false, "not looked at: the input is no mesh"});
-    }
+    refuse_all(options, report.checks);
     return report;
   }
   report.mesh = mesh_betti(mesh, label_count);
   report.checks.push_back(compare_topology(report));
+  if (options.count_places) compare_places(volume, label_count, mesh, report);
   report.quality = measure_quality(mesh);
   report.checks.push_back(judge_quality(report.quality, options.radius_ratio_floor));
   if (options.measure_distance || options.max_distance) {

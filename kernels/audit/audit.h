@@ -10,6 +10,7 @@
 #include "kernels/audit/betti.h"
 #include "kernels/audit/check.h"
 #include "kernels/audit/distance.h"
+#include "kernels/audit/places.h"
 #include "kernels/audit/quality.h"
 #include "kernels/audit/subject.h"
 #include "kernels/audit/validity.h"
@@ -18,19 +19,30 @@ namespace mw::audit {
 
 struct AuditOptions {
   double radius_ratio_floor = kSliverRadiusRatio;  ///< P3 fails below this
+  bool count_places = false;                       ///< P1 also of interfaces and meetings
   bool measure_distance = true;                    ///< false: only when max_distance is set
   std::optional<double> max_distance;              ///< voxels; P4 is checked, and fails above this
 };
 
+/// Interfaces and meetings of labels (places.h).
+struct PlacesReport {
+  std::size_t interfaces = 0;  ///< of the volume
+  std::size_t meetings = 0;
+  std::vector<PlaceChange> interfaces_changed;
+  std::vector<PlaceChange> meetings_changed;
+};
+
 /// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
 struct AuditReport {
-  /// Those of validity, then "P1 topology", "P3 radius ratio" and "P4 distance"; the last only with
+  /// Those of validity, then "P1 topology", as AuditOptions ask "P1 interfaces" and
+  /// "P1 meetings", "P3 radius ratio" and "P4 distance"; the last only with
   /// a bound, or when a label has an interface on one side only, which fails without a bound too.
   std::vector<Check> checks;
   std::vector<RegionBetti> voxels;
   std::vector<RegionBetti> mesh;  ///< empty when the mesh could not be read as one
   /// Labels whose Betti numbers differ, ascending dense labels; the exterior is kExterior.
   std::vector<Label> labels_changed;
+  std::optional<PlacesReport> places;  ///< as AuditOptions ask, if the mesh could be read as one
   /// The mesh is no partition of the box, so what was counted on it is indicative only.
   bool topology_is_indicative = false;
   ValidityReport validity;

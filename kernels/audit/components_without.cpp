@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Components of the part graph without each class in turn, for all classes at once.
+// Components of the part graph without each class or group in turn, for all of them at once.
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -48,20 +48,17 @@ class UndoableSets {
   std::vector<std::uint32_t> joined_;
 };
 
-class ComplementCounter {
+class GroupSolver {
  public:
-  ComplementCounter(std::span<const Label> part_class, std::size_t class_count)
-      : part_class_(part_class), sets_(part_class.size()), parts_of_(class_count, 0) {
-    for (const Label c : part_class) ++parts_of_[c];
-    count_.resize(class_count);
+  GroupSolver(std::size_t parts, std::size_t groups) : parts_(parts), sets_(parts) {
+    count_.resize(groups);
   }
 
-  /// Fills count_ for classes lo .. hi-1.  INVARIANT: `touching` are the pairs with a part of
-  /// these classes; all other pairs are united already.
-  void solve(std::size_t lo, std::size_t hi, const std::vector<PartPair>& touching) {
+  /// Fills count_ for groups lo .. hi-1.  INVARIANT: `touching` are the pairs of these groups; all
+  /// other pairs are united already.
+  void solve(std::size_t lo, std::size_t hi, const std::vector<GroupedPair>& touching) {
     if (hi - lo == 1) {
-      const std::size_t rest = part_class_.size() - static_cast<std::size_t>(parts_of_[lo]);
-      count_[lo] = static_cast<std::int64_t>(rest - sets_.unions());
+      count_[lo] = static_cast<std::int64_t>(parts_ - sets_.unions());
       return;
     }
     const std::size_t mid = lo + (hi - lo) / 2;
@@ -72,36 +69,45 @@ class ComplementCounter {
   [[nodiscard]] std::vector<std::int64_t> take() { return std::move(count_); }
 
  private:
-  void descend(std::size_t lo, std::size_t hi, const std::vector<PartPair>& pairs) {
+  void descend(std::size_t lo, std::size_t hi, const std::vector<GroupedPair>& pairs) {
     const std::size_t mark = sets_.unions();
-    std::vector<PartPair> touching;
-    const auto inside = [&](std::uint32_t part) {
-      return part_class_[part] >= lo && part_class_[part] < hi;
-    };
-    for (const PartPair& pair : pairs) {
-      if (inside(pair.a) || inside(pair.b)) {
+    std::vector<GroupedPair> touching;
+    const auto inside = [&](std::uint32_t group) { return group >= lo && group < hi; };
+    for (const GroupedPair& pair : pairs) {
+      if (inside(pair.group) || inside(pair.other_group)) {
         touching.push_back(pair);
       } else {
-        sets_.unite(pair.a, pair.b);
+        sets_.unite(pair.parts.a, pair.parts.b);
       }
     }
     solve(lo, hi, touching);
     sets_.undo_to(mark);
   }
 
-  std::span<const Label> part_class_;
+  std::size_t parts_;
   UndoableSets sets_;
-  std::vector<std::int64_t> parts_of_;
   std::vector<std::int64_t> count_;
 };
 
 }  // namespace
 
+std::vector<std::int64_t> components_leaving_out(std::size_t parts,
+                                                 const std::vector<GroupedPair>& pairs,
+                                                 std::size_t group_count) {
+  GroupSolver solver(parts, group_count);
+  if (group_count > 0) solver.solve(0, group_count, pairs);
+  return solver.take();
+}
+
 std::vector<std::int64_t> components_without(std::span<const Label> part_class,
-                                             std::vector<PartPair> pairs, std::size_t class_count) {
-  ComplementCounter counter(part_class, class_count);
-  if (class_count > 0) counter.solve(0, class_count, pairs);
-  return counter.take();
+                                             std::span<const PartPair> pairs,
+                                             std::size_t class_count) {
+  std::vector<GroupedPair> grouped;
+  grouped.reserve(pairs.size());
+  for (const PartPair& p : pairs) grouped.push_back({p, part_class[p.a], part_class[p.b]});
+  auto count = components_leaving_out(part_class.size(), grouped, class_count);
+  for (const Label c : part_class) --count[c];  // alone without their pairs
+  return count;
 }
 
 }  // namespace mw::audit

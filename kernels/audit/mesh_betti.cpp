@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernels/audit/disjoint_sets.h"
-#include "kernels/audit/mesh_stars.h"
+#include "kernels/audit/mesh_parts.h"
 #include "kernels/audit/part_graph.h"
 
 namespace mw::audit {
@@ -17,7 +16,7 @@ class MeshSweep {
       : stars_(mesh),
         exterior_(static_cast<Label>(label_count)),
         euler_(label_count + 2),
-        on_box_(mesh.vertices.size(), false) {
+        box_(box_cells(stars_)) {
     join_parts();
   }
 
@@ -35,52 +34,21 @@ class MeshSweep {
   }
 
  private:
-  /// Labels of the volume, then the exterior, then all labels that are not the volume's.
-  [[nodiscard]] Label class_of(std::uint32_t tet) const {
-    const Label label = stars_.mesh().labels[tet];
-    return label < exterior_ ? label : exterior_ + 1;
-  }
-
   /// Tets that name a vertex twice are in no star; they count for nothing.
   [[nodiscard]] bool is_left_out(std::uint32_t tet) const {
     return MeshStars::repeats_vertex(stars_.mesh().tets[tet]);
   }
 
   void join_parts() {
-    const std::size_t tets = stars_.mesh().tets.size();
-    DisjointSets sets(tets + 1);
-    visit_faces(stars_, [&](const MeshFace& face) {
-      for (std::size_t i = 1; i < face.sides.size(); ++i) {
-        const std::uint32_t a = face.sides[i - 1].tet;
-        const std::uint32_t b = face.sides[i].tet;
-        if (class_of(a) == class_of(b)) sets.unite(a, b);
-      }
-      if (face.sides.size() == 1) note_box_face(face.vertices);
-    });
-    std::sort(box_edges_.begin(), box_edges_.end());
-    box_edges_.erase(std::unique(box_edges_.begin(), box_edges_.end()), box_edges_.end());
-    for (std::uint32_t tet = 0; tet < tets; ++tet) {
-      if (is_left_out(tet)) sets.unite(tet, static_cast<std::uint32_t>(tets));
-    }
-    Parts parts = number_parts(std::move(sets), euler_.closed.size(), [&](std::size_t member) {
-      const auto tet = static_cast<std::uint32_t>(member);
-      return member == tets || is_left_out(tet) ? exterior_ : class_of(tet);
-    });
+    Parts parts = parts_of_mesh(stars_, exterior_);
     parts_ = std::move(parts.of_member);
     part_class_ = std::move(parts.part_class);
-    exterior_part_ = parts_[tets];
-  }
-
-  void note_box_face(const std::array<std::uint32_t, 3>& v) {
-    for (const std::uint32_t vertex : v) on_box_[vertex] = true;
-    for (const auto& [a, b] : {std::pair{v[0], v[1]}, {v[0], v[2]}, {v[1], v[2]}}) {
-      box_edges_.push_back(std::uint64_t{a} << 32 | b);
-    }
+    exterior_part_ = parts_.back();
   }
 
   void count_vertex(std::uint32_t v) {
     around_.clear();
-    if (on_box_[v]) around_.push_back(exterior_part_);
+    if (box_.vertices[v]) around_.push_back(exterior_part_);
     for (const std::uint32_t tet : stars_.star(v)) around_.push_back(parts_[tet]);
     std::sort(around_.begin(), around_.end());
     around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
@@ -90,17 +58,17 @@ class MeshSweep {
     add_cell(1);
   }
 
-  /// Edges from v to a larger vertex; box_edges_ is read along, as v ascends.
+  /// Edges from v to a larger vertex; box_.edges is read along, as v ascends.
   void count_edges(std::uint32_t v) {
     edges_.clear();
     for (const std::uint32_t tet : stars_.star(v)) {
       for (const std::uint64_t other : stars_.mesh().tets[tet]) {
-        if (other > v) edges_.push_back(other << 32 | class_of(tet));
+        if (other > v) edges_.push_back(other << 32 | class_of_tet(stars_, exterior_, tet));
       }
     }
-    for (; next_box_edge_ < box_edges_.size() && box_edges_[next_box_edge_] >> 32 == v;
+    for (; next_box_edge_ < box_.edges.size() && box_.edges[next_box_edge_] >> 32 == v;
          ++next_box_edge_) {
-      edges_.push_back(box_edges_[next_box_edge_] << 32 | exterior_);
+      edges_.push_back(box_.edges[next_box_edge_] << 32 | exterior_);
     }
     std::sort(edges_.begin(), edges_.end());
     for (std::size_t i = 0; i < edges_.size();) {
@@ -144,8 +112,7 @@ class MeshSweep {
   Label exterior_;
   EulerSums euler_;
   PartGraph graph_;
-  std::vector<bool> on_box_;
-  std::vector<std::uint64_t> box_edges_;
+  BoxCells box_;
   std::size_t next_box_edge_ = 0;
   std::vector<std::uint32_t> parts_;
   std::vector<Label> part_class_;

@@ -69,9 +69,9 @@ std::vector<RegionBetti> betti_of_parts(std::span<const Label> part_class, PartG
                                         const EulerSums& euler) {
   const std::size_t class_count = euler.closed.size();
   const auto rest_by_face = components_without(part_class, graph.take_face_pairs(), class_count);
-  auto vertex_pairs = graph.take_vertex_pairs();
+  const auto vertex_pairs = graph.take_vertex_pairs();
   const auto own_by_vertex = components_within(part_class, vertex_pairs, class_count);
-  const auto rest_by_vertex = components_without(part_class, std::move(vertex_pairs), class_count);
+  const auto rest_by_vertex = components_without(part_class, vertex_pairs, class_count);
   const auto own_by_face = components_within(part_class, {}, class_count);
 
   std::vector<RegionBetti> betti(class_count);

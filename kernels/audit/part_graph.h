@@ -70,11 +70,22 @@ struct EulerSums {
   std::int64_t total = 0;            ///< all cells; 0 for a 3-sphere
 };
 
-/// Number of components of the graph without the parts of class c, for every c: offline divide and
-/// conquer over the classes with a union-find that can undo.
-/// Cost: O(E log C log P) for E pairs, C classes and P parts.
+/// A pair that is in one group or in two.
+struct GroupedPair {
+  PartPair parts;
+  std::uint32_t group = 0;
+  std::uint32_t other_group = 0;
+};
+
+/// Number of components of the graph without the pairs of group g, for every g: offline divide and
+/// conquer over the groups with a union-find that can undo.
+/// Cost: O(E log G log P) for E pairs, G groups and P parts.
+[[nodiscard]] std::vector<std::int64_t> components_leaving_out(
+    std::size_t parts, const std::vector<GroupedPair>& pairs, std::size_t group_count);
+
+/// Number of components of the graph without the parts of class c, for every c.
 [[nodiscard]] std::vector<std::int64_t> components_without(std::span<const Label> part_class,
-                                                           std::vector<PartPair> pairs,
+                                                           std::span<const PartPair> pairs,
                                                            std::size_t class_count);
 
 /// Number of components of the parts of class c alone, for every c.

@@ -20,8 +20,10 @@ namespace mw {
 /// Across an interface, or on the box, the edge (p, q) lies on a surface with one label A on one
 /// side and one label B, or the exterior, on the other; its two surface triangles (p, q, a) and
 /// (p, q, b) become (a, b, p) and (a, b, q).  The ball around the edge is cut by a disc before and
-/// after, with the same rim, so each label keeps its topology; triangles on the box stay in their
-/// plane, and a guard keeps the distance bound on interfaces.
+/// after, with the same rim: a homeomorphism that fixes all outside carries one to the other, so
+/// labels, interfaces and meetings of labels keep their topology (KeptTopology::kInterfaces needs
+/// no further test).  Triangles on the box stay in their plane, and a guard keeps the distance
+/// bound on interfaces.
 ///
 /// Vertices may be fixed: a flip changes no vertex, and a closed ring of loaded tets is all it
 /// needs.

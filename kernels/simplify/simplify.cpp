@@ -104,7 +104,7 @@ class Simplifier {
         queue_(mesh.vertex_count()),
         finder_(mesh, metric),
         shape_(mesh, metric, options),
-        topology_(mesh) {}
+        topology_(mesh, options.topology) {}
 
   SimplifyStats run() {
     options_.seeding(mesh_.vertex_count(), [this](std::size_t first, std::size_t last) {

@@ -9,6 +9,7 @@
 #include "kernels/core/parallel_for.h"
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
+#include "kernels/topology/kept_topology.h"
 
 namespace mw {
 
@@ -18,9 +19,10 @@ struct SimplifyOptions {
   double quality_floor = 0.1;
   /// The same for contractions of an inner vertex: those can wait for better shapes, because inner
   /// vertices are few and the shape of everything around depends on them.
-  double inner_quality = 0.3;
+  double inner_quality = 0.35;
   /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none: unbounded.
   std::optional<double> edge_variance;
+  KeptTopology topology = KeptTopology::kLabels;
   /// Contraction ends when no more than this many vertices, fixed ones included, are left.
   std::size_t enough_vertices = 0;
   /// Runs the loop over all vertices that fills the queue (4 to 5 % of the time, bench).  The
@@ -43,8 +45,8 @@ struct SimplifyStats {
 /// Contracts edges with both ends free until none that passes the filters costs less than the last
 /// bound of VertexQueue.
 /// guard: keeps the distance bound; null: no bound.
-/// ENSURES: all tets strictly positive (exactly), topology of every label kept, box kept, fixed
-///          vertices untouched; the result depends on the mesh's content only.
+/// ENSURES: all tets strictly positive (exactly), options.topology kept, box kept, fixed vertices
+///          untouched; the result depends on the mesh's content only.
 SimplifyStats simplify(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
                        DistanceGuard* guard = nullptr);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Link condition and purity as bit masks over the ring of the edge.
+// Link condition and purity as bit masks over the ring of the edge, or over labels.
 #include "kernels/topology/collapse_test.h"
 
 #include <algorithm>
@@ -68,6 +68,68 @@ bool CollapseTest::label_allows(std::size_t index) const {
   return (out_p & out_q) == closure(rest);
 }
 
+bool CollapseTest::all_labels_allow() const {
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    const Mask bit = Mask{1} << i;
+    if ((p_.labels & q_.labels & bit) != 0 && !label_allows(i)) return false;
+  }
+  return true;
+}
+
+/// Condition (1); fills edge_pairs_.
+bool CollapseTest::meetings_allow() {
+  const std::size_t n = ring_.size();
+  edge_pairs_.reset(labels_.size());
+  Mask edge = 0;
+  auto before = static_cast<std::size_t>(label_index(ring_.labels[n - 1]));
+  for (std::size_t i = 0; i < n; ++i) {
+    const Label label = ring_.labels[i];
+    if (p_.beyond[i] != label && q_.beyond[i] != label) return false;
+    const auto here = static_cast<std::size_t>(label_index(label));
+    const Mask face = Mask{1} << here | Mask{1} << before;
+    if (face != p_.vertex_labels[i] && face != q_.vertex_labels[i]) return false;
+    edge |= face;
+    edge_pairs_.add(before, here);
+    before = here;
+  }
+  return edge == p_.labels || edge == q_.labels;
+}
+
+/// Condition (2).  Only labels that meet at the edge, but in no triangle, need a look at the stars.
+bool CollapseTest::interfaces_allow(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
+  const Mask edge = p_.labels & q_.labels;
+  const auto apart = [&](std::size_t a) {
+    const Mask bit = Mask{1} << a;
+    return (edge & bit) != 0 ? edge & ~bit & ~edge_pairs_.with(a) : Mask{0};
+  };
+  Mask any = 0;
+  for (std::size_t a = 0; a < labels_.size(); ++a) any |= apart(a);
+  if (any == 0) return true;
+  collect_pairs(mesh, p, pairs_p_);
+  collect_pairs(mesh, q, pairs_q_);
+  for (std::size_t a = 0; a < labels_.size(); ++a) {
+    if ((apart(a) & pairs_p_.with(a) & pairs_q_.with(a)) != 0) return false;
+  }
+  return true;
+}
+
+void CollapseTest::collect_pairs(const TetMesh& mesh, LocalVertex v, LabelPairs& pairs) {
+  sides_.clear();
+  for (const LinkTriangle& t : mesh.star(v)) {
+    const int label = label_index(t.label);
+    for (const auto& [a, b] :
+         {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)}) {
+      sides_.push_back({a, b, label});
+    }
+  }
+  std::sort(sides_.begin(), sides_.end());
+  pairs.reset(labels_.size());
+  for (std::size_t i = 0; i + 1 < sides_.size(); i += 2) {
+    pairs.add(static_cast<std::size_t>(sides_[i].label),
+              static_cast<std::size_t>(sides_[i + 1].label));
+  }
+}
+
 bool CollapseTest::keeps_topology(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
   if (!collect_ring(mesh, p, q, ring_) || ring_.size() > kMaxRing) return false;
   labels_.clear();
@@ -77,11 +139,8 @@ bool CollapseTest::keeps_topology(const TetMesh& mesh, LocalVertex p, LocalVerte
   const bool seen = look_from(mesh, p, q, p_) && look_from(mesh, q, p, q_);
   for (LocalVertex v : ring_.vertices) slots_[v] = kNoSlot;
   if (!seen) return false;
-  for (std::size_t i = 0; i < labels_.size(); ++i) {
-    const Mask bit = Mask{1} << i;
-    if ((p_.labels & q_.labels & bit) != 0 && !label_allows(i)) return false;
-  }
-  return true;
+  if (kept_ == KeptTopology::kLabels) return all_labels_allow();
+  return meetings_allow() && interfaces_allow(mesh, p, q);
 }
 
 }  // namespace mw

@@ -24,11 +24,10 @@ using test::Trial;
 std::unique_ptr<MemoryBlockStore> marched_blocks(const Trial& trial, const io::DenseVolume& volume,
                                                  const WindowGrid& grid) {
   auto store = std::make_unique<MemoryBlockStore>(grid.blocks());
-  RunReport report;
   const PreparedLabels labels(volume, trial.settings);
   const Metric metric(trial.frame.spacing);
-  WindowVisitor visitor(labels, metric, trial.settings, grid, *store, report);
-  march(grid, [&](Index3 window) { visitor.visit(window); });
+  const WindowVisitor visitor(labels, metric, trial.settings, grid, *store);
+  march(WindowOrder(grid, trial.settings.order), [&](Index3 w) { return visitor.visit(w); });
   return store;
 }
 

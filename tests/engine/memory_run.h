@@ -112,7 +112,9 @@ struct Trial {
            (settings.start == StartMesh::kDense    ? " dense"
             : settings.start == StartMesh::kOctree ? " octree"
                                                    : " coarse") +
-           " marches " + std::to_string(settings.marches) +
+           (settings.order == Order::kRaster ? " raster" : " colour") + " marches " +
+           std::to_string(settings.marches) +
+           (settings.topology == KeptTopology::kInterfaces ? " interfaces" : "") +
            (settings.optimise ? " optimised" : " not optimised") + " spacing z " +
            std::to_string(frame.spacing[2]);
   }
@@ -126,6 +128,13 @@ inline io::MeshData run_in_memory(const Trial& trial, const RunHooks& hooks = {}
   EXPECT_EQ(report.vertices, sink.mesh().vertices.size());
   EXPECT_EQ(report.tets, sink.mesh().tets.size());
   return sink.mesh();
+}
+
+inline void expect_same(const io::MeshData& actual, const io::MeshData& expected) {
+  EXPECT_TRUE(actual.vertices == expected.vertices);
+  EXPECT_TRUE(actual.tets == expected.tets);
+  EXPECT_TRUE(actual.labels == expected.labels);
+  EXPECT_EQ(actual.labels_signed, expected.labels_signed);
 }
 
 /// The mesh with the labels of the SmallVolume, as audit and oracle read it.
@@ -150,6 +159,7 @@ inline io::MeshData run_in_memory(const Trial& trial, const RunHooks& hooks = {}
   trial.settings.window = kWindows[below(random, 5)];
   trial.settings.marches = static_cast<int>(1 + below(random, 3));
   trial.settings.start = kStarts[below(random, 4)];
+  trial.settings.order = below(random, 3) == 0 ? Order::kColour : Order::kRaster;
   trial.settings.optimise = below(random, 3) != 0;
   if (below(random, 3) == 0) trial.settings.edge_variance = 0.1;
   trial.settings.quality_floor = kFloors[below(random, 4)];

@@ -10,25 +10,14 @@
 #include <random>
 #include <set>
 
+#include "tests/engine/march/grids.h"
+
 namespace mw::engine {
 namespace {
 
-/// before[w][v]: v must be finished before w starts.
-using Relation = std::vector<std::vector<bool>>;
-
-/// REQUIRES: direct holds earlier windows (in raster order) only.
-Relation transitive_closure(const Relation& direct) {
-  Relation out = direct;
-  for (std::size_t w = 0; w < out.size(); ++w) {
-    for (std::size_t v = 0; v < w; ++v) {
-      if (!direct[w][v]) continue;
-      for (std::size_t u = 0; u < v; ++u) {
-        if (out[v][u]) out[w][u] = true;
-      }
-    }
-  }
-  return out;
-}
+using test::grid_of;
+using test::Relation;
+using test::transitive_closure;
 
 bool are_neighbours(Index3 a, Index3 b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
@@ -60,38 +49,12 @@ Relation by_neighbours(const WindowGrid& grid) {
   return out;
 }
 
-/// A grid of that many windows.
-WindowGrid grid_of(Index3 windows, int window = 4) {
-  const std::int64_t edge = window / 2;
-  return {{(windows.x + 1) * edge, (windows.y + 1) * edge, (windows.z + 1) * edge}, window};
-}
-
 TEST(Sec41MarchOrder, PredecessorsAreTheThirteenEarlierNeighboursClosedTransitively) {
   each_index(Index3{5, 5, 4}, [](Index3 i) {
     const WindowGrid grid = grid_of(i + Index3{1, 1, 1});
     ASSERT_EQ(grid.windows(), (i + Index3{1, 1, 1}));
     EXPECT_TRUE(transitive_closure(by_predecessors(grid)) ==
                 transitive_closure(by_neighbours(grid)));
-  });
-}
-
-TEST(Sec41MarchOrder, WindowsThatShareABlockAreOrdered) {
-  each_index(Index3{4, 4, 3}, [](Index3 i) {
-    const WindowGrid grid = grid_of(i + Index3{1, 1, 1});
-    const Relation before = transitive_closure(by_predecessors(grid));
-    std::vector<std::set<std::size_t>> blocks(before.size());
-    each_index(grid.windows(), [&](Index3 w) {
-      for (Index3 b : grid.blocks_of(w)) {
-        blocks[raster(w, grid.windows())].insert(raster(b, grid.blocks()));
-      }
-    });
-    for (std::size_t w = 0; w < before.size(); ++w) {
-      for (std::size_t v = 0; v < w; ++v) {
-        const bool share = std::any_of(blocks[w].begin(), blocks[w].end(),
-                                       [&](std::size_t b) { return blocks[v].count(b) > 0; });
-        EXPECT_TRUE(before[w][v] || !share);
-      }
-    }
   });
 }
 

@@ -61,6 +61,22 @@ class Simplices {
   std::map<std::size_t, int> tets_on_;
 };
 
+/// Calls visit for every subset of 2 .. most labels.
+template <class Visit>
+void each_subset(const std::set<Label>& all, std::size_t most, Visit visit) {
+  std::vector<std::set<Label>> subsets{{}};
+  for (const Label label : all) {
+    for (std::size_t i = 0, count = subsets.size(); i < count; ++i) {
+      if (subsets[i].size() == most) continue;
+      subsets.push_back(subsets[i]);
+      subsets.back().insert(label);
+    }
+  }
+  for (const std::set<Label>& s : subsets) {
+    if (s.size() >= 2) visit(s);
+  }
+}
+
 /// Cells of a cubical grid by doubled coordinates; odd coordinates extend.
 class CubicalGrid {
  public:
@@ -133,22 +149,21 @@ void CellComplex::spread_labels() {
   }
 }
 
-std::int64_t CellComplex::boundary_rank(const std::vector<bool>& kept,
-                                        std::size_t dimension) const {
+std::int64_t CellComplex::boundary_rank(const Cells& kept, std::size_t dimension) const {
   std::vector<std::vector<std::size_t>> columns;
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (!kept[i] || cells_[i].dimension != dimension) continue;
+  for (const std::size_t i : kept) {
+    if (cells_[i].dimension != dimension) continue;
     columns.emplace_back();
     for (const std::size_t face : cells_[i].boundary) {
-      if (kept[face]) columns.back().push_back(face);
+      if (std::binary_search(kept.begin(), kept.end(), face)) columns.back().push_back(face);
     }
   }
   return rank_of(std::move(columns));
 }
 
-std::vector<std::int64_t> CellComplex::homology(const std::vector<bool>& kept) const {
+std::vector<std::int64_t> CellComplex::homology(const Cells& kept) const {
   std::vector<std::int64_t> betti(4, 0);
-  for (std::size_t i = 0; i < cells_.size(); ++i) betti[cells_[i].dimension] += kept[i] ? 1 : 0;
+  for (const std::size_t i : kept) ++betti[cells_[i].dimension];
   for (std::size_t dimension = 1; dimension <= 3; ++dimension) {
     const std::int64_t rank = boundary_rank(kept, dimension);
     betti[dimension] -= rank;
@@ -158,19 +173,56 @@ std::vector<std::int64_t> CellComplex::homology(const std::vector<bool>& kept) c
 }
 
 Betti CellComplex::closed(Label label) const {
-  std::vector<bool> kept;
-  for (const Cell& cell : cells_) kept.push_back(cell.above.count(label) > 0);
+  Cells kept;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].above.count(label) > 0) kept.push_back(i);
+  }
   const auto b = homology(kept);
   return {b[0], b[1], b[2]};
 }
 
 Betti CellComplex::open(Label label) const {
-  std::vector<bool> kept;
-  for (const Cell& cell : cells_) kept.push_back(cell.above == std::set<Label>{label});
+  Cells kept;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].above == std::set<Label>{label}) kept.push_back(i);
+  }
   // The dual block of a cell of dimension k has dimension 3 - k, and its boundary map is the
   // transpose, of the same rank.
   const auto b = homology(kept);
   return {b[3], b[2], b[1]};
+}
+
+BettiOfPlaces CellComplex::betti_of(const std::map<std::set<Label>, Cells>& places) const {
+  BettiOfPlaces out;
+  for (const auto& [labels, cells] : places) {
+    const auto b = homology(cells);
+    out[labels] = {b[0], b[1], b[2]};
+  }
+  return out;
+}
+
+BettiOfPlaces CellComplex::meetings(std::size_t most) const {
+  std::map<std::set<Label>, Cells> places;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    each_subset(cells_[i].above, most, [&](const std::set<Label>& s) { places[s].push_back(i); });
+  }
+  return betti_of(places);
+}
+
+BettiOfPlaces CellComplex::interfaces() const {
+  std::map<std::set<Label>, std::set<std::size_t>> closures;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].dimension != 2 || cells_[i].above.size() != 2) continue;
+    std::set<std::size_t>& closure = closures[cells_[i].above];
+    closure.insert(i);
+    for (const std::size_t edge : cells_[i].boundary) {
+      closure.insert(edge);
+      closure.insert(cells_[edge].boundary.begin(), cells_[edge].boundary.end());
+    }
+  }
+  std::map<std::set<Label>, Cells> places;
+  for (const auto& [pair, cells] : closures) places[pair] = {cells.begin(), cells.end()};
+  return betti_of(places);
 }
 
 CellComplex complex_of(const VoxelLabels& volume, std::size_t label_count) {
@@ -196,6 +248,11 @@ CellComplex complex_of(const AuditMesh& mesh, std::size_t label_count) {
   complex.set_label(outside, static_cast<Label>(label_count));
   complex.spread_labels();
   return complex;
+}
+
+PlacesBetti places_of(const CellComplex& complex) {
+  constexpr std::size_t kMostLabels = 4;
+  return {complex.meetings(kMostLabels), complex.interfaces()};
 }
 
 std::vector<RegionBetti> betti_of(const CellComplex& complex, std::size_t label_count) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -12,6 +13,17 @@
 #include "kernels/audit/subject.h"
 
 namespace mw::audit::test {
+
+/// Betti numbers of places, by the labels that make them.
+using BettiOfPlaces = std::map<std::set<Label>, Betti>;
+
+/// What KeptTopology::kInterfaces keeps besides the labels.
+struct PlacesBetti {
+  BettiOfPlaces meetings;    ///< of all sets of 2 to 4 labels, where they meet
+  BettiOfPlaces interfaces;  ///< of all pairs that share a face
+
+  friend bool operator==(const PlacesBetti&, const PlacesBetti&) = default;
+};
 
 /// A regular cell complex whose 3-cells are labelled and fill the 3-sphere.
 class CellComplex {
@@ -26,6 +38,11 @@ class CellComplex {
   [[nodiscard]] Betti closed(Label label) const;
   /// Open region: it retracts to the dual blocks of the cells with nothing but the label above.
   [[nodiscard]] Betti open(Label label) const;
+  /// For every set of 2 .. most labels, where all of them meet: the cells with all of them above.
+  /// Only sets that meet somewhere.
+  [[nodiscard]] BettiOfPlaces meetings(std::size_t most) const;
+  /// For every pair of labels, the closure of the faces between them.  Only pairs with a face.
+  [[nodiscard]] BettiOfPlaces interfaces() const;
 
  private:
   struct Cell {
@@ -34,10 +51,12 @@ class CellComplex {
     std::set<Label> above;
   };
 
+  using Cells = std::vector<std::size_t>;  ///< ascending
+
   /// Number of cells less ranks of both boundary maps, for dimensions 0 .. 3.
-  [[nodiscard]] std::vector<std::int64_t> homology(const std::vector<bool>& kept) const;
-  [[nodiscard]] std::int64_t boundary_rank(const std::vector<bool>& kept,
-                                           std::size_t dimension) const;
+  [[nodiscard]] std::vector<std::int64_t> homology(const Cells& kept) const;
+  [[nodiscard]] std::int64_t boundary_rank(const Cells& kept, std::size_t dimension) const;
+  [[nodiscard]] BettiOfPlaces betti_of(const std::map<std::set<Label>, Cells>& places) const;
 
   std::vector<Cell> cells_;
 };
@@ -51,5 +70,7 @@ class CellComplex {
 /// Closed and open of labels 0 .. label_count.
 [[nodiscard]] std::vector<RegionBetti> betti_of(const CellComplex& complex,
                                                 std::size_t label_count);
+
+[[nodiscard]] PlacesBetti places_of(const CellComplex& complex);
 
 }  // namespace mw::audit::test

@@ -39,7 +39,7 @@ TEST_F(UsageTest, RefusesBadValues) {
   expect_failure(2, "mesh v.npy -o v.vtu --quality-floor 0.9", "quality-floor");
   expect_failure(2, "mesh v.npy -o v.vtu --max-distance -1", "--max-distance -1");
   expect_failure(2, "mesh v.npy -o v.vtu --memory 4GB", "4GB");
-  expect_failure(2, "mesh v.npy -o v.vtu --threads 0", "at least 1");
+  expect_failure(2, "mesh v.npy -o v.vtu --threads -1", "from 1 to 1024, or 0");
   expect_failure(2, "mesh v.npy -o v.vtu --labels 1,x", "label");
   expect_failure(2, "mesh v.npy -o ''", "empty");
 }
@@ -50,6 +50,8 @@ TEST_F(UsageTest, RefusesContradictions) {
   expect_failure(2, "mesh v.npy -o v.npy", "this is the input");
   expect_failure(2, "mesh v.npy -o w.vtu --report w.vtu", "used twice");
   expect_failure(2, "mesh v.npy -o w.vtu --report v.npy", "used twice");
+  expect_failure(2, "mesh v.npy -o w.vtu --trace w.vtu", "used twice");
+  expect_failure(2, "mesh v.npy -o w.vtu --report r --trace ./r", "used twice");
   expect_failure(2, "mesh v.npy -o w.vtu --labels 1 --background 2", "one of them");
   expect_failure(2, "mesh v.npy -o w.vtu --dtype u8", "--shape");
   expect_failure(2, "mesh v.npy -o w.vtu --shape 20,20,20", "--dtype");
@@ -59,12 +61,8 @@ TEST_F(UsageTest, RefusesContradictions) {
 TEST_F(UsageTest, SaysWhatIsNotAvailableYet) {
   make_volume();
   const std::string mesh = "mesh v.npy -o v.vtu ";
-  expect_failure(2, mesh + "--order colour",
-                 "--order colour is not available in this version; raster is");
-  expect_failure(2, mesh + "--threads 4", "--threads 4 is not available in this version; 1 is");
   for (const char* flag :
-       {"--memory 4GiB", "--workdir w", "--resume", "--start coarse", "--topology interfaces",
-        "--optimizer tetgen", "--target-reduction 0.1", "--dataset a"}) {
+       {"--memory 4GiB", "--workdir w", "--resume", "--optimizer tetgen", "--dataset a"}) {
     expect_failure(2, mesh + flag, "not available in this version");
   }
 }

@@ -76,6 +76,30 @@ TEST(Audit, ChangeOfTheOpenRegionAloneIsAChange) {
   EXPECT_EQ(report.voxels[0].closed, report.mesh[0].closed);
 }
 
+/// Labels 0 and 1 change places: each is a ball as before, but 1 no longer touches 2.
+TEST(Audit, ChangeOfAnInterfaceAloneFailsOnlyWhenAskedFor) {
+  const auto row = [](std::array<Label, 4> labels) {
+    return volume_from({4, 1, 1}, 3,
+                       [&](auto x, auto, auto) { return labels[static_cast<std::size_t>(x)]; });
+  };
+  const SmallVolume volume = row({0, 1, 2, 2}), other = row({1, 0, 2, 2});
+  const SmallMesh mesh = five_tet_mesh(other);
+  const AuditOptions labels{.measure_distance = false};
+  const AuditOptions places{.count_places = true, .measure_distance = false};
+  EXPECT_EQ(failures(audit(volume.view(), 3, mesh.view(), {}, labels)), Names{});
+  const AuditReport report = audit(volume.view(), 3, mesh.view(), {}, places);
+  EXPECT_EQ(failures(report), (Names{"P1 interfaces", "P1 meetings"}));
+  EXPECT_EQ(report.places->interfaces, 5U);
+  EXPECT_EQ(report.places->interfaces_changed.size(), 4U);
+  const std::string& detail = check(report, "P1 interfaces").detail;
+  for (const char* change :
+       {"dense 0, dense 2: (0,0,0) -> (1,0,0)", "dense 1, dense 2: (1,0,0) -> (0,0,0)",
+        "dense 0, exterior: (1,0,0) -> (1,1,0)"}) {
+    EXPECT_NE(detail.find(change), std::string::npos) << detail;
+  }
+  EXPECT_TRUE(audit(other.view(), 3, mesh.view(), {}, places).passed());
+}
+
 TEST_F(BrokenMesh, IsSoundBeforeItIsBroken) {
   const AuditReport report = run();
   EXPECT_EQ(failures(report), Names{});

@@ -64,6 +64,27 @@ TEST(PartGraph, ComponentsWithoutAndWithinEachClass) {
   }
 }
 
+TEST(PartGraph, ComponentsWithoutEachGroupOfPairs) {
+  std::mt19937 random(12);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const std::uint32_t groups = 1 + below(random, 9);
+    const Graph graph = random_graph(random, 3);
+    std::vector<GroupedPair> pairs;
+    for (const PartPair& p : graph.pairs) {
+      pairs.push_back({p, below(random, groups), below(random, groups)});
+    }
+    const auto components = components_leaving_out(graph.part_class.size(), pairs, groups);
+    ASSERT_EQ(components.size(), groups);
+    for (std::uint32_t g = 0; g < groups; ++g) {
+      Graph rest{graph.part_class, {}};
+      for (const GroupedPair& p : pairs) {
+        if (p.group != g && p.other_group != g) rest.pairs.push_back(p.parts);
+      }
+      ASSERT_EQ(components[g], flood(rest, [](std::uint32_t) { return true; }));
+    }
+  }
+}
+
 TEST(PartGraph, PartsOfAVertexStayConnectedWithoutAnyClass) {
   std::mt19937 random(10);
   for (int trial = 0; trial < 500; ++trial) {

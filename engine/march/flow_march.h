@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The march with many threads, on a oneTBB flow graph.
+#pragma once
+
+#include "engine/march/march.h"
+
+namespace mw::engine {
+
+/// As march(), always through the graph.  REQUIRES: order.size() >= 1.
+/// Memory: that of the wavefront, and two messages and one admission a thread.
+void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options);
+
+}  // namespace mw::engine

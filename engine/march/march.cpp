@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sequential marches; the parallel one is in flow_march.cpp.
+#include "engine/march/march.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "engine/march/flow_march.h"
+#include "engine/march/timed_visit.h"
+#include "kernels/core/assert.h"
+
+namespace mw::engine {
+namespace {
+
+/// The reference.
+void march_in_sequence(const WindowOrder& order, const VisitWindow& visit,
+                       const MarchOptions& options) {
+  for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
+    const Index3 window = order.window(rank);
+    if (options.finished_before && options.finished_before(window)) continue;
+    Admission admission;
+    if (options.admit) admission = options.admit(window, true);
+    const Visited visited = timed_visit(visit, window, 0);
+    admission.reset();
+    if (options.visited) options.visited(visited);
+  }
+}
+
+}  // namespace
+
+void march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options) {
+  if (thread_count(options.threads) == 1) {
+    march_in_sequence(order, visit, options);
+  } else {
+    flow_march(order, visit, options);
+  }
+}
+
+void march_by_choice(const WindowOrder& order, const VisitWindow& visit, const PickReady& pick) {
+  std::vector<std::size_t> missing(order.size());
+  std::vector<Index3> ready;
+  for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
+    missing[rank] = order.predecessors(order.window(rank)).size();
+    if (missing[rank] == 0) ready.push_back(order.window(rank));
+  }
+  while (!ready.empty()) {
+    const std::size_t choice = pick(ready);
+    MW_ASSERT(choice < ready.size());
+    const Index3 w = ready[choice];
+    ready[choice] = ready.back();
+    ready.pop_back();
+    visit(w);
+    for (Index3 s : order.successors(w)) {
+      if (--missing[order.rank(s)] == 0) ready.push_back(s);
+    }
+  }
+}
+
+int thread_count(int threads) {
+  if (threads > 0) return threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace mw::engine

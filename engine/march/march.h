@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The march: every window once, none before its predecessors (Sec 4.1).
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "engine/march/wavefront.h"
+
+namespace mw::engine {
+
+/// Processes one window.  Windows without a path between them are visited at the same time.
+using VisitWindow = std::function<void(Index3 window)>;
+
+/// Chooses among windows that are ready; returns a position in the span, which is never empty.
+using PickReady = std::function<std::size_t(std::span<const Index3> ready)>;
+
+/// Whatever a window holds while it runs, for instance a reservation of memory.
+using Admission = std::shared_ptr<void>;
+
+/// Asked before a window starts; null: not now, and it is asked again when another window has
+/// finished.  `first`: this is the sequence's first unfinished window, which starts whatever the
+/// answer, so a march cannot lock up; keep room for one window in reserve, or throw.
+/// The admission is let go as soon as the visit is over.
+using AdmitWindow = std::function<Admission(Index3 window, bool first)>;
+
+/// A visit that is over.
+struct Visited {
+  using Time = std::chrono::steady_clock::time_point;
+
+  Index3 window;
+  Time start;
+  Time end;
+  double cpu_seconds = 0.0;  ///< of the visiting thread
+  int slot = 0;              ///< of the visiting thread, below the number of threads
+};
+
+/// Told of each visit, in order of completion, never by two threads at a time.
+using OnVisited = std::function<void(const Visited& visited)>;
+
+/// How a march goes.  Nothing here changes its result.
+struct MarchOptions {
+  int threads = 1;  ///< 1: in sequence, by the caller's thread; 0: as many as there are cores
+  /// How many ranks from the sequence's first unfinished window others may run; bounds the march's
+  /// memory and how many blocks are in use; 0: default_look_ahead().
+  std::uint64_t look_ahead = 0;
+  AdmitWindow admit;           ///< optional
+  OnVisited visited;           ///< optional; may throw to stop the march
+  IsFinished finished_before;  ///< optional: windows to pass over, closed under predecessors
+};
+
+/// Visits all windows.  With several threads a oneTBB flow graph of two nodes, which windows pass
+/// as messages: one visits, the other keeps the wavefront and, whenever a thread is free, sends the
+/// ready window with the longest path to go.
+/// ENSURES: every visit happens after the visits of its window's predecessors.
+/// ERRORS: what visit, admit or visited throw; then no more windows start, those that run end, and
+/// of several exceptions the one of the sequence's earliest window is thrown on.
+void march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options = {});
+
+/// Sequential, in any order that respects predecessors, as `pick` decides.  The result is the same
+/// for every pick (promise P5).  Memory grows with the number of windows: for tests.
+void march_by_choice(const WindowOrder& order, const VisitWindow& visit, const PickReady& pick);
+
+/// The number of threads that `threads` asks for: itself, or the number of cores for 0.
+[[nodiscard]] int thread_count(int threads);
+
+}  // namespace mw::engine

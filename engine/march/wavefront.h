@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The bookkeeping of a march: which windows are ready, in memory that does not grow with the
+// volume.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "engine/march/window_order.h"
+
+namespace mw::engine {
+
+/// Whether a window was finished by an earlier run.
+using IsFinished = std::function<bool(Index3 window)>;
+
+/// How far ahead a march of this many threads looks unless it is told otherwise.  In simulated
+/// marches over 343 and 9261 windows with 2 to 32 cores this was at most 1.5 % slower than looking
+/// ahead without end, with fewer blocks in use: for 2 cores in the colour order those of the
+/// sequence's three layers instead of all.
+[[nodiscard]] constexpr std::uint64_t default_look_ahead(std::size_t threads) {
+  return 128 * std::uint64_t{threads};
+}
+
+/// Follows a march.  Windows come into being when the sequence's first unfinished window is less
+/// than `look_ahead` ranks away, and are forgotten once the first unfinished one has passed them.
+/// There is no counter per window: a window is ready when its predecessors, which come before it
+/// in the sequence, are either forgotten or marked finished.
+///
+/// Memory: min(look_ahead, windows) bytes, and at most as many ready windows.
+/// Cost: O(log look_ahead) a window.  Thread safety: none.
+class Wavefront {
+ public:
+  /// REQUIRES: look_ahead >= 1; the windows finished before are closed under predecessors; order
+  /// outlives this.
+  Wavefront(const WindowOrder& order, std::uint64_t look_ahead, IsFinished finished_before = {});
+
+  /// The rank of the ready window with the longest path to go, of equals the first in sequence.
+  [[nodiscard]] std::optional<std::uint64_t> best() const;
+  /// The sequence's first unfinished window; size() at the end.  It is ready unless it runs.
+  [[nodiscard]] std::uint64_t first_unfinished() const { return first_; }
+  [[nodiscard]] bool is_ready(std::uint64_t rank) const;
+  [[nodiscard]] std::size_t ready_count() const { return ready_.size(); }
+  /// Windows that it can hold at a time.
+  [[nodiscard]] std::size_t capacity() const { return states_.size(); }
+
+  /// REQUIRES: ready.
+  void start(std::uint64_t rank);
+  /// REQUIRES: started, not finished.
+  void finish(std::uint64_t rank);
+
+ private:
+  enum class State : std::uint8_t { kWaiting, kReady, kRunning, kFinished };
+  using Priority = std::pair<std::int64_t, std::uint64_t>;
+
+  [[nodiscard]] State& state(std::uint64_t rank) { return states_[rank % states_.size()]; }
+  [[nodiscard]] bool is_finished(std::uint64_t rank) const;
+  [[nodiscard]] Priority priority(std::uint64_t rank) const;
+  void make_ready_if_due(std::uint64_t rank);
+  void advance();
+
+  const WindowOrder& order_;
+  IsFinished finished_before_;
+  std::vector<State> states_;  // of ranks first_ to created_ - 1, in a ring
+  std::uint64_t first_ = 0;
+  std::uint64_t created_ = 0;
+  std::set<Priority> ready_;
+};
+
+}  // namespace mw::engine

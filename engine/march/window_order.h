@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which window comes before which (Sec 4.1), and a second order that is far wider.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/settings.h"
+#include "engine/window_grid.h"
+
+namespace mw::engine {
+
+/// An order of the windows of a grid: a sequence, which is the reference, and the edges that any
+/// other execution must respect.  Windows that share a block are joined by a path of edges, always
+/// in the direction of the sequence, so every execution that respects the edges gives the
+/// sequence's result (promise P5).  A pure function of the grid.
+///
+/// kRaster: x fastest, then y, then z; the edges are the three of WindowGrid::predecessors().  The
+/// longest path has about X + 2Y + 4Z windows.
+///
+/// kColour: the parities of (z,y,x) are a colour from 0 to 7.  Of two neighbours, the most
+/// significant axis along which they differ decides: even before odd.  No two neighbours have the
+/// same colour, every path climbs in colour, so none is longer than 8 windows whatever the volume,
+/// and an eighth of all windows may run at once.  The sequence does not go colour by colour over
+/// the whole volume: along each axis it visits 0, 2, 1, 4, 3, 6, 5, ... (z slowest), which obeys
+/// the same edges and keeps three layers of blocks in use (raster: two).
+class WindowOrder {
+ public:
+  WindowOrder(const WindowGrid& grid, Order order) : grid_(grid), order_(order) {}
+
+  [[nodiscard]] const WindowGrid& grid() const { return grid_; }
+  [[nodiscard]] std::uint64_t size() const {
+    return static_cast<std::uint64_t>(grid_.windows().product());
+  }
+
+  /// The sequence and its inverse.  REQUIRES: rank < size(); window in the grid.
+  [[nodiscard]] Index3 window(std::uint64_t rank) const;
+  [[nodiscard]] std::uint64_t rank(Index3 window) const;
+
+  /// Edges that end or start at a window: at most 8 (colour), 3 and 7 (raster).
+  [[nodiscard]] std::vector<Index3> predecessors(Index3 window) const;
+  [[nodiscard]] std::vector<Index3> successors(Index3 window) const;
+
+  /// Length of the longest path that ends at the window: the step at which it runs at the earliest
+  /// when all windows take one step.  The longest path from it on has steps() - 1 - step() edges.
+  [[nodiscard]] std::int64_t step(Index3 window) const;
+  /// Windows of the longest path.
+  [[nodiscard]] std::int64_t steps() const;
+
+ private:
+  WindowGrid grid_;
+  Order order_;
+};
+
+}  // namespace mw::engine

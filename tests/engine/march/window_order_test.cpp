@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Both orders by brute force: windows that share a block are ordered, and nothing else is claimed.
+#include "engine/march/window_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tests/engine/march/grids.h"
+
+namespace mw::engine {
+namespace {
+
+using test::by_edges;
+using test::grid_of;
+using test::kOrders;
+using test::Relation;
+using test::transitive_closure;
+
+/// Both orders of every grid of up to 5 x 5 x 4 windows.
+template <typename Check>
+void for_small_orders(Check check) {
+  each_index(Index3{5, 5, 4}, [&](Index3 i) {
+    const Index3 windows = i + Index3{1, 1, 1};
+    for (Order order : kOrders) {
+      SCOPED_TRACE(::testing::Message() << windows.x << " x " << windows.y << " x " << windows.z
+                                        << (order == Order::kRaster ? " raster" : " colour"));
+      check(WindowOrder(grid_of(windows), order));
+    }
+  });
+}
+
+std::set<std::size_t> block_places(const WindowGrid& grid, Index3 window) {
+  std::set<std::size_t> out;
+  for (Index3 b : grid.blocks_of(window)) out.insert(raster(b, grid.blocks()));
+  return out;
+}
+
+/// Windows that share a block, the later in sequence after the earlier.
+Relation by_blocks(const WindowOrder& order) {
+  std::vector<std::set<std::size_t>> blocks;
+  for (std::uint64_t w = 0; w < order.size(); ++w) {
+    blocks.push_back(block_places(order.grid(), order.window(w)));
+  }
+  Relation out(order.size(), std::vector<bool>(order.size(), false));
+  for (std::size_t w = 0; w < out.size(); ++w) {
+    for (std::size_t v = 0; v < w; ++v) {
+      out[w][v] = std::any_of(blocks[w].begin(), blocks[w].end(),
+                              [&](std::size_t b) { return blocks[v].count(b) > 0; });
+    }
+  }
+  return out;
+}
+
+TEST(WindowOrder, SequenceVisitsEveryWindowOnce) {
+  for_small_orders([](const WindowOrder& order) {
+    std::set<std::size_t> seen;
+    for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
+      const Index3 w = order.window(rank);
+      ASSERT_TRUE((Box3{{0, 0, 0}, order.grid().windows()}.contains(w)));
+      EXPECT_EQ(order.rank(w), rank);
+      seen.insert(raster(w, order.grid().windows()));
+    }
+    EXPECT_EQ(seen.size(), order.size());
+  });
+}
+
+TEST(WindowOrder, RasterSequenceIsThePapers) {
+  const WindowOrder order(grid_of({4, 3, 2}), Order::kRaster);
+  std::uint64_t rank = 0;
+  each_index(Index3{4, 3, 2}, [&](Index3 w) { EXPECT_EQ(order.rank(w), rank++); });
+}
+
+/// Edges follow the sequence, hence have no circle.
+TEST(WindowOrder, EdgesFollowTheSequence) {
+  for_small_orders([](const WindowOrder& order) {
+    std::set<std::pair<std::uint64_t, std::uint64_t>> backward, forward;
+    for (std::uint64_t w = 0; w < order.size(); ++w) {
+      for (Index3 p : order.predecessors(order.window(w))) {
+        EXPECT_LT(order.rank(p), w);
+        EXPECT_TRUE(backward.emplace(order.rank(p), w).second);
+      }
+      for (Index3 s : order.successors(order.window(w))) {
+        EXPECT_TRUE(forward.emplace(w, order.rank(s)).second);
+      }
+    }
+    EXPECT_TRUE(forward == backward);
+  });
+}
+
+/// Paths exist where blocks are shared, directly or through others, and nowhere else.
+TEST(WindowOrder, PathsAreThoseOfSharedBlocks) {
+  for_small_orders([](const WindowOrder& order) {
+    EXPECT_TRUE(transitive_closure(by_edges(order)) == transitive_closure(by_blocks(order)));
+  });
+}
+
+/// step() is the longest path to a window, steps() - 1 - step() the longest from it.
+TEST(WindowOrder, StepsAreLongestPaths) {
+  for_small_orders([](const WindowOrder& order) {
+    const Relation before = by_edges(order);
+    std::vector<std::int64_t> to(order.size(), 0), from(order.size(), 0);
+    for (std::size_t w = 0; w < to.size(); ++w) {
+      for (std::size_t v = 0; v < w; ++v) {
+        if (before[w][v]) to[w] = std::max(to[w], to[v] + 1);
+      }
+    }
+    for (std::size_t w = from.size(); w-- > 0;) {
+      for (std::size_t v = 0; v < w; ++v) {
+        if (before[w][v]) from[v] = std::max(from[v], from[w] + 1);
+      }
+    }
+    EXPECT_EQ(order.steps(), 1 + *std::max_element(to.begin(), to.end()));
+    for (std::size_t w = 0; w < to.size(); ++w) {
+      EXPECT_EQ(order.step(order.window(w)), to[w]);
+      EXPECT_EQ(order.steps() - 1 - order.step(order.window(w)), from[w]);
+    }
+  });
+}
+
+TEST(ColourOrder, HasEightStepsAtAnySize) {
+  for (const Index3 windows : {Index3{2, 2, 2}, {4, 4, 4}, {101, 57, 88}}) {
+    EXPECT_EQ(WindowOrder(grid_of(windows), Order::kColour).steps(), 8);
+  }
+  EXPECT_EQ(WindowOrder(grid_of({9, 1, 1}), Order::kColour).steps(), 2);
+  EXPECT_EQ(WindowOrder(grid_of({1, 1, 1}), Order::kColour).steps(), 1);
+}
+
+/// Layers of blocks between their first and their last use in sequence, at the worst moment.
+std::size_t layers_in_use(const WindowOrder& order) {
+  std::map<std::int64_t, std::uint64_t> first, last;
+  for (std::uint64_t w = 0; w < order.size(); ++w) {
+    for (Index3 b : order.grid().blocks_of(order.window(w))) {
+      first.emplace(b.z, w);
+      last[b.z] = w;
+    }
+  }
+  std::size_t most = 0;
+  for (std::uint64_t w = 0; w < order.size(); ++w) {
+    std::size_t open = 0;
+    for (const auto& [z, begin] : first) open += begin <= w && w <= last[z] ? 1U : 0U;
+    most = std::max(most, open);
+  }
+  return most;
+}
+
+TEST(ColourOrder, KeepsThreeLayersOfBlocksInUse) {
+  EXPECT_EQ(layers_in_use(WindowOrder(grid_of({5, 4, 20}), Order::kColour)), 3U);
+  EXPECT_EQ(layers_in_use(WindowOrder(grid_of({5, 4, 20}), Order::kRaster)), 2U);
+}
+
+}  // namespace
+}  // namespace mw::engine
