@@ -3,7 +3,8 @@
 // The blocks after the last march, as the end of a run reads them.
 #pragma once
 
-#include "engine/block_store.h"
+#include "kernels/core/index.h"
+#include "kernels/mesh/block_mesh.h"
 
 namespace mw::engine {
 
@@ -13,23 +14,6 @@ class FinalBlocks {
   virtual ~FinalBlocks() = default;
   /// A copy of the block.  Only vertices (id, position) and tets are looked at.
   [[nodiscard]] virtual BlockMesh load(Index3 block) = 0;
-};
-
-/// What rests in a store.  REQUIRES: every block has been put; nobody else uses the store
-/// meanwhile.
-class StoredBlocks : public FinalBlocks {
- public:
-  explicit StoredBlocks(BlockStore& store) : store_(store) {}
-
-  [[nodiscard]] BlockMesh load(Index3 block) override {
-    BlockMesh mesh = store_.take(block).value();
-    BlockMesh copy{.vertices = mesh.vertices, .tets = mesh.tets, .samples = {}};
-    store_.put(block, std::move(mesh));
-    return copy;
-  }
-
- private:
-  BlockStore& store_;
 };
 
 }  // namespace mw::engine

@@ -3,31 +3,20 @@
 // The main job: march over the volume, then finish.
 #include "engine/run.h"
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 
-#include "engine/block_store.h"
+#include "engine/admission.h"
 #include "engine/march/timed_visit.h"
+#include "engine/prepared_labels.h"
 #include "engine/stopwatch.h"
-#include "engine/window.h"
+#include "engine/store/run_identity.h"
+#include "engine/store/workdir.h"
+#include "engine/window_memory.h"
 
 namespace mw::engine {
 namespace {
-
-/// The blocks of a march, each made of the eight that the march before left in its place.
-std::unique_ptr<BlockStore> regroup(BlockStore& before, Index3 blocks_before, Index3 blocks) {
-  auto store = std::make_unique<MemoryBlockStore>(blocks);
-  each_index(blocks, [&](Index3 b) {
-    std::vector<BlockMesh> parts;
-    each_index(Index3{2, 2, 2}, [&](Index3 i) {
-      const Index3 part{2 * b.x + i.x, 2 * b.y + i.y, 2 * b.z + i.z};
-      if (!Box3{{0, 0, 0}, blocks_before}.contains(part)) return;
-      parts.push_back(before.take(part).value());
-    });
-    store->put(b, merge(parts));
-  });
-  return store;
-}
 
 /// One grid a march.  A vertex near a block plane is free in half as many windows, so it stays
 /// denser there; the next march has other planes and heals that.
@@ -44,29 +33,43 @@ double seconds_between(Visited::Time a, Visited::Time b) {
   return std::chrono::duration<double>(b - a).count();
 }
 
-std::uint64_t count_windows(const std::vector<WindowGrid>& grids) {
-  std::uint64_t total = 0;
-  for (const WindowGrid& g : grids) total += static_cast<std::uint64_t>(g.windows().product());
-  return total;
-}
-
 /// The marches of a run: who is told of what, and what all visits add up to.
 class Marches {
  public:
-  Marches(const RunHooks& hooks, std::uint64_t total) : hooks_(hooks), total_(total) {}
+  /// done: windows of an earlier run.
+  Marches(const RunHooks& hooks, std::uint64_t done, std::uint64_t total)
+      : hooks_(hooks), total_(total), done_(done) {}
 
-  void run(int march_number, const WindowOrder& order, const WindowVisitor& visitor) {
+  void run(int march_number, const WindowOrder& order, BlockStore& store,
+           const WindowVisitor& visitor) {
+    Admitter admitter(order.grid(), store);
+    std::atomic<bool> failed = false;
     const VisitWindow visit = [&](Index3 window) {
-      if (hooks_.before_visit) hooks_.before_visit(window);
-      add(visitor.visit(window));
+      if (failed) return;  // its result would not be asked for
+      try {
+        if (hooks_.before_visit) hooks_.before_visit(window);
+        add(visitor.visit(window));
+      } catch (...) {
+        failed = true;
+        admitter.ended();
+        throw;
+      }
+      admitter.ended();
     };
     const OnVisited tell = [&](const Visited& v) { note(march_number, v); };
     if (hooks_.pick) {
-      const VisitWindow visit_and_tell = [&](Index3 w) { tell(timed_visit(visit, w, 0)); };
+      const VisitWindow visit_and_tell = [&](Index3 w) {
+        const Admission admission = admitter.admit(w, true);
+        tell(timed_visit(visit, w, 0));
+      };
       march_by_choice(order, visit_and_tell, hooks_.pick);
-    } else {
-      march(order, visit, {.threads = hooks_.threads, .visited = tell});
+      return;
     }
+    march(order, visit,
+          {.threads = hooks_.threads,
+           .admit = [&](Index3 w, bool first) { return admitter.admit(w, first); },
+           .visited = tell,
+           .finished_before = [&](Index3 w) { return store.is_done(w); }});
   }
 
   [[nodiscard]] const VisitStats& stats() const { return stats_; }
@@ -92,41 +95,104 @@ class Marches {
 
   const RunHooks& hooks_;
   std::uint64_t total_;
-  std::uint64_t done_ = 0;
+  std::uint64_t done_;
   Visited::Time begin_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   VisitStats stats_;
 };
+
+/// The blocks of the last march; a run may be stopped while they are read.
+class FinishedBlocks : public FinalBlocks {
+ public:
+  FinishedBlocks(const BlockStore& store, const OnProgress& progress, std::uint64_t windows)
+      : store_(store), progress_(progress), windows_(windows) {}
+
+  [[nodiscard]] BlockMesh load(Index3 block) override {
+    if (progress_) progress_(windows_, windows_);
+    return store_.load(block);
+  }
+
+ private:
+  const BlockStore& store_;
+  const OnProgress& progress_;
+  std::uint64_t windows_;
+};
+
+std::unique_ptr<Workdir> open_workdir(const io::VolumeInfo& volume, const MeshSettings& settings,
+                                      const StoreOptions& options) {
+  if (options.workdir.empty()) return nullptr;
+  return std::make_unique<Workdir>(options.workdir, options.resume,
+                                   options.identity + identity_text(volume, settings));
+}
+
+/// Tells at once the least that works for the first march.  What a later window takes depends on
+/// what earlier ones leave.
+void require_least(const RunLayout& layout, const io::DenseVolume& volume, MemoryBudget& budget) {
+  (void)budget.reserve(Purpose::kWindows, program_bytes(volume) + index_bytes(layout) +
+                                              start_window_bytes(layout.grid(0)));
+}
+
+/// Everything between an open store and a written mesh.
+void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
+                     const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
+                     const RunHooks& hooks, RunReport& report) {
+  Stopwatch watch;
+  const PreparedLabels labels(volume, settings);
+  watch.lap(report.prepare_seconds);
+  const Metric metric(volume.info().spacing);
+  Marches marches(hooks, store.facts().resumed_windows, layout.windows());
+  for (std::uint32_t i = 0; i < layout.marches(); ++i) {
+    const WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
+    marches.run(static_cast<int>(i), WindowOrder(layout.grid(i), settings.order), store.march(i),
+                visitor);
+  }
+  static_cast<VisitStats&>(report) = marches.stats();
+  watch.restart();
+  const std::uint32_t last = layout.marches() - 1;
+  FinishedBlocks blocks(store.march(last), hooks.progress, layout.windows());
+  const FinishedMesh finished = finish(blocks, layout.grid(last), volume, sink, hooks.output);
+  watch.lap(report.output_seconds);
+  report.vertices = finished.vertices;
+  report.tets = finished.tets;
+  report.quality = finished.quality;
+}
+
+/// After an error: what can be saved is, and the first error stays the one that is told.
+void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
+  if (workdir == nullptr) return;
+  try {
+    store.save();
+  } catch (...) {
+    // The disk is full or broken, or memory is out: what was saved before remains.
+  }
+  if (!store.has_saved_work()) return;
+  workdir->keep();
+  if (options.kept) options.kept();
+}
 
 }  // namespace
 
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks) {
   check(settings);
-  Stopwatch watch;
-  const PreparedLabels labels(volume, settings);
-  double prepare_seconds = 0.0;
-  watch.lap(prepare_seconds);
-  const Metric metric(volume.info().spacing);
-  const std::vector<WindowGrid> grids = march_grids(volume.info().shape, settings);
-  Marches marches(hooks, count_windows(grids));
-  std::unique_ptr<BlockStore> store = std::make_unique<MemoryBlockStore>(grids[0].blocks());
-  for (std::size_t i = 0; i < grids.size(); ++i) {
-    const WindowGrid& grid = grids[i];
-    if (i > 0) store = regroup(*store, grids[i - 1].blocks(), grid.blocks());
-    const WindowVisitor visitor(labels, metric, settings, grid, *store);
-    marches.run(static_cast<int>(i), WindowOrder(grid, settings.order), visitor);
-  }
-  RunReport report{marches.stats()};
+  RunReport report;
   report.threads = hooks.pick ? 1 : thread_count(hooks.threads);
-  report.prepare_seconds = prepare_seconds;
-  watch.restart();
-  StoredBlocks blocks(*store);
-  const FinishedMesh finished = finish(blocks, grids.back(), volume, sink, hooks.output);
-  watch.lap(report.output_seconds);
-  report.vertices = finished.vertices;
-  report.tets = finished.tets;
-  report.quality = finished.quality;
+  const RunLayout layout(march_grids(volume.info().shape, settings), settings.order);
+  MemoryBudget budget(hooks.store.memory);
+  require_least(layout, volume, budget);
+  const auto program = budget.reserve(Purpose::kProgram, program_bytes(volume));
+  const auto workdir = open_workdir(volume.info(), settings, hooks.store);
+  RunStore store(layout, budget, workdir.get(), hooks.store.group);
+  try {
+    march_and_write(layout, volume, settings, store, sink, hooks, report);
+  } catch (...) {
+    keep_work(store, workdir.get(), hooks.store);
+    throw;
+  }
+  if (workdir != nullptr) workdir->discard();
+  report.memory_budget_bytes = budget.limit();
+  report.peak_accounted_bytes = budget.peak();
+  report.store = store.facts();
   return report;
 }
 

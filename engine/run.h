@@ -8,13 +8,15 @@
 #include "engine/finish.h"
 #include "engine/march/march.h"
 #include "engine/settings.h"
+#include "engine/store/store_options.h"
 #include "engine/window_visitor.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::engine {
 
-/// What a run did.  Times of windows are summed over threads, that of the output is wall seconds.
+/// What a run did; windows without those done before a resume.  Times of windows are summed over
+/// threads, that of the output is wall seconds.
 struct RunReport : VisitStats {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
@@ -22,6 +24,9 @@ struct RunReport : VisitStats {
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
   double output_seconds = 0.0;
   std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
+  std::uint64_t memory_budget_bytes = 0;
+  std::uint64_t peak_accounted_bytes = 0;
+  StoreFacts store;
 };
 
 /// Called after each window with the number done and the total, never by two threads at a time; may
@@ -47,11 +52,14 @@ struct RunHooks {
   /// Optional; called by the visiting thread before each visit, by many threads at once.
   std::function<void(Index3 window)> before_visit;
   OutputOptions output;
+  StoreOptions store;  ///< memory and disk
 };
 
 /// Meshes the whole box of the volume into `sink`.
 /// ENSURES: promises P1 to P3 and P5 of the README.
-/// ERRORS: whatever volume and sink throw; kUsage for bad settings.
+///          A run that ends early, by an error or because progress throws, leaves what it has done
+///          in the work folder, if there is one and anything was done; otherwise the folder goes.
+/// ERRORS: whatever volume and sink throw; kUsage for bad settings; those of Workdir and RunStore.
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks = {});
 

@@ -55,15 +55,18 @@ VisitStats WindowVisitor::visit(Index3 window) const {
   VisitStats stats{.windows = 1};
   Stopwatch watch;
   const std::vector<Index3> blocks = grid_.blocks_of(window);
+  std::vector<std::optional<BlockMesh>> stored = store_.take(window);
   std::vector<BlockMesh> content;
-  for (Index3 b : blocks) content.push_back(take(b));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    content.push_back(stored[i] ? std::move(*stored[i]) : start(blocks[i]));
+  }
   watch.lap(stats.start_seconds);
   WindowContent window_content = gather(content, grid_.volume());
+  content.clear();
   watch.lap(stats.exchange_seconds);
   work_on(window, window_content, stats);
   watch.restart();
-  content = scatter(window_content, grid_, window);
-  for (std::size_t i = 0; i < blocks.size(); ++i) store_.put(blocks[i], std::move(content[i]));
+  store_.commit(window, scatter(window_content, grid_, window));
   watch.lap(stats.exchange_seconds);
   return stats;
 }
@@ -89,8 +92,7 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   watch.lap(stats.optimise_seconds);
 }
 
-BlockMesh WindowVisitor::take(Index3 block) const {
-  if (auto stored = store_.take(block)) return std::move(*stored);
+BlockMesh WindowVisitor::start(Index3 block) const {
   const Box3 box = grid_.block_box(block);
   const Index3 around{kStartHalo, kStartHalo, kStartHalo};
   const Box3 wide{box.lo - around, box.hi + around};

@@ -43,7 +43,7 @@ class WindowVisitor {
 
  private:
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
-  [[nodiscard]] BlockMesh take(Index3 block) const;
+  [[nodiscard]] BlockMesh start(Index3 block) const;
 
   const PreparedLabels& labels_;
   const WindowGrid& grid_;

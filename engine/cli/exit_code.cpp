@@ -41,8 +41,11 @@ int guarded(const std::function<int()>& action) noexcept {
     return action();
   } catch (const Error& error) {
     return fail(exit_code(error.kind()), "", error.what());
-  } catch (const Interrupted&) {
-    return fail(kExitInterrupted, "", "interrupted; nothing was written");
+  } catch (const Interrupted& interrupted) {
+    if (interrupted.work.empty()) {
+      return fail(kExitInterrupted, "", "interrupted; nothing was written");
+    }
+    return fail(kExitSaved, "interrupted; ", interrupted.work.c_str());
   } catch (const std::bad_alloc&) {
     return fail(kExitResource, "", "out of memory; try a smaller volume or a larger machine");
   } catch (const std::length_error& error) {

@@ -15,6 +15,7 @@ inline constexpr int kExitUsage = 2;
 inline constexpr int kExitInput = 3;
 inline constexpr int kExitResource = 4;
 inline constexpr int kExitCheckFailed = 5;
+inline constexpr int kExitSaved = 75;  ///< interrupted, and --resume can go on
 inline constexpr int kExitInterrupted = 130;
 
 [[nodiscard]] int exit_code(ErrorKind kind);

@@ -8,7 +8,9 @@
 namespace mw::cli {
 
 /// Thrown by stop_if_interrupted().
-struct Interrupted {};
+struct Interrupted {
+  std::string work;  ///< where the work so far is and how to go on; empty: there is none
+};
 
 /// From now on the first SIGINT, SIGTERM or SIGHUP is only noted; a second one kills.  A signal
 /// that was ignored at the start (nohup) stays ignored.

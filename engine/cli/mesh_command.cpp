@@ -9,8 +9,10 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/fingerprint.h"
 #include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
+#include "engine/cli/machine_memory.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/run_report.h"
@@ -70,9 +72,10 @@ engine::WantedLabel wanted_labels(const MeshRequest& request, const io::LabelTab
 }
 
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
-                            MeshFiles& files) {
+                            MeshFiles& files, const engine::StoreOptions& store) {
   Progress progress(request.progress);
   engine::RunHooks hooks{.threads = request.threads};
+  hooks.store = store;
   hooks.progress = [&](std::uint64_t done, std::uint64_t total) {
     stop_if_interrupted();
     progress.show(done, total);
@@ -81,6 +84,29 @@ engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& v
   hooks.output = {.wanted = wanted_labels(request, volume.table()),
                   .measure_quality = !request.report.empty()};
   return engine::mesh_volume(volume, request.settings, files.all(), hooks);
+}
+
+/// Says where the work is when a run that ends early leaves some.
+engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume& volume,
+                               MeshFiles& files, const std::string& fingerprint) {
+  std::string work;
+  const engine::StoreOptions store{
+      .memory = request.memory.value_or(default_memory_budget()),
+      .workdir = request.workdir,
+      .resume = request.resume,
+      .identity = "version = " MW_VERSION "\nlabel fingerprint = " + fingerprint + "\n",
+      .group = {},
+      .kept = [&] {
+        work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
+      }};
+  try {
+    return mesh_into(request, volume, files, store);
+  } catch (const Interrupted&) {
+    throw Interrupted{work};
+  } catch (const Error& error) {
+    if (work.empty()) throw;
+    throw Error(error.kind(), error.what() + ("; " + work));
+  }
 }
 
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
@@ -97,6 +123,16 @@ void print_summary(const FinishedRun& run, const MeshRequest& request) {
             << "file        " << request.output.string() << std::endl;
 }
 
+void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
+  if (!request.resume) return;
+  if (facts.resumed_windows == 0) {
+    spdlog::warn("{}: no saved work to resume, started from the beginning",
+                 request.workdir.string());
+  } else {
+    spdlog::info("{} windows were done before", facts.resumed_windows);
+  }
+}
+
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   const ResourceMeter meter;
@@ -104,12 +140,14 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
   const InterruptibleVolume volume(*opened);
-  const io::LabelTable table = io::collect_labels(volume);
+  const FingerprintVolume fingerprint(volume);
+  const io::LabelTable table = io::collect_labels(fingerprint);
   FinishedRun run{.volume = volume.info(), .labels = table.size()};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
-  run.engine = mesh_into(request, io::DenseVolume(volume, table), files);
+  run.engine = mesh_or_keep(request, io::DenseVolume(volume, table), files, fingerprint.text());
   if (files.trace) files.trace->finish();
+  tell_resume(request, run.engine.store);
   run.resources = meter.read();
   print_summary(run, request);
   if (files.report) {

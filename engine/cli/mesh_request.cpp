@@ -178,18 +178,20 @@ void add_resource_options(OptionSet& options, MeshRequest& request) {
                .assign = [&](const std::string& text) { request.threads = parse_threads(text); }});
   options.add({.name = "memory",
                .value = "SIZE",
-               .help = "hard budget for the process, e.g. 512MiB",
+               .help = "hard budget for the process, e.g. 512MiB [half of the machine's memory]",
                .kind = ValueKind::kSize,
-               .today = ""});
+               .assign = [&](const std::string& text) {
+                 if (!text.empty()) request.memory = parse_size(text);
+               }});
   options.add({.name = "workdir",
                .value = "DIR",
-               .help = "folder of the block store and journal",
-               .today = ""});
+               .help = "folder of the block store and journal, removed after success [OUTPUT.work]",
+               .assign = [&](const std::string& text) { request.workdir = text; }});
   options.add({.name = "resume",
-               .help = "go on after a kill",
+               .help = "go on from the work that a run left when it was killed or interrupted",
                .kind = ValueKind::kSwitch,
                .fallback = "false",
-               .today = "false"});
+               .assign = [&](const std::string& text) { request.resume = parse_switch(text); }});
   add_setting(options, request,
               {.name = "order",
                .value = "ORDER",
@@ -272,8 +274,9 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
   add_output_options(options, request);
 }
 
-void check_mesh_request(const MeshRequest& request) {
+void check_mesh_request(MeshRequest& request) {
   require_path(request.output, "-o OUTPUT");
+  if (request.workdir.empty()) request.workdir = request.output.string() + ".work";
   (void)open_options(request.volume);
   if (request.labels && request.background) {
     throw Error(ErrorKind::kUsage, "--labels and --background: give one of them, not both");

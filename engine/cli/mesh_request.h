@@ -16,6 +16,9 @@ struct MeshRequest {
   std::filesystem::path trace;   ///< empty: none
   engine::MeshSettings settings;
   int threads = 0;                              ///< 0: all cores
+  std::optional<std::uint64_t> memory;  ///< bytes; none: default_memory_budget()
+  std::filesystem::path workdir;        ///< after check_mesh_request() never empty
+  bool resume = false;
   std::optional<std::vector<RawLabel>> labels;  ///< the only ones to write
   std::optional<RawLabel> background;           ///< the one not to write
   ProgressKind progress = ProgressKind::kNone;
@@ -26,7 +29,8 @@ struct MeshRequest {
 /// REQUIRES: request outlives options.
 void add_mesh_options(OptionSet& options, MeshRequest& request);
 
+/// Fills in what follows from other values.
 /// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other.
-void check_mesh_request(const MeshRequest& request);
+void check_mesh_request(MeshRequest& request);
 
 }  // namespace mw::cli

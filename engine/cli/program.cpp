@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kAbout =
     "From a labelled voxel volume to a verified tetrahedral mesh.\n"
     "Exit codes: 0 done, 1 internal error, 2 usage or config, 3 bad input, 4 out of a resource,\n"
-    "5 a check failed, 130 interrupted.";
+    "5 a check failed, 75 interrupted and --resume can go on, 130 interrupted.";
 
 void add_commands(CLI::App& app, Action& chosen) {
   add_mesh_command(app, chosen);

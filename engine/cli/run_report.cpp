@@ -49,10 +49,15 @@ ordered_json performance_json(const FinishedRun& run) {
 }
 
 ordered_json engine_json(const FinishedRun& run) {
-  return {{"windows", run.engine.windows},  {"threads", run.engine.threads},
-          {"memory_budget_bytes", nullptr}, {"peak_accounted_bytes", nullptr},
-          {"blocks_spilled", nullptr},      {"bytes_written", nullptr},
-          {"bytes_read", nullptr}};
+  const engine::StoreFacts& store = run.engine.store;
+  return {{"windows", run.engine.windows},
+          {"windows_resumed", store.resumed_windows},
+          {"threads", run.engine.threads},
+          {"memory_budget_bytes", run.engine.memory_budget_bytes},
+          {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
+          {"blocks_spilled", store.blocks_spilled},
+          {"bytes_written", store.bytes_written},
+          {"bytes_read", store.bytes_read}};
 }
 
 }  // namespace

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Memory and disk of blocks; eviction by next use (Belady), which the march order tells.
+#include "engine/store/block_table.h"
+
+#include <iterator>
+#include <utility>
+
+#include "engine/store/block_layout.h"
+#include "io/file/byte_order.h"
+#include "io/file/errors.h"
+#include "kernels/core/assert.h"
+
+namespace mw::engine {
+
+BlockTable::BlockTable(const RunLayout& layout, const DoneWindows& done, SegmentFile* disk)
+    : layout_(layout), done_(done), disk_(disk), blocks_(layout.slots()) {}
+
+BlockTable::Turn BlockTable::turn(std::uint64_t slot) const {
+  return {layout_.next_use(layout_.key(slot), done_), slot};
+}
+
+void BlockTable::remove(std::uint64_t slot) {
+  StoredBlock& block = blocks_[slot];
+  if (block.cached != nullptr) cached_.erase(turn(slot));
+  if (block.size > 0 && block.recorded) retired_.push_back(block.extent());
+  if (block.size > 0 && !block.recorded) disk_->release(block.extent());
+  block = {};
+}
+
+void BlockTable::put(std::uint64_t slot, BlockPin pin) {
+  StoredBlock& block = blocks_[slot];
+  MW_ASSERT(block.empty());
+  block.sum = sum_of(pin->bytes);
+  block.memory_kib = static_cast<std::uint32_t>((pin->memory_bytes + 1023) / 1024);
+  block.cached = std::move(pin);
+  cached_.insert(turn(slot));
+}
+
+void BlockTable::restore(const JournalBlock& from) {
+  blocks_[from.slot] = {.cached = nullptr,
+                        .offset = from.extent.offset,
+                        .size = static_cast<std::uint32_t>(from.extent.size),
+                        .sum = from.sum,
+                        .memory_kib = static_cast<std::uint32_t>(from.memory_bytes / 1024),
+                        .recorded = true};
+  const BlockKey key = layout_.key(from.slot);
+  if (key.march == 0) return;
+  for (const BlockKey& part : layout_.parts(key)) blocks_[layout_.slot(part)] = {};
+}
+
+void BlockTable::take_extents() {
+  for (std::uint64_t slot = 0; slot < blocks_.size(); ++slot) {
+    const StoredBlock& block = blocks_[slot];
+    if (block.size == 0 || disk_->take(block.extent())) continue;
+    io::fail_input(name(layout_.key(slot)), "corrupt", "the journal points to where it cannot be",
+                   "delete the work folder and start again");
+  }
+}
+
+void BlockTable::write(StoredBlock& block) {
+  if (block.size > 0) return;
+  const Extent extent = disk_->write(block.cached->bytes);
+  block.offset = extent.offset;
+  block.size = static_cast<std::uint32_t>(extent.size);
+  bytes_written_ += extent.size;
+}
+
+bool BlockTable::evict_one() {
+  if (disk_ == nullptr || cached_.empty()) return false;
+  const auto last = std::prev(cached_.end());
+  StoredBlock& block = blocks_[last->second];
+  if (block.size == 0) ++evicted_;
+  write(block);
+  block.cached = nullptr;
+  cached_.erase(last);
+  return true;
+}
+
+JournalBlock BlockTable::record(std::uint64_t slot) {
+  StoredBlock& block = blocks_[slot];
+  MW_ASSERT(!block.empty());
+  write(block);
+  block.recorded = true;
+  return {slot, block.extent(), block.sum, std::uint64_t{block.memory_kib} * 1024};
+}
+
+std::uint64_t index_bytes(const RunLayout& layout) {
+  return layout.slots() * sizeof(StoredBlock) + layout.windows() / 8;
+}
+
+std::uint32_t sum_of(std::span<const std::byte> encoded) {
+  return io::load<std::uint32_t>(encoded.data() + kBlockSumAt, io::ByteOrder::kLittle);
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The journal: which windows are done and where their blocks are, in records that count or do not.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/store/extent_allocator.h"
+#include "engine/store/work_file.h"
+
+namespace mw::engine {
+
+/// Where a block's bytes are.
+struct JournalBlock {
+  std::uint64_t slot = 0;  ///< RunLayout::slot
+  Extent extent;
+  std::uint32_t sum = 0;           ///< io::checksum of the bytes
+  std::uint64_t memory_bytes = 0;  ///< of the block, decoded
+
+  friend bool operator==(const JournalBlock&, const JournalBlock&) = default;
+};
+
+/// A group of windows whose results become visible together: the blocks as they are after all of
+/// them.  A block listed replaces what earlier records say of it; a block of a later march that is
+/// listed for the first time replaces its parts, too.
+struct JournalRecord {
+  std::vector<std::uint64_t> windows;  ///< RunLayout::window
+  std::vector<JournalBlock> blocks;
+
+  friend bool operator==(const JournalRecord&, const JournalRecord&) = default;
+};
+
+/// An append-only file.  All numbers little-endian; "var" is a varint (engine/store/byte_codes.h).
+///
+///     offset  size  what
+///     0       8     "MWJRNL" and the version of this layout, 0 1
+///     8       -     records, one after the other, then zeros up to the end of the file
+///     record: 4     length of its body in bytes, more than 0
+///             4     CRC-32 of the body
+///             -     body: number of the record var (0, 1, ...)
+///                   windows var; their numbers var
+///                   blocks var; for each slot, offset, size, checksum, decoded size, all var
+///
+/// A record that is cut off, or whose checksum or number is wrong, ends the journal: it and what
+/// follows never happened.
+class Journal {
+ public:
+  /// Opens a journal, or begins one in an empty file.
+  /// ERRORS: mw::Error(kInput) when the file is something else; those of WorkFile.
+  explicit Journal(std::unique_ptr<WorkFile> file);
+
+  /// Calls `use` for every whole record, in order, and cuts off the rest.
+  void replay(const std::function<void(const JournalRecord&)>& use);
+  /// ENSURES: on return the record survives a power cut.
+  /// REQUIRES: replay() was called; what the record points to has been synced.
+  void append(const JournalRecord& record);
+
+  /// Number of whole records; after replay().
+  [[nodiscard]] std::uint64_t records() const { return records_; }
+
+ private:
+  void begin();
+  void make_room(std::uint64_t size);
+  /// The record at end_, and moves end_ behind it; false at the end of the journal.
+  bool read_next(JournalRecord& record);
+
+  std::unique_ptr<WorkFile> file_;
+  std::uint64_t end_ = 0;
+  std::uint64_t records_ = 0;
+};
+
+}  // namespace mw::engine

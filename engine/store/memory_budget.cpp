@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sums and peaks under one lock; reservations are few and large.
+#include "engine/store/memory_budget.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kernels/core/assert.h"
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+namespace {
+
+std::size_t place(Purpose purpose) {
+  return static_cast<std::size_t>(purpose);
+}
+
+}  // namespace
+
+MemoryBudget::Reservation::Reservation(Reservation&& other) noexcept
+    : budget_(std::exchange(other.budget_, nullptr)),
+      purpose_(other.purpose_),
+      bytes_(std::exchange(other.bytes_, 0)) {}
+
+MemoryBudget::Reservation& MemoryBudget::Reservation::operator=(Reservation&& other) noexcept {
+  Reservation taken(std::move(other));
+  std::swap(budget_, taken.budget_);
+  std::swap(purpose_, taken.purpose_);
+  std::swap(bytes_, taken.bytes_);
+  return *this;
+}
+
+MemoryBudget::Reservation::~Reservation() {
+  if (budget_ != nullptr) budget_->release(purpose_, bytes_);
+}
+
+void MemoryBudget::Account::add(std::uint64_t bytes) {
+  used += bytes;
+  peak = std::max(peak, used);
+}
+
+std::optional<MemoryBudget::Reservation> MemoryBudget::try_reserve(Purpose purpose,
+                                                                   std::uint64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (bytes > limit_ - total_.used) return std::nullopt;
+  total_.add(bytes);
+  accounts_[place(purpose)].add(bytes);
+  return Reservation(*this, purpose, bytes);
+}
+
+MemoryBudget::Reservation MemoryBudget::reserve(Purpose purpose, std::uint64_t bytes) {
+  std::optional<Reservation> reserved = try_reserve(purpose, bytes);
+  if (!reserved) fail(bytes);
+  return std::move(*reserved);
+}
+
+MemoryBudget::Reservation MemoryBudget::carve(Reservation& from, Purpose purpose,
+                                              std::uint64_t bytes) {
+  MW_ASSERT(from.budget_ == this && from.bytes_ >= bytes);
+  const std::lock_guard lock(mutex_);
+  accounts_[place(from.purpose_)].used -= bytes;
+  accounts_[place(purpose)].add(bytes);
+  from.bytes_ -= bytes;
+  return {*this, purpose, bytes};
+}
+
+void MemoryBudget::release(Purpose purpose, std::uint64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  MW_ASSERT(accounts_[place(purpose)].used >= bytes);
+  total_.used -= bytes;
+  accounts_[place(purpose)].used -= bytes;
+}
+
+std::uint64_t MemoryBudget::least_with(std::uint64_t bytes) const {
+  const std::lock_guard lock(mutex_);
+  return total_.used - accounts_[place(Purpose::kBlocks)].used + bytes;
+}
+
+void MemoryBudget::fail(std::uint64_t bytes) const {
+  throw Error(ErrorKind::kResource, "a memory budget of " + std::to_string(limit_) +
+                                        " bytes is too small; the least that works is --memory " +
+                                        mebibytes(least_with(bytes)));
+}
+
+std::uint64_t MemoryBudget::used() const {
+  const std::lock_guard lock(mutex_);
+  return total_.used;
+}
+
+std::uint64_t MemoryBudget::used(Purpose purpose) const {
+  const std::lock_guard lock(mutex_);
+  return accounts_[place(purpose)].used;
+}
+
+std::uint64_t MemoryBudget::peak() const {
+  const std::lock_guard lock(mutex_);
+  return total_.peak;
+}
+
+std::uint64_t MemoryBudget::peak(Purpose purpose) const {
+  const std::lock_guard lock(mutex_);
+  return accounts_[place(purpose)].peak;
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+  constexpr std::uint64_t kMebibyte = 1 << 20;
+  return std::to_string(bytes / kMebibyte + (bytes % kMebibyte != 0 ? 1 : 0)) + "MiB";
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// One budget in bytes for everything the process holds, accounted by purpose.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace mw::engine {
+
+enum class Purpose {
+  kProgram,  ///< code, stacks, the allocator's slack, the pages of the work folder being written
+  kIndex,    ///< where blocks are, which windows are done
+  kBlocks,   ///< encoded blocks in memory; they can be spilled to make room
+  kWindows,  ///< windows in flight, pages that they map to read their blocks among them
+  kOutput,   ///< what the writing of the mesh needs
+};
+inline constexpr std::size_t kPurposes = 5;
+
+/// Thread safety: all members, and reservations of one budget, may be used from many threads.
+class MemoryBudget {
+ public:
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+  /// A part of the budget, given back by the destructor.  The budget outlives it.
+  class Reservation {
+   public:
+    Reservation() = default;
+    Reservation(Reservation&& other) noexcept;
+    Reservation& operator=(Reservation&& other) noexcept;
+    ~Reservation();
+
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+   private:
+    friend class MemoryBudget;
+    Reservation(MemoryBudget& budget, Purpose purpose, std::uint64_t bytes)
+        : budget_(&budget), purpose_(purpose), bytes_(bytes) {}
+
+    MemoryBudget* budget_ = nullptr;
+    Purpose purpose_ = Purpose::kProgram;
+    std::uint64_t bytes_ = 0;
+  };
+
+  explicit MemoryBudget(std::uint64_t limit = kUnlimited) : limit_(limit) {}
+  MemoryBudget(const MemoryBudget&) = delete;
+  MemoryBudget& operator=(const MemoryBudget&) = delete;
+
+  /// Nothing when it would exceed the limit.
+  [[nodiscard]] std::optional<Reservation> try_reserve(Purpose purpose, std::uint64_t bytes);
+  /// ERRORS: as fail() when it would exceed the limit.
+  [[nodiscard]] Reservation reserve(Purpose purpose, std::uint64_t bytes);
+
+  /// Moves bytes from one reservation to a new one, for another purpose; the sum stays.
+  /// REQUIRES: from is of this budget and holds that many.
+  [[nodiscard]] Reservation carve(Reservation& from, Purpose purpose, std::uint64_t bytes);
+
+  /// The smallest limit under which `bytes` could be reserved now, blocks all spilled.
+  [[nodiscard]] std::uint64_t least_with(std::uint64_t bytes) const;
+  /// ERRORS: mw::Error(kResource) with the limit and least_with(bytes).
+  [[noreturn]] void fail(std::uint64_t bytes) const;
+
+  [[nodiscard]] std::uint64_t limit() const { return limit_; }
+  [[nodiscard]] std::uint64_t used() const;
+  [[nodiscard]] std::uint64_t used(Purpose purpose) const;
+  [[nodiscard]] std::uint64_t peak() const;
+  [[nodiscard]] std::uint64_t peak(Purpose purpose) const;
+
+ private:
+  struct Account {
+    std::uint64_t used = 0;
+    std::uint64_t peak = 0;
+
+    void add(std::uint64_t bytes);
+  };
+
+  void release(Purpose purpose, std::uint64_t bytes);
+
+  const std::uint64_t limit_;
+  mutable std::mutex mutex_;
+  Account total_;
+  std::array<Account, kPurposes> accounts_;
+};
+
+/// "97MiB", rounded up: a value for --memory.
+[[nodiscard]] std::string mebibytes(std::uint64_t bytes);
+
+}  // namespace mw::engine

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Settings to lines of text.
+#include "engine/store/run_identity.h"
+
+#include <array>
+#include <charconv>
+#include <optional>
+
+#include "io/file/errors.h"
+
+namespace mw::engine {
+namespace {
+
+/// The shortest text that reads back as the same number.
+std::string number(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string number(const std::optional<double>& value) {
+  return value ? number(*value) : "none";
+}
+
+std::string triple(const std::array<double, 3>& v) {
+  return number(v[0]) + "," + number(v[1]) + "," + number(v[2]);
+}
+
+const char* start_name(StartMesh start) {
+  return start == StartMesh::kCoarse ? "coarse" : start == StartMesh::kOctree ? "octree" : "dense";
+}
+
+}  // namespace
+
+std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& s) {
+  const Index3 shape = volume.shape;
+  return io::text("shape = ", shape.x, ",", shape.y, ",", shape.z, "\n",              //
+                  "type = ", io::name(volume.type), "\n",                             //
+                  "spacing = ", triple(volume.spacing), "\n",                         //
+                  "origin = ", triple(volume.origin), "\n",                           //
+                  "window = ", s.window, "\n",                                        //
+                  "marches = ", s.marches, "\n",                                      //
+                  "order = ", s.order == Order::kColour ? "colour" : "raster", "\n",  //
+                  "start = ", start_name(s.start), "\n",                              //
+                  "topology = ", s.topology == KeptTopology::kInterfaces ? "interfaces" : "labels",
+                  "\n",                                                     //
+                  "edge-variance = ", number(s.edge_variance), "\n",        //
+                  "quality-floor = ", number(s.quality_floor), "\n",        //
+                  "max-distance = ", number(s.max_distance), "\n",          //
+                  "target-reduction = ", number(s.target_reduction), "\n",  //
+                  "optimizer = ", s.optimise ? "local" : "none", "\n");
+}
+
+}  // namespace mw::engine

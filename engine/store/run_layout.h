@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// All marches of a run: numbers for their blocks and windows, and when a block is needed next.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/settings.h"
+#include "engine/store/block_codec.h"
+#include "engine/window_grid.h"
+
+namespace mw::engine {
+
+/// A window of a run.
+struct WindowKey {
+  std::uint32_t march = 0;
+  Index3 window;
+};
+
+/// Windows that are finished, by number.  Thread safety: none.
+class DoneWindows {
+ public:
+  explicit DoneWindows(std::uint64_t windows) : done_(windows, false) {}
+
+  [[nodiscard]] bool contains(std::uint64_t window) const { return done_[window]; }
+  void insert(std::uint64_t window) {
+    if (!done_[window]) ++count_;
+    done_[window] = true;
+  }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+ private:
+  std::vector<bool> done_;
+  std::uint64_t count_ = 0;
+};
+
+/// Numbers ("slots") of all blocks and windows of a run, march by march, x fastest.
+///
+/// A block of a later march takes the place of up to 2 x 2 x 2 blocks of the march before, its
+/// parts: march i has blocks of 2^i times the first one's edge.
+class RunLayout {
+ public:
+  /// REQUIRES: at least one grid, each with blocks of twice the edge of the one before.
+  explicit RunLayout(std::vector<WindowGrid> grids, Order order = Order::kRaster);
+
+  [[nodiscard]] const WindowGrid& grid(std::uint32_t march) const { return grids_[march]; }
+  [[nodiscard]] std::uint32_t marches() const { return static_cast<std::uint32_t>(grids_.size()); }
+  [[nodiscard]] std::uint64_t slots() const { return first_slot_.back(); }
+  [[nodiscard]] std::uint64_t windows() const { return first_window_.back(); }
+
+  [[nodiscard]] std::uint64_t slot(const BlockKey& key) const;
+  [[nodiscard]] BlockKey key(std::uint64_t slot) const;
+  [[nodiscard]] std::uint64_t window(const WindowKey& key) const;
+
+  /// REQUIRES: key.march > 0.
+  [[nodiscard]] std::vector<BlockKey> parts(const BlockKey& key) const;
+
+  /// A point on the run's time line: the first window that is not done and covers the block or
+  /// what it becomes a part of; past all marches, its turn in the output.
+  [[nodiscard]] std::uint64_t next_use(const BlockKey& key, const DoneWindows& done) const;
+
+ private:
+  [[nodiscard]] std::optional<std::uint64_t> next_window(const BlockKey& key,
+                                                         const DoneWindows& done) const;
+
+  std::vector<WindowGrid> grids_;
+  Order order_;
+  std::vector<std::uint64_t> first_slot_;    ///< of each march, then their number
+  std::vector<std::uint64_t> first_window_;  ///< of each march, then their number
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Windows take and commit; memory makes room.
+#include "engine/store/run_store.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/store/workdir.h"
+#include "engine/window.h"
+#include "io/file/errors.h"
+#include "kernels/core/assert.h"
+
+namespace mw::engine {
+namespace {
+
+std::unique_ptr<SegmentFile> open_disk(WorkFiles* files) {
+  if (files == nullptr) return nullptr;
+  return std::make_unique<SegmentFile>(files->open(kBlocksFile));
+}
+
+}  // namespace
+
+/// Where a block, or one of its parts, is; `cached` is a pin.
+struct RunStore::Source {
+  BlockKey key;
+  BlockPin cached;
+  Extent extent;
+  std::uint32_t sum = 0;
+};
+
+/// What one march sees.
+class RunStore::March : public BlockStore {
+ public:
+  March(RunStore& run, std::uint32_t march) : run_(run), march_(march) {}
+
+  [[nodiscard]] bool admit(Index3 window, std::uint64_t bytes) override {
+    return run_.admit({march_, window}, bytes);
+  }
+  [[nodiscard]] std::vector<std::optional<BlockMesh>> take(Index3 window) override {
+    // The next of its row cannot start before this one has ended, and will right then.
+    run_.prefetch({march_, window + Index3{1, 0, 0}});
+    return run_.take({march_, window});
+  }
+  void commit(Index3 window, std::vector<BlockMesh> blocks) override {
+    run_.commit({march_, window}, std::move(blocks));
+  }
+  [[nodiscard]] BlockMesh load(Index3 block) const override { return run_.load({march_, block}); }
+  [[nodiscard]] bool is_done(Index3 window) const override {
+    return run_.is_done({march_, window});
+  }
+  [[nodiscard]] std::uint64_t taken_bytes(Index3 window) const override {
+    return run_.memory_bytes_of(run_.blocks_of({march_, window}));
+  }
+  [[nodiscard]] std::uint64_t loaded_bytes(Index3 block) const override {
+    const BlockKey key{march_, block};
+    return run_.memory_bytes_of({&key, 1});
+  }
+
+ private:
+  RunStore& run_;
+  std::uint32_t march_;
+};
+
+RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* files,
+                   const GroupCommit& group)
+    : layout_(layout),
+      budget_(budget),
+      limits_(group),
+      index_room_(budget.reserve(Purpose::kIndex, index_bytes(layout))),
+      done_(layout.windows()),
+      disk_(open_disk(files)),
+      table_(layout, done_, disk_.get()) {
+  for (std::uint32_t m = 0; m < layout.marches(); ++m) {
+    marches_.push_back(std::make_unique<March>(*this, m));
+  }
+  if (files == nullptr) return;
+  journal_ = std::make_unique<Journal>(files->open(kJournalFile));
+  restore();
+}
+
+RunStore::~RunStore() = default;
+
+void RunStore::restore() {
+  journal_->replay([&](const JournalRecord& record) {
+    for (const JournalBlock& block : record.blocks) {
+      if (block.slot >= layout_.slots()) throw Error(ErrorKind::kInput, "journal: corrupt");
+      table_.restore(block);
+    }
+    for (std::uint64_t window : record.windows) {
+      if (window >= layout_.windows()) throw Error(ErrorKind::kInput, "journal: corrupt");
+      done_.insert(window);
+    }
+  });
+  table_.take_extents();
+  resumed_windows_ = done_.count();
+}
+
+BlockStore& RunStore::march(std::uint32_t march) {
+  return *marches_[march];
+}
+
+std::vector<BlockKey> RunStore::blocks_of(const WindowKey& key) const {
+  std::vector<BlockKey> out;
+  for (Index3 block : layout_.grid(key.march).blocks_of(key.window)) {
+    out.push_back({key.march, block});
+  }
+  return out;
+}
+
+void RunStore::find(const BlockKey& key, std::vector<Source>& out) const {
+  const StoredBlock& block = table_.at(layout_.slot(key));
+  if (!block.empty()) {
+    out.push_back({key, block.cached, block.extent(), block.sum});
+  } else if (key.march > 0) {
+    for (const BlockKey& part : layout_.parts(key)) find(part, out);
+  }
+}
+
+BlockMesh RunStore::read(const Source& source) const {
+  if (source.cached != nullptr) return decode_block(source.key, source.cached->bytes);
+  BlockMesh mesh;
+  disk_->read(source.extent, [&](std::span<const std::byte> bytes) {
+    if (bytes.size() < 8 || sum_of(bytes) != source.sum) {
+      io::fail_input(name(source.key), "corrupt", "these are not the bytes that were written",
+                     "the disk or the work folder is damaged: delete the folder and start again");
+    }
+    mesh = decode_block(source.key, bytes);
+  });
+  bytes_read_ += source.extent.size;
+  return mesh;
+}
+
+std::optional<BlockMesh> RunStore::assemble(const std::vector<Source>& sources) const {
+  if (sources.empty()) return std::nullopt;
+  if (sources.size() == 1) return read(sources.front());
+  std::vector<BlockMesh> parts;
+  for (const Source& source : sources) parts.push_back(read(source));
+  return merge(parts);
+}
+
+std::vector<std::optional<BlockMesh>> RunStore::take(const WindowKey& key) const {
+  std::vector<std::vector<Source>> sources;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const BlockKey& block : blocks_of(key)) find(block, sources.emplace_back());
+  }
+  std::vector<std::optional<BlockMesh>> out;
+  for (const auto& of_block : sources) out.push_back(assemble(of_block));
+  return out;
+}
+
+BlockMesh RunStore::load(const BlockKey& key) const {
+  std::vector<Source> sources;
+  {
+    const std::lock_guard lock(mutex_);
+    find(key, sources);
+  }
+  MW_ASSERT(!sources.empty());
+  return assemble(sources).value();
+}
+
+bool RunStore::is_done(const WindowKey& key) const {
+  const std::lock_guard lock(mutex_);
+  return done_.contains(layout_.window(key));
+}
+
+std::uint64_t RunStore::memory_bytes_of(std::span<const BlockKey> keys) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Source> sources;
+  for (const BlockKey& key : keys) find(key, sources);
+  std::uint64_t sum = 0;
+  for (const Source& s : sources) {
+    sum += std::uint64_t{table_.at(layout_.slot(s.key)).memory_kib} * 1024;
+  }
+  return sum;
+}
+
+void RunStore::prefetch(const WindowKey& key) const {
+  if (disk_ == nullptr || key.window.x >= layout_.grid(key.march).windows().x) return;
+  std::vector<Source> sources;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const BlockKey& block : blocks_of(key)) find(block, sources);
+  }
+  for (const Source& s : sources) {
+    if (s.cached == nullptr) disk_->prefetch(s.extent);
+  }
+}
+
+std::optional<MemoryBudget::Reservation> RunStore::try_reserve(Purpose purpose,
+                                                               std::uint64_t bytes) {
+  if (budget_.least_with(bytes) > budget_.limit()) return std::nullopt;
+  for (;;) {
+    if (auto reserved = budget_.try_reserve(purpose, bytes)) return reserved;
+    const std::lock_guard lock(mutex_);
+    if (!table_.evict_one()) return std::nullopt;
+  }
+}
+
+MemoryBudget::Reservation RunStore::reserve(Purpose purpose, std::uint64_t bytes) {
+  auto reserved = try_reserve(purpose, bytes);
+  if (!reserved) budget_.fail(bytes);
+  return std::move(*reserved);
+}
+
+BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh,
+                          MemoryBudget::Reservation& room) {
+  auto block = std::make_shared<EncodedBlock>();
+  block->bytes = encode_block(key, mesh);
+  block->memory_bytes = memory_bytes(mesh);
+  const std::uint64_t bytes = block->bytes.size() + sizeof(EncodedBlock);
+  block->room = room.bytes() >= bytes ? budget_.carve(room, Purpose::kBlocks, bytes)
+                                      : reserve(Purpose::kBlocks, bytes);
+  return block;
+}
+
+bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
+  auto room = try_reserve(Purpose::kWindows, bytes);
+  const std::lock_guard lock(mutex_);
+  if (!room && in_flight_.empty()) budget_.fail(bytes);
+  if (!room) return false;
+  in_flight_.emplace(layout_.window(key), std::move(*room));
+  return true;
+}
+
+void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
+  const std::vector<BlockKey> keys = blocks_of(key);
+  MW_ASSERT(blocks.size() == keys.size());
+  MemoryBudget::Reservation room;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto admitted = in_flight_.find(layout_.window(key));
+    if (admitted != in_flight_.end()) room = std::move(admitted->second);
+  }
+  std::vector<BlockPin> pins;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    pins.push_back(encode(keys[i], blocks[i], room));
+    blocks[i] = {};
+  }
+  room = {};
+  bool full = false;
+  {
+    const std::lock_guard lock(mutex_);
+    replace(key, keys, std::move(pins));
+    in_flight_.erase(layout_.window(key));  // now all that it held can be spilled
+    full = group_is_full();
+  }
+  if (!full) return;
+  const std::unique_lock turn(saving_, std::try_to_lock);  // else another thread is at it
+  if (turn.owns_lock()) write_group();
+}
+
+/// The blocks leave the table under their old turns, the window is done, they enter it again.
+void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
+                       std::vector<BlockPin> pins) {
+  std::vector<std::uint64_t> slots;
+  for (const BlockKey& block : blocks) {
+    slots.push_back(layout_.slot(block));
+    if (block.march > 0 && table_.at(slots.back()).empty()) {
+      for (const BlockKey& part : layout_.parts(block)) table_.remove(layout_.slot(part));
+    }
+    table_.remove(slots.back());
+  }
+  done_.insert(layout_.window(key));
+  for (std::size_t i = 0; i < slots.size(); ++i) table_.put(slots[i], std::move(pins[i]));
+  if (journal_ == nullptr) return;
+  group_.windows.push_back(layout_.window(key));
+  group_.slots.insert(group_.slots.end(), slots.begin(), slots.end());
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The blocks of a whole run under one memory budget, and what of them survives a kill.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <mutex>
+
+#include "engine/block_store.h"
+#include "engine/store/block_table.h"
+
+namespace mw::engine {
+
+/// When finished windows become durable: a group at a time.  The result does not depend on it.
+struct GroupCommit {
+  std::uint64_t windows = 1 << 14;        ///< at most so many in a group
+  std::chrono::milliseconds age{10'000};  ///< at most so long after the group before
+};
+
+struct StoreFacts {
+  std::uint64_t blocks_spilled = 0;  ///< written to make room
+  std::uint64_t bytes_written = 0;
+  std::uint64_t bytes_read = 0;
+  std::uint64_t resumed_windows = 0;  ///< done when the run began
+};
+
+/// Keeps encoded blocks in memory as long as the budget allows, those that are needed last leave
+/// first.  With a work folder they go to disk, and groups of finished windows become durable
+/// together: first the blocks, then the one record that names them.  Without, everything stays in
+/// memory.
+///
+/// A block of a later march that no window has committed yet is made of its parts when it is taken;
+/// they are forgotten when its first window commits.
+///
+/// Thread safety: as BlockStore.  Encoding, decoding and syncing happen outside the lock.
+class RunStore {
+ public:
+  /// Goes on from what the journal among `files` holds.
+  /// REQUIRES: layout, budget and files (null: none) outlive it.
+  /// ERRORS: mw::Error(kResource) when the index alone exceeds the budget; kInput when the journal
+  /// is damaged.
+  RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* files,
+           const GroupCommit& group = {});
+  ~RunStore();
+
+  /// The store as the windows of one march see it.  It lives as long as this.
+  [[nodiscard]] BlockStore& march(std::uint32_t march);
+
+  /// Spills blocks until the reservation fits; nothing when it does not fit then.
+  [[nodiscard]] std::optional<MemoryBudget::Reservation> try_reserve(Purpose purpose,
+                                                                     std::uint64_t bytes);
+  /// The same.  ERRORS: mw::Error(kResource) with the least that works.
+  [[nodiscard]] MemoryBudget::Reservation reserve(Purpose purpose, std::uint64_t bytes);
+
+  /// Makes durable what is finished.  ENSURES: nothing happens without a work folder, or after an
+  /// error in an earlier group.
+  void save();
+  /// Whether there is anything to go on from after this run.
+  [[nodiscard]] bool has_saved_work() const;
+
+  [[nodiscard]] StoreFacts facts() const;
+
+ private:
+  class March;
+  struct Source;
+  struct Group {
+    std::vector<std::uint64_t> windows;
+    std::vector<std::uint64_t> slots;
+  };
+
+  [[nodiscard]] bool admit(const WindowKey& key, std::uint64_t bytes);
+  [[nodiscard]] std::vector<std::optional<BlockMesh>> take(const WindowKey& key) const;
+  void commit(const WindowKey& key, std::vector<BlockMesh> blocks);
+  [[nodiscard]] BlockMesh load(const BlockKey& key) const;
+  [[nodiscard]] bool is_done(const WindowKey& key) const;
+  [[nodiscard]] std::uint64_t memory_bytes_of(std::span<const BlockKey> keys) const;
+  void prefetch(const WindowKey& key) const;
+
+  [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
+  void restore();
+  /// Where the block is: itself, or its parts.  REQUIRES: locked.
+  void find(const BlockKey& key, std::vector<Source>& out) const;
+  [[nodiscard]] BlockMesh read(const Source& source) const;
+  [[nodiscard]] std::optional<BlockMesh> assemble(const std::vector<Source>& sources) const;
+  /// Its memory comes out of `room` if it fits there.
+  [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh,
+                                MemoryBudget::Reservation& room);
+  void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin> pins);
+  [[nodiscard]] bool group_is_full() const;
+  void write_group();
+  [[nodiscard]] JournalRecord close_group(std::vector<Extent>& retired);
+
+  using Clock = std::chrono::steady_clock;
+
+  const RunLayout& layout_;
+  MemoryBudget& budget_;
+  const GroupCommit limits_;
+  MemoryBudget::Reservation index_room_;
+  std::vector<std::unique_ptr<March>> marches_;
+
+  mutable std::mutex mutex_;  ///< guards the next lines
+  DoneWindows done_;
+  std::unique_ptr<SegmentFile> disk_;
+  BlockTable table_;
+  std::map<std::uint64_t, MemoryBudget::Reservation> in_flight_;  ///< by window
+  Group group_;
+  Clock::time_point group_since_ = Clock::now();
+
+  std::mutex saving_;  ///< taken before mutex_; guards the journal
+  std::unique_ptr<Journal> journal_;
+  std::atomic<bool> broken_ = false;  ///< a group could not be written; no other may follow
+  std::uint64_t resumed_windows_ = 0;
+  mutable std::atomic<std::uint64_t> bytes_read_ = 0;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// --memory, --workdir and --resume as a user meets them.
+#include <nlohmann/json.hpp>
+
+#include "tests/engine/cli/run_program.h"
+
+namespace mw::cli {
+namespace {
+
+using nlohmann::json;
+
+class ResumeProgramTest : public ProgramTest {
+ protected:
+  /// n.npy, whose mesh takes a few seconds.
+  void make_noise() const {
+    expect_done("synth noise --shape 30,30,30 --labels 3 --seed 1 -o n.npy");
+  }
+
+  /// A run that is interrupted after a while and leaves its work.
+  void interrupt(const std::string& arguments, const std::string& workdir) const {
+    const ProgramRun stopped = run("mesh n.npy -o n.vtu --window 8 " + arguments,
+                                   "timeout --foreground --preserve-status -s TERM 0.6");
+    EXPECT_EQ(stopped.code, 75) << stopped.err;
+    EXPECT_NE(stopped.err.find("the work so far is in " + workdir), std::string::npos);
+    EXPECT_TRUE(files().contains(workdir)) << stopped.err;
+    EXPECT_FALSE(files().contains("n.vtu"));
+  }
+};
+
+TEST_F(ResumeProgramTest, EndsWith75AndGoesOnToTheSameMesh) {
+  make_noise();
+  expect_done("mesh n.npy -o whole.vtu --window 8");
+  interrupt("", "n.vtu.work");
+  const std::string mesh = "mesh n.npy -o n.vtu ";
+  expect_failure(2, mesh + "--window 8", "add --resume to go on");
+  expect_failure(2, mesh + "--window 10 --resume", "window was 8 and is 10");
+  expect_done("synth noise --shape 30,30,30 --labels 3 --seed 2 -o other.npy");
+  expect_failure(2, "mesh other.npy -o n.vtu --window 8 --resume", "label fingerprint was");
+  expect_done(mesh + "--window 8 --resume --report r.json");
+  const json r = json::parse(read("r.json"));
+  EXPECT_GT(r["engine"]["windows_resumed"], 0);
+  EXPECT_GT(r["engine"]["bytes_read"], 0);
+  EXPECT_EQ(read("n.vtu"), read("whole.vtu"));
+  EXPECT_FALSE(files().contains("n.vtu.work"));
+}
+
+TEST_F(ResumeProgramTest, WorksInTheFolderThatIsGiven) {
+  make_noise();
+  interrupt("--workdir here", "here");
+  EXPECT_FALSE(files().contains("n.vtu.work"));
+  expect_done("mesh n.npy -o other.vtu --window 8 --workdir here --resume");
+  EXPECT_FALSE(files().contains("here"));
+}
+
+TEST_F(ResumeProgramTest, StartsWhenThereIsNothingToResume) {
+  make_volume();
+  const ProgramRun result = run("mesh v.npy -o v.vtu --resume");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("no saved work to resume"), std::string::npos) << result.err;
+}
+
+TEST_F(ResumeProgramTest, StaysWithinTheBudgetThatItAsksFor) {
+  make_noise();
+  const std::string mesh = "mesh n.npy -o n.vtu --window 16 ";
+  const ProgramRun refused = run(mesh + "--memory 10MiB");
+  EXPECT_EQ(refused.code, 4);
+  const std::size_t at = refused.err.find("--memory ");
+  ASSERT_NE(at, std::string::npos) << refused.err;
+  const std::string least = refused.err.substr(at, refused.err.find('\n', at) - at);
+  EXPECT_EQ(files(), (std::set<std::string>{"n.npy"}));
+  ProgramRun done = run(mesh + least + " --report r.json");
+  if (done.code == 4) {  // a window of the second march needs more than the first of the first
+    const std::size_t next = done.err.find("--memory ");
+    ASSERT_NE(next, std::string::npos) << done.err;
+    done = run(mesh + "--resume --report r.json " +
+               done.err.substr(next, done.err.find(';', next) - next));
+  }
+  ASSERT_EQ(done.code, 0) << done.err;
+  const json r = json::parse(read("r.json"));
+  EXPECT_LE(r["engine"]["peak_accounted_bytes"], r["engine"]["memory_budget_bytes"]);
+  EXPECT_LE(r["performance"]["peak_rss_bytes"], r["engine"]["memory_budget_bytes"]);
+}
+
+}  // namespace
+}  // namespace mw::cli

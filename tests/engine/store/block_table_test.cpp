@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What leaves memory first, and what of the file may be used again when.
+#include "engine/store/block_table.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/core/error.h"
+#include "tests/engine/store/fake_run.h"
+#include "tests/engine/store/volatile_files.h"
+
+namespace mw::engine {
+namespace {
+
+using test::fake_layout;
+using test::random_block;
+using test::VolatileFiles;
+
+class BlockTableTest : public testing::Test {
+ protected:
+  BlockPin block(std::uint64_t slot) {
+    auto out = std::make_shared<EncodedBlock>();
+    out->bytes = encode_block(layout_.key(slot), random_block(random_, 30));
+    return out;
+  }
+  [[nodiscard]] std::set<std::uint64_t> cached() const {
+    std::set<std::uint64_t> out;
+    for (std::uint64_t slot = 0; slot < layout_.slots(); ++slot) {
+      if (table_.at(slot).cached != nullptr) out.insert(slot);
+    }
+    return out;
+  }
+  [[nodiscard]] std::uint64_t next_use(std::uint64_t slot) const {
+    return layout_.next_use(layout_.key(slot), done_);
+  }
+
+  std::mt19937 random_{381};
+  RunLayout layout_ = fake_layout();
+  DoneWindows done_{layout_.windows()};
+  VolatileFiles files_;
+  SegmentFile disk_{files_.open("blocks")};
+  BlockTable table_{layout_, done_, &disk_};
+};
+
+TEST_F(BlockTableTest, EvictsWhatIsNeededLast) {
+  for (std::uint64_t w = 0; w < layout_.windows(); ++w) {
+    if (random_() % 3 == 0) done_.insert(w);
+  }
+  for (std::uint64_t slot = 0; slot < layout_.slots(); ++slot) {
+    if (random_() % 2 == 0) table_.put(slot, block(slot));
+  }
+  for (std::set<std::uint64_t> before = cached(); !before.empty();) {
+    ASSERT_TRUE(table_.evict_one());
+    const std::set<std::uint64_t> after = cached();
+    ASSERT_EQ(after.size() + 1, before.size());
+    std::uint64_t latest_kept = 0, evicted = 0;
+    for (std::uint64_t slot : before) {
+      std::uint64_t& place = after.contains(slot) ? latest_kept : evicted;
+      place = std::max(place, next_use(slot));
+    }
+    ASSERT_GE(evicted, latest_kept);
+    before = after;
+  }
+  EXPECT_FALSE(table_.evict_one());
+}
+
+TEST_F(BlockTableTest, WritesABlockOnce) {
+  table_.put(5, block(5));
+  const JournalBlock recorded = table_.record(5);
+  const std::uint64_t written = table_.bytes_written();
+  EXPECT_EQ(written, recorded.extent.size);
+  EXPECT_TRUE(table_.evict_one());
+  EXPECT_EQ(table_.bytes_written(), written);
+  EXPECT_EQ(table_.evicted(), 0U);
+}
+
+/// Copy on write: what a record names is kept until the next record is durable.
+TEST_F(BlockTableTest, RetiresExtentsThatARecordNames) {
+  table_.put(1, block(1));
+  table_.put(2, block(2));
+  const Extent named = table_.record(1).extent;
+  ASSERT_TRUE(table_.evict_one());
+  ASSERT_TRUE(table_.evict_one());
+  const Extent unnamed = table_.at(2).extent();
+  table_.remove(1);
+  table_.remove(2);
+  EXPECT_TRUE(disk_.take(unnamed)) << "it was free at once";
+  EXPECT_FALSE(disk_.take(named));
+  EXPECT_EQ(table_.take_retired(), std::vector<Extent>{named});
+}
+
+TEST_F(BlockTableTest, RefusesExtentsThatOverlap) {
+  table_.put(1, block(1));
+  JournalBlock first = table_.record(1);
+  table_.remove(1);
+  disk_.release(first.extent);
+  (void)table_.take_retired();
+  table_.restore(first);
+  first.slot = 2;
+  table_.restore(first);
+  EXPECT_THROW(table_.take_extents(), Error);
+}
+
+}  // namespace
+}  // namespace mw::engine

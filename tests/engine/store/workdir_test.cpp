@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The work folder is one run's at a time, and saved work is neither lost nor mixed up.
+#include "engine/store/workdir.h"
+
+#include <fstream>
+
+#include "engine/store/journal.h"
+#include "kernels/core/error.h"
+#include "tests/engine/store/work_folder.h"
+
+namespace mw::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSettings = "window = 32\nstart = octree\n";
+
+class WorkdirTest : public test::FolderTest {
+ protected:
+  [[nodiscard]] fs::path path() const { return folder() / "v.vtu.work"; }
+
+  void expect_refused(bool resume, const std::string& settings, const std::string& piece) const {
+    try {
+      const Workdir workdir(path(), resume, settings);
+      ADD_FAILURE() << "took it";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::kUsage);
+      EXPECT_NE(std::string(e.what()).find(piece), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("v.vtu.work"), std::string::npos) << e.what();
+    }
+  }
+
+  static void save_something(Workdir& workdir) {
+    Journal journal(workdir.open(kJournalFile));
+    journal.replay([](const JournalRecord&) {});
+    journal.append({.windows = {1, 2}, .blocks = {}});
+  }
+
+  /// What a run that ended early leaves behind.
+  void leave_work() const {
+    Workdir workdir(path(), false, kSettings);
+    save_something(workdir);
+    workdir.keep();
+  }
+};
+
+TEST_F(WorkdirTest, GoesWithTheRun) {
+  {
+    Workdir workdir(path(), false, kSettings);
+    EXPECT_FALSE(workdir.resumes());
+    save_something(workdir);
+    EXPECT_TRUE(fs::exists(path() / "settings.txt"));
+  }
+  EXPECT_FALSE(fs::exists(path()));
+}
+
+TEST_F(WorkdirTest, StaysWhenKeptUntilARunFromItIsDone) {
+  leave_work();
+  expect_refused(false, kSettings, "add --resume");
+  { EXPECT_TRUE(Workdir(path(), true, kSettings).resumes()); }
+  {
+    Workdir workdir(path(), true, kSettings);
+    EXPECT_TRUE(workdir.resumes());
+    workdir.discard();
+  }
+  EXPECT_FALSE(fs::exists(path()));
+}
+
+TEST_F(WorkdirTest, NamesEachDifference) {
+  leave_work();
+  expect_refused(true, "window = 48\nstart = octree\n", "window was 32 and is 48; give");
+  expect_refused(true, "window = 8\nstart = dense\n",
+                 "start was octree and is dense; window was 32 and is 8");
+  expect_refused(true, "window = 32\n", "start was octree and is (not there)");
+  EXPECT_TRUE(Workdir(path(), true, kSettings).resumes());
+}
+
+/// A run killed before anything was saved, at whatever moment, is in nobody's way.
+TEST_F(WorkdirTest, TakesOverWhatWasNeverSaved) {
+  fs::create_directory(path());
+  std::ofstream(path() / "settings.txt") << "window = 4\n";
+  std::ofstream(path() / ".settings.txt.partial-12-0") << "wind";
+  std::ofstream(path() / "journal") << "";
+  std::ofstream(path() / "blocks") << "some bytes";
+  {
+    const Workdir workdir(path(), false, kSettings);
+    EXPECT_FALSE(workdir.resumes());
+    EXPECT_FALSE(fs::exists(path() / "blocks"));
+  }
+  EXPECT_FALSE(fs::exists(path()));
+}
+
+TEST_F(WorkdirTest, IsLockedWhileARunIsAtWork) {
+  {
+    Workdir workdir(path(), false, kSettings);
+    expect_refused(false, kSettings, "another mwmesh is at work here");
+    expect_refused(true, kSettings, "another mwmesh is at work here");
+    save_something(workdir);
+    EXPECT_TRUE(fs::exists(path() / "journal")) << "the other one left it alone";
+  }
+  const Workdir after(path(), false, kSettings);
+}
+
+TEST_F(WorkdirTest, LeavesFilesOfOthersAlone) {
+  fs::create_directory(path());
+  std::ofstream(path() / "thesis.tex") << "\\begin{document}";
+  expect_refused(false, kSettings, "it holds thesis.tex");
+  EXPECT_TRUE(fs::exists(path() / "thesis.tex"));
+  EXPECT_FALSE(fs::exists(path() / "lock"));
+}
+
+TEST_F(WorkdirTest, NeedsAFolderToBeIn) {
+  std::ofstream(path()) << "a file";
+  expect_refused(false, kSettings, "is not a folder");
+  try {
+    const Workdir workdir(folder() / "nowhere" / "w", false, kSettings);
+    ADD_FAILURE() << "made it";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::kUsage);
+  }
+}
+
+}  // namespace
+}  // namespace mw::engine
