@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "engine/store/run_store.h"
 #include "engine/window_visitor.h"
 #include "io/mesh/digest.h"
 #include "tests/engine/memory_run.h"
@@ -21,15 +22,30 @@ using test::MemoryVolume;
 using test::random_trial;
 using test::Trial;
 
-std::unique_ptr<MemoryBlockStore> marched_blocks(const Trial& trial, const io::DenseVolume& volume,
-                                                 const WindowGrid& grid) {
-  auto store = std::make_unique<MemoryBlockStore>(grid.blocks());
-  const PreparedLabels labels(volume, trial.settings);
-  const Metric metric(trial.frame.spacing);
-  const WindowVisitor visitor(labels, metric, trial.settings, grid, *store);
-  march(WindowOrder(grid, trial.settings.order), [&](Index3 w) { return visitor.visit(w); });
-  return store;
-}
+/// The blocks after one march.
+class MarchedBlocks : public FinalBlocks {
+ public:
+  MarchedBlocks(const Trial& trial, const io::DenseVolume& volume)
+      : layout_({WindowGrid(trial.volume.shape, trial.settings.window)}, trial.settings.order),
+        store_(layout_, budget_, nullptr) {
+    const PreparedLabels labels(volume, trial.settings);
+    const Metric metric(trial.frame.spacing);
+    BlockStore& blocks = store_.march(0);
+    const WindowVisitor visitor(labels, metric, trial.settings, grid(), blocks);
+    march(WindowOrder(grid(), trial.settings.order), [&](Index3 window) {
+      EXPECT_TRUE(blocks.admit(window, 1 << 20));
+      visitor.visit(window);
+    });
+  }
+
+  [[nodiscard]] BlockMesh load(Index3 block) override { return store_.march(0).load(block); }
+  [[nodiscard]] const WindowGrid& grid() const { return layout_.grid(0); }
+
+ private:
+  RunLayout layout_;
+  MemoryBudget budget_;
+  RunStore store_;
+};
 
 /// All vertices ascending by id, all tets with wanted labels: the whole mesh in memory at once.
 io::MeshData list_of_everything(FinalBlocks& blocks, const WindowGrid& grid,
@@ -89,9 +105,8 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     const MemoryVolume file(trial.volume, trial.frame);
     const io::LabelTable table = io::collect_labels(file);
     const io::DenseVolume volume(file, table);
-    const WindowGrid grid(trial.volume.shape, trial.settings.window);
-    const auto store = marched_blocks(trial, volume, grid);
-    StoredBlocks blocks(*store);
+    MarchedBlocks blocks(trial, volume);
+    const WindowGrid& grid = blocks.grid();
     OutputOptions options{.wanted = {}, .measure_quality = true};
     if (i % 3 == 0) options.wanted = [](RawLabel label) { return test::test_label(label) != 0; };
     MemorySink sink;

@@ -43,12 +43,18 @@ void expect_same(const io::MeshData& actual, const io::MeshData& expected) {
   EXPECT_TRUE(actual.labels == expected.labels);
 }
 
+RunHooks hooks_with(const StoreOptions& store) {
+  RunHooks hooks;
+  hooks.store = store;
+  return hooks;
+}
+
 /// Runs in a child and kills it after a while; true when it was done before.
 bool run_and_kill(const Trial& trial, const StoreOptions& store, Seconds after) {
   const pid_t child = ::fork();
   if (child == 0) {
     try {
-      run_in_memory(trial, {.progress = {}, .pick = {}, .store = store});
+      run_in_memory(trial, hooks_with(store));
     } catch (...) {
       ::_exit(1);
     }
@@ -67,8 +73,8 @@ std::uint64_t resumed_windows(const Trial& trial, const StoreOptions& store,
   const test::MemoryVolume volume(trial.volume, trial.frame);
   const io::LabelTable table = io::collect_labels(volume);
   test::MemorySink sink;
-  const RunReport report = mesh_volume(io::DenseVolume(volume, table), trial.settings, sink,
-                                       {.progress = {}, .pick = {}, .store = store});
+  const RunReport report =
+      mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, hooks_with(store));
   expect_same(sink.mesh(), expected);
   EXPECT_EQ(report.windows + report.store.resumed_windows,
             static_cast<std::uint64_t>(WindowGrid(trial.volume.shape, 6).windows().product() +
@@ -109,12 +115,10 @@ TEST_F(ResumeTest, GoesOnAfterBeingStopped) {
     int kept = 0;
     store.kept = [&] { ++kept; };
     const std::uint64_t stop_at = 1 + random() % 60;
-    const RunHooks hooks{.progress =
-                             [&](std::uint64_t done, std::uint64_t) {
-                               if (done == stop_at) throw Stop{};
-                             },
-                         .pick = {},
-                         .store = store};
+    RunHooks hooks = hooks_with(store);
+    hooks.progress = [&](std::uint64_t done, std::uint64_t) {
+      if (done == stop_at) throw Stop{};
+    };
     EXPECT_THROW(run_in_memory(trial, hooks), Stop);
     EXPECT_EQ(kept, 1);
     EXPECT_EQ(resumed_windows(trial, store, expected), stop_at);
@@ -125,7 +129,7 @@ TEST_F(ResumeTest, GoesOnAfterBeingStopped) {
 std::uint64_t advised_memory(const Trial& trial, const StoreOptions& store,
                              const io::MeshData& expected) {
   try {
-    expect_same(run_in_memory(trial, {.progress = {}, .pick = {}, .store = store}), expected);
+    expect_same(run_in_memory(trial, hooks_with(store)), expected);
     return 0;
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kResource) << e.what();
