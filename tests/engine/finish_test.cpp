@@ -25,18 +25,21 @@ using test::Trial;
 /// The blocks after one march.
 class MarchedBlocks : public FinalBlocks {
  public:
-  MarchedBlocks(const Trial& trial, const io::DenseVolume& volume, const WindowGrid& grid)
-      : layout_({grid}, trial.settings.order), store_(layout_, budget_, nullptr) {
+  MarchedBlocks(const Trial& trial, const io::DenseVolume& volume)
+      : layout_({WindowGrid(trial.volume.shape, trial.settings.window)}, trial.settings.order),
+        store_(layout_, budget_, nullptr) {
     const PreparedLabels labels(volume, trial.settings);
     const Metric metric(trial.frame.spacing);
-    const WindowVisitor visitor(labels, metric, trial.settings, layout_.grid(0), store_.march(0));
-    march(WindowOrder(layout_.grid(0), trial.settings.order), [&](Index3 window) {
-      EXPECT_TRUE(store_.march(0).admit(window, 0));
+    BlockStore& blocks = store_.march(0);
+    const WindowVisitor visitor(labels, metric, trial.settings, grid(), blocks);
+    march(WindowOrder(grid(), trial.settings.order), [&](Index3 window) {
+      EXPECT_TRUE(blocks.admit(window, 1 << 20));
       visitor.visit(window);
     });
   }
 
   [[nodiscard]] BlockMesh load(Index3 block) override { return store_.march(0).load(block); }
+  [[nodiscard]] const WindowGrid& grid() const { return layout_.grid(0); }
 
  private:
   RunLayout layout_;
@@ -102,8 +105,8 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     const MemoryVolume file(trial.volume, trial.frame);
     const io::LabelTable table = io::collect_labels(file);
     const io::DenseVolume volume(file, table);
-    const WindowGrid grid(trial.volume.shape, trial.settings.window);
-    MarchedBlocks blocks(trial, volume, grid);
+    MarchedBlocks blocks(trial, volume);
+    const WindowGrid& grid = blocks.grid();
     OutputOptions options{.wanted = {}, .measure_quality = true};
     if (i % 3 == 0) options.wanted = [](RawLabel label) { return test::test_label(label) != 0; };
     MemorySink sink;

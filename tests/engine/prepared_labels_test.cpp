@@ -30,8 +30,9 @@ SmallVolume ranked(SmallVolume volume) {
 
 SmallVolume random_of_many_bricks(std::mt19937& random, int i) {
   if (i % 2 == 0) return ranked(mw::test::random_with_large_cells(random));
-  const auto kind = static_cast<mw::test::VolumeKind>(below(random, audit::test::kVolumeKinds));
-  const Index3 shape{40 + below(random, 60), 1 + below(random, 40), 1 + below(random, 30)};
+  const auto any = static_cast<mw::test::VolumeKind>(below(random, audit::test::kVolumeKinds));
+  const auto kind = below(random, 2) == 0 ? any : mw::test::VolumeKind::kBlobs;
+  const Index3 shape{40 + below(random, 60), 1 + below(random, 50), 1 + below(random, 50)};
   return ranked(mw::test::random_volume_of(random, kind, shape, 1 + below(random, 6)));
 }
 
@@ -55,7 +56,7 @@ TEST(PreparedLabels, AreWhatTheWholeVolumeGivesDirectly) {
   constexpr std::array<StartMesh, 3> kStarts{StartMesh::kCoarse, StartMesh::kOctree,
                                              StartMesh::kDense};
   int changed = 0;
-  for (int i = 0; i < 12 && !HasFailure(); ++i) {
+  for (int i = 0; i < 48 && !HasFailure(); ++i) {
     const SmallVolume volume = random_of_many_bricks(random, i);
     const MeshSettings settings{.start = kStarts[static_cast<std::size_t>(i) % 3],
                                 .max_distance = i % 4 == 0 ? 1.0 : 1.5};
@@ -74,7 +75,18 @@ TEST(PreparedLabels, AreWhatTheWholeVolumeGivesDirectly) {
     if (settings.start == StartMesh::kDense) continue;
     expect_levels(labels.levels(), mw::test::level_map(shape), volume.shape);
   }
-  EXPECT_GE(changed, 3);
+  EXPECT_GE(changed, 6);
+}
+
+/// Flips of voxels keep labels, not their meetings.
+TEST(PreparedLabels, AreNotCoarsenedWhereInterfacesAreKept) {
+  std::mt19937 random(1073);
+  const SmallVolume volume =
+      ranked(mw::test::random_volume_of(random, mw::test::VolumeKind::kBlobs, {20, 20, 20}, 3));
+  const PreparedLabels labels =
+      prepared(volume, {.start = StartMesh::kCoarse, .topology = KeptTopology::kInterfaces});
+  EXPECT_FALSE(labels.is_coarse());
+  EXPECT_EQ(labels.shape({{0, 0, 0}, volume.shape}).labels, volume.labels);
 }
 
 /// Coarsening without a bound keeps the widest that it makes use of.

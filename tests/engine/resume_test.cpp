@@ -44,6 +44,12 @@ RunHooks hooks_with(const StoreOptions& store) {
   return hooks;
 }
 
+RunHooks hooks_with(const StoreOptions& store) {
+  RunHooks hooks;
+  hooks.store = store;
+  return hooks;
+}
+
 /// Runs in a child and kills it after a while; true when it was done before.
 bool run_and_kill(const Trial& trial, const StoreOptions& store, Seconds after) {
   const pid_t child = ::fork();

@@ -7,7 +7,7 @@
 
 #include <map>
 
-#include "engine/march.h"
+#include "engine/march/march.h"
 #include "engine/store/run_store.h"
 #include "engine/window.h"
 #include "tests/engine/store/random_blocks.h"
@@ -54,7 +54,7 @@ inline void fake_run(
       blocks.commit(w, fake_work(layout, {m, w}, blocks.take(w)));
       after();
     };
-    march(layout.grid(m), visit, any);
+    march_by_choice(WindowOrder(layout.grid(m), Order::kRaster), visit, any);
   }
 }
 
