@@ -16,7 +16,6 @@ namespace {
 
 using audit::test::random_volume_of;
 using audit::test::VolumeKind;
-using test::expect_same;
 using test::run_in_memory;
 using test::Trial;
 using Seconds = std::chrono::duration<double>;
@@ -38,10 +37,10 @@ Trial trial_of(std::mt19937& random, VolumeKind kind) {
           .frame = {}};
 }
 
-RunHooks hooks_with(const StoreOptions& store) {
-  RunHooks hooks;
-  hooks.store = store;
-  return hooks;
+void expect_same(const io::MeshData& actual, const io::MeshData& expected) {
+  EXPECT_TRUE(actual.vertices == expected.vertices);
+  EXPECT_TRUE(actual.tets == expected.tets);
+  EXPECT_TRUE(actual.labels == expected.labels);
 }
 
 RunHooks hooks_with(const StoreOptions& store) {
