@@ -11,11 +11,15 @@ namespace mw {
 void InterfaceFan::collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out) {
   sides_.clear();
   out.clear();
+  // A fixed vertex may have labels that are not loaded, the exterior among them.
+  const auto may_be_on_interface = [&](LocalVertex w) {
+    return !mesh.is_free(w) || mesh.on_interface(w);
+  };
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior) continue;
     for (const auto& [a, b] :
          {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)}) {
-      if (!mesh.on_interface(a) || !mesh.on_interface(b)) continue;
+      if (!may_be_on_interface(a) || !may_be_on_interface(b)) continue;
       sides_.push_back({a, b, t.label});
     }
   }

@@ -71,8 +71,9 @@ TEST(MeshVolume, TellsProgressAfterEveryWindow) {
                               told.push_back(done);
                             },
                         .pick = {}});
-  ASSERT_EQ(told.size(), total);
-  for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i], i + 1);
+  // Also while the blocks are read for output, so that a run can be stopped then.
+  ASSERT_GT(told.size(), total);
+  for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i], std::min(i + 1, total));
 }
 
 TEST(MeshVolume, StopsWhenProgressThrows) {

@@ -65,7 +65,7 @@ TEST_F(ConfigTest, NamesFileLineAndKey) {
   expect_refused("edge_variance = \"some\"\n", "c.toml:1: edge_variance: wrong type");
   expect_refused("edge_variance = nan\n", "c.toml:1: edge_variance");
   expect_refused("resume = 1\n", "c.toml:1: resume: wrong type");
-  expect_refused("start = \"coarse\"\n", "c.toml:1: start = coarse: not available");
+  expect_refused("optimizer = \"tetgen\"\n", "c.toml:1: optimizer = tetgen: not available");
   expect_refused("window = 40\nwindow = 32\n", "c.toml:2");
   expect_refused("window = = 2\n", "c.toml:1");
   expect_failure(2, "mesh --print-config --config missing.toml", "missing.toml");

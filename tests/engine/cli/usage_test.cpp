@@ -101,7 +101,7 @@ TEST_F(UsageTest, RefusesBadInput) {
 TEST_F(UsageTest, EndsWithFourWhenTheDiskIsFull) {
   make_volume();
   for (const std::string name : {"v.vtkhdf", "v.vtu", "v.mesh"}) {
-    expect_failure(4, "mesh v.npy -o " + name, "cannot write", "ulimit -f 8 &&");
+    expect_failure(4, "mesh v.npy -o " + name, ": cannot ", "ulimit -f 8 &&");
     expect_failure(2, "mesh v.npy -o nowhere/" + name, "nowhere");
   }
   expect_failure(4, "info v.npy", "standard output", "sh -c '\"$0\" \"$@\" >/dev/full'");

@@ -173,7 +173,7 @@ TEST(Promise1Topology, HoldsInAWindowOfLabelsWithOneSignature) {
   std::mt19937 random(304);
   const std::vector<Label> names = labels_of_one_bit(4);
   std::uint64_t contracted_edges = 0;
-  for (int i = 0; i < 80 && !HasFailure(); ++i) {
+  for (int i = 0; i < 120 && !HasFailure(); ++i) {
     const SmallVolume volume = random_volume(random);
     SCOPED_TRACE(volume.text());
     SmallVolume renamed = volume;
