@@ -34,6 +34,9 @@ class Metric {
     return {(b.x - a.x) * unit_[0], (b.y - a.y) * unit_[1], (b.z - a.z) * unit_[2]};
   }
 
+  /// Edge lengths of a voxel.
+  [[nodiscard]] Vec3 voxel() const { return unit_ * kUnitsPerVoxel; }
+
   /// The lattice point nearest to origin + offset.  ERRORS: none; offsets are clamped to the
   /// largest extent of a tetrahedron, beyond which no move is accepted anyway.
   [[nodiscard]] Point moved(Point origin, const Vec3& offset) const {

@@ -81,28 +81,32 @@ class WideCube {
   std::array<Label, 64> labels_;
 };
 
-/// One plane; a sheet whose faces look both ways alike has none.
-void add_sheet(const PairFaces& faces, const QuadricWeights& weights, Quadric& q) {
+/// One plane, as heavy as its faces are many; a sheet whose faces look both ways alike has none.
+void add_sheet(const PairFaces& faces, const StartOptions& options, Quadric& q) {
+  const Vec3 voxel = options.metric.voxel();
   const double to_mean = 0.5 / static_cast<double>(faces.count);
-  const Vec3 centre{static_cast<double>(faces.centre.x) * to_mean,
-                    static_cast<double>(faces.centre.y) * to_mean,
-                    static_cast<double>(faces.centre.z) * to_mean};
-  const Vec3 normal{static_cast<double>(faces.normal.x), static_cast<double>(faces.normal.y),
-                    static_cast<double>(faces.normal.z)};
-  const double length = normal.norm();
-  if (length > 0.0) q.add_plane(normal / length, centre, weights.plane * length);
+  const Vec3 centre =
+      to_mean * Vec3(static_cast<double>(faces.centre.x), static_cast<double>(faces.centre.y),
+                     static_cast<double>(faces.centre.z));
+  const Vec3 faces_along{static_cast<double>(faces.normal.x), static_cast<double>(faces.normal.y),
+                         static_cast<double>(faces.normal.z)};
+  const double count = faces_along.norm();
+  if (count == 0.0) return;
+  // A voxel face's area is inverse to the voxel's edge across it.
+  const Vec3 area = faces_along.cwiseQuotient(voxel);
+  q.add_plane(area / area.norm(), centre.cwiseProduct(voxel), options.weights.plane * count);
 }
 
 }  // namespace
 
-Quadric wide_quadric(const StartLabels& labels, Index3 corner, const QuadricWeights& weights) {
+Quadric wide_quadric(const StartLabels& labels, Index3 corner, const StartOptions& options) {
   const Octant around = voxels_around(labels.shape, corner);
   const bool inner = std::count(around.begin(), around.end(), around[0]) == 8;
   Quadric q;
   if (!inner) {
-    for (const PairFaces& p : WideCube(labels, corner).faces()) add_sheet(p, weights, q);
+    for (const PairFaces& p : WideCube(labels, corner).faces()) add_sheet(p, options, q);
   }
-  q.add_point(inner ? weights.inner_point : weights.boundary_point);
+  q.add_point(inner ? options.weights.inner_point : options.weights.boundary_point);
   return q;
 }
 

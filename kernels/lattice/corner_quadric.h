@@ -19,6 +19,6 @@ namespace mw {
 /// vertices are drawn to a smooth surface through the input's steps.
 /// REQUIRES: shape covers the eight voxels around the corner, original the 64.
 [[nodiscard]] Quadric wide_quadric(const StartLabels& labels, Index3 corner,
-                                   const QuadricWeights& weights);
+                                   const StartOptions& options);
 
 }  // namespace mw

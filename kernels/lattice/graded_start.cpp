@@ -223,7 +223,7 @@ class StartBuilder {
   }
 
   [[nodiscard]] Quadric quadric_of(Index3 corner) const {
-    return options_.coarse ? wide_quadric(labels_, corner, options_.weights)
+    return options_.coarse ? wide_quadric(labels_, corner, options_)
                            : corner_quadric(labels_.original, corner, options_.weights);
   }
 

@@ -22,6 +22,7 @@ struct StartOptions {
   bool with_samples = false;  ///< samples for the distance bound
   double max_distance = 1.5;  ///< with samples: that bound, in voxels
   QuadricWeights weights;
+  Metric metric;  ///< of the quadrics
 };
 
 /// Voxels around a block whose labels its start mesh depends on.

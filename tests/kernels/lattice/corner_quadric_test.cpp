@@ -22,12 +22,14 @@ struct Sheet {
   std::vector<Vec3> centres;
   Vec3 normals = Vec3::Zero();
 
-  [[nodiscard]] double squared_distance(const Vec3& x) const {
+  /// Of x, in physical units like `voxel`, the edges of a voxel; as often as there are faces.
+  [[nodiscard]] double squared_distance(const Vec3& x, const Vec3& voxel) const {
     if (normals.norm() == 0.0) return 0.0;
     Vec3 mean = Vec3::Zero();
-    for (const Vec3& c : centres) mean += c;
+    for (const Vec3& c : centres) mean += c.cwiseProduct(voxel);
     mean /= static_cast<double>(centres.size());
-    return std::pow(normals.normalized().dot(x - mean), 2) * normals.norm();
+    const Vec3 areas(voxel[1] * voxel[2], voxel[0] * voxel[2], voxel[0] * voxel[1]);
+    return std::pow(normals.cwiseProduct(areas).normalized().dot(x - mean), 2) * normals.norm();
   }
 };
 
@@ -75,15 +77,18 @@ TEST(Sec52Quadrics, OfCoarseCornersMeasureMeanPlanesOfTheInput) {
     const LabelBox original = labels_in(volume, wide);
     const LabelBox coarse = labels_in(coarsened(volume, 1.5), wide);
     const StartLabels labels{.shape = coarse, .original = original};
+    const Vec3 voxel = i % 2 == 0 ? Vec3(1.0, 1.0, 1.0) : Vec3(1.0, 4.0, 2.5);
+    const StartOptions options{.weights = weights,
+                               .metric = Metric({voxel[0], voxel[1], voxel[2]})};
     each_index(shape + Index3{1, 1, 1}, [&](Index3 corner) {
-      const Quadric q = wide_quadric(labels, corner, weights);
+      const Quadric q = wide_quadric(labels, corner, options);
       const bool inner = is_inner(coarse, corner);
       inner_corners += inner ? 1 : 0;
       for (const Vec3& x : offsets) {
         double expected = (inner ? weights.inner_point : weights.boundary_point) * x.squaredNorm();
         if (!inner) {
           for (const auto& [pair, sheet] : sheets_around(labels, corner)) {
-            expected += weights.plane * sheet.squared_distance(x);
+            expected += weights.plane * sheet.squared_distance(x, voxel);
             ++planes;
           }
         }
@@ -104,7 +109,7 @@ TEST(Sec52Quadrics, OfCoarseCornersAreZeroOnFlatInterfaces) {
     });
     const LabelBox all = labels_in(volume, {{0, 0, 0}, {8, 8, 8}});
     const Quadric q = wide_quadric({.shape = all, .original = all}, {4, 4, 4},
-                                   {.plane = 1.0, .boundary_point = 0.0, .inner_point = 0.0});
+                                   {.weights = {1.0, 0.0, 0.0}, .metric = {}});
     for (unsigned k = 0; k < 3; ++k) {
       const Vec3 step = 0.75 * Vec3::Unit(k);
       // Sixteen faces of the 4^3 voxels lie between the labels.
