@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Speed of the kernels on one window of a synthetic polycrystal: start mesh, contraction, sweeps.
+// Speed of the kernels on one window of a synthetic polycrystal: coarsening, start mesh,
+// contraction, sweeps.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "engine/tbb_for.h"
+#include "kernels/coarsen/coarsen.h"
 #include "kernels/lattice/graded_start.h"
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
@@ -19,13 +21,11 @@ constexpr std::int64_t kEdge = 32;
 constexpr Index3 kShape{kEdge, kEdge, kEdge};
 constexpr Box3 kBlock{{0, 0, 0}, kShape};
 
-LabelBox grains() {
+LabelBox grains(std::int64_t halo = kStartHalo) {
   std::vector<RawLabel> raw(static_cast<std::size_t>(kBlock.voxels()));
   synth_slab({.kind = SynthKind::kVoronoi, .shape = kShape, .labels = 40, .seed = 1}, 0, kEdge,
              raw);
-  LabelBox out{{{-kStartHalo, -kStartHalo, -kStartHalo},
-                {kEdge + kStartHalo, kEdge + kStartHalo, kEdge + kStartHalo}},
-               {}};
+  LabelBox out{{{-halo, -halo, -halo}, {kEdge + halo, kEdge + halo, kEdge + halo}}, {}};
   out.labels.assign(static_cast<std::size_t>(out.box.voxels()), kExterior);
   for (Index3 v; v.z < kEdge; ++v.z) {
     for (v.y = 0; v.y < kEdge; ++v.y) {
@@ -66,6 +66,17 @@ void start_mesh(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * kBlock.voxels());
 }
 BENCHMARK(start_mesh)->Arg(0)->Arg(3)->Unit(benchmark::kMillisecond);
+
+/// Items are voxels.
+void coarsening(benchmark::State& state) {
+  const LabelBox labels = grains(kCoarsenHalo);
+  for (auto _ : state) {
+    LabelBox coarse = labels;
+    benchmark::DoNotOptimize(coarsen(labels, coarse, kBlock, kShape, 1.5));
+  }
+  state.SetItemsProcessed(state.iterations() * kBlock.voxels());
+}
+BENCHMARK(coarsening)->Unit(benchmark::kMillisecond);
 
 /// Items are contractions.
 void contraction(benchmark::State& state) {

@@ -13,6 +13,7 @@
 #include "engine/stopwatch.h"
 #include "engine/store/run_identity.h"
 #include "engine/store/workdir.h"
+#include "engine/tbb_for.h"
 #include "engine/window_memory.h"
 
 namespace mw::engine {
@@ -142,7 +143,8 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
   const Metric metric(volume.info().spacing);
   Marches marches(hooks, store.facts().resumed_windows, layout.windows());
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
-    const WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
+    WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
+    if (report.threads > 1) visitor.seed_with(tbb_for);
     marches.run(static_cast<int>(i), WindowOrder(layout.grid(i), settings.order), store.march(i),
                 visitor);
   }

@@ -38,6 +38,9 @@ class WindowVisitor {
   WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
                 const WindowGrid& grid, BlockStore& store);
 
+  /// Lends threads to the filling of a window's queue; none by default.  The result is the same.
+  void seed_with(ParallelFor loop) { simplify_.seeding = std::move(loop); }
+
   /// Returns what this visit did.
   VisitStats visit(Index3 window) const;
 

@@ -41,6 +41,7 @@ ordered_json performance_json(const FinishedRun& run) {
           {"peak_rss_bytes", run.resources.peak_rss_bytes},
           {"stages",
            {{"labels_s", run.labels_seconds},
+            {"prepare_s", engine.prepare_seconds},
             {"start_s", engine.start_seconds},
             {"simplify_s", engine.simplify_seconds},
             {"optimise_s", engine.optimise_seconds},
