@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "engine/final_blocks.h"
-#include "engine/window_grid.h"
 #include "engine/label_selection.h"
+#include "engine/window_grid.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/audit/quality.h"
 

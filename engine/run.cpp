@@ -145,6 +145,7 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
     if (report.threads > 1) visitor.seed_with(tbb_for);
+    if (i + 1 == layout.marches()) visitor.polish();
     marches.run(static_cast<int>(i), WindowOrder(layout.grid(i), settings.order), store.march(i),
                 visitor);
   }

@@ -38,6 +38,8 @@ class WindowVisitor {
   WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
                 const WindowGrid& grid, BlockStore& store);
 
+  /// Optimises longer: for the last march, when shape is all that is left to gain.
+  void polish() { optimise_.sweeps *= kPolishSweeps; }
   /// Lends threads to the filling of a window's queue; none by default.  The result is the same.
   void seed_with(ParallelFor loop) { simplify_.seeding = std::move(loop); }
 
@@ -45,6 +47,8 @@ class WindowVisitor {
   VisitStats visit(Index3 window) const;
 
  private:
+  static constexpr int kPolishSweeps = 3;
+
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   [[nodiscard]] BlockMesh start(Index3 block) const;
 
