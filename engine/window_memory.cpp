@@ -12,7 +12,11 @@ constexpr std::uint64_t kMebibyte = 1 << 20;
 constexpr std::uint64_t kBytesPerStartVoxel = 2900;
 constexpr std::uint64_t kBytesPerStoredByte = 6;
 constexpr std::uint64_t kBytesPerLabelVoxel = 16;
-constexpr std::uint64_t kProgramBytes = 24 * kMebibyte;
+// Code, libraries, and a tile of labels that is being coarsened.
+constexpr std::uint64_t kProgramBytes = 32 * kMebibyte;
+// What PreparedLabels holds for each 16^3 voxels: two bricks' places and the large cells.
+constexpr std::uint64_t kBytesPerBrick = 20;
+constexpr std::int64_t kBrickVoxels = 16 * 16 * 16;
 constexpr std::uint64_t kBytesPerLabel = 64;
 
 std::uint64_t voxels_of(const WindowGrid& grid, Index3 block) {
@@ -39,7 +43,8 @@ std::uint64_t start_window_bytes(const WindowGrid& grid) {
 }
 
 std::uint64_t program_bytes(const io::DenseVolume& volume) {
-  return kProgramBytes + kBytesPerLabel * volume.table().size();
+  const auto bricks = static_cast<std::uint64_t>(volume.info().shape.product() / kBrickVoxels);
+  return kProgramBytes + kBytesPerBrick * bricks + kBytesPerLabel * volume.table().size();
 }
 
 }  // namespace mw::engine

@@ -17,7 +17,7 @@ namespace mw::engine {
 /// The same for a window with no stored block; there is no larger one in the first march.
 [[nodiscard]] std::uint64_t start_window_bytes(const WindowGrid& grid);
 
-/// What the program takes before any window: code, libraries, the label table.
+/// What the program takes beside windows: code, libraries, the label table, prepared labels.
 [[nodiscard]] std::uint64_t program_bytes(const io::DenseVolume& volume);
 
 }  // namespace mw::engine
