@@ -15,7 +15,7 @@ struct MeshRequest {
   std::filesystem::path report;  ///< empty: none
   std::filesystem::path trace;   ///< empty: none
   engine::MeshSettings settings;
-  int threads = 0;                              ///< 0: all cores
+  int threads = 0;                      ///< 0: all cores
   std::optional<std::uint64_t> memory;  ///< bytes; none: default_memory_budget()
   std::filesystem::path workdir;        ///< after check_mesh_request() never empty
   bool resume = false;

@@ -37,8 +37,7 @@ Box3 common(const Box3& a, const Box3& b) {
 
 }  // namespace
 
-BrickVolume::BrickVolume(Index3 shape, std::size_t labels,
-                         const std::filesystem::path& folder)
+BrickVolume::BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder)
     : shape_(shape),
       bricks_{bricks_along(shape.x), bricks_along(shape.y), bricks_along(shape.z)},
       label_bytes_(labels <= 0x100     ? 1
