@@ -19,13 +19,7 @@ static_assert(kCoarsenHalo <= kBrick);
 static_assert(LevelMap::kCube == kBrick);
 
 Box3 clipped(const Box3& box, Index3 shape) {
-  return {{std::max<std::int64_t>(box.lo.x, 0), std::max<std::int64_t>(box.lo.y, 0),
-           std::max<std::int64_t>(box.lo.z, 0)},
-          {std::min(box.hi.x, shape.x), std::min(box.hi.y, shape.y), std::min(box.hi.z, shape.z)}};
-}
-
-Box3 grown(const Box3& box, std::int64_t by) {
-  return {box.lo - Index3{by, by, by}, box.hi + Index3{by, by, by}};
+  return intersection(box, {{0, 0, 0}, shape});
 }
 
 Index3 scaled(Index3 v, std::int64_t by) {

@@ -3,6 +3,7 @@
 // The main job: march over the volume, then finish.
 #include "engine/run.h"
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -119,6 +120,15 @@ class FinishedBlocks : public FinalBlocks {
   std::uint64_t windows_;
 };
 
+/// What ids and samples can number, and positions hold.
+void check_shape(Index3 shape) {
+  const std::int64_t longest = std::max({shape.x, shape.y, shape.z});
+  if (longest < kMaxSampledVoxels) return;
+  throw Error(ErrorKind::kInput,
+              "the volume has " + std::to_string(longest) + " voxels along an axis; fewer than " +
+                  std::to_string(kMaxSampledVoxels) + " can be meshed: cut it into parts");
+}
+
 std::unique_ptr<Workdir> open_workdir(const io::VolumeInfo& volume, const MeshSettings& settings,
                                       const StoreOptions& options) {
   if (options.workdir.empty()) return nullptr;
@@ -178,6 +188,7 @@ void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks) {
   check(settings);
+  check_shape(volume.info().shape);
   RunReport report;
   report.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   const RunLayout layout(march_grids(volume.info().shape, settings), settings.order);

@@ -30,11 +30,6 @@ void decode_row(const std::byte* in, std::int64_t first, std::int64_t count, Lab
   std::copy_n(stored, count, out);
 }
 
-Box3 common(const Box3& a, const Box3& b) {
-  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
-          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
-}
-
 }  // namespace
 
 BrickVolume::BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder)
@@ -52,7 +47,7 @@ std::size_t BrickVolume::row(Index3 brick) const {
 
 Box3 BrickVolume::box_of(Index3 brick) const {
   const Index3 lo{brick.x * kEdge, brick.y * kEdge, brick.z * kEdge};
-  return common({lo, lo + Index3{kEdge, kEdge, kEdge}}, {{0, 0, 0}, shape_});
+  return intersection({lo, lo + Index3{kEdge, kEdge, kEdge}}, {{0, 0, 0}, shape_});
 }
 
 void BrickVolume::write(Index3 brick, std::span<const Label> voxels) {
@@ -83,7 +78,7 @@ Label BrickVolume::uniform_label(Index3 brick) const {
 
 void BrickVolume::read(const Box3& box, std::span<Label> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
-  const Box3 inside = common(box, {{0, 0, 0}, shape_});
+  const Box3 inside = intersection(box, {{0, 0, 0}, shape_});
   if (inside != box) std::fill(out.begin(), out.end(), kExterior);
   if (inside.lo.x >= inside.hi.x || inside.lo.y >= inside.hi.y || inside.lo.z >= inside.hi.z) {
     return;
@@ -91,7 +86,7 @@ void BrickVolume::read(const Box3& box, std::span<Label> out) const {
   const Box3 bricks{
       {inside.lo.x / kEdge, inside.lo.y / kEdge, inside.lo.z / kEdge},
       {bricks_along(inside.hi.x), bricks_along(inside.hi.y), bricks_along(inside.hi.z)}};
-  each_index(bricks, [&](Index3 b) { copy_part(b, common(box_of(b), inside), box, out); });
+  each_index(bricks, [&](Index3 b) { copy_part(b, intersection(box_of(b), inside), box, out); });
 }
 
 void BrickVolume::copy_part(Index3 brick, const Box3& part, const Box3& box,

@@ -16,10 +16,6 @@ namespace {
 
 constexpr std::int64_t kReachPerColour = 2;
 
-Box3 grown(const Box3& box, std::int64_t by) {
-  return {box.lo - Index3{by, by, by}, box.hi + Index3{by, by, by}};
-}
-
 Index3 cube_voxel(Index3 cube, unsigned i) {
   return cube + Index3{i & 1U, i >> 1 & 1U, i >> 2 & 1U};
 }
@@ -191,11 +187,9 @@ CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& til
   Coarsener coarsener(original, labels, max_distance);
   CoarsenStats stats;
   for (unsigned colour = 0; colour < 8; ++colour) {
-    Box3 box = grown(tile, kReachPerColour * (7 - static_cast<std::int64_t>(colour)));
-    box.lo = {std::max<std::int64_t>(box.lo.x, 0), std::max<std::int64_t>(box.lo.y, 0),
-              std::max<std::int64_t>(box.lo.z, 0)};
-    box.hi = {std::min(box.hi.x, volume.x), std::min(box.hi.y, volume.y),
-              std::min(box.hi.z, volume.z)};
+    const Box3 box =
+        intersection(grown(tile, kReachPerColour * (7 - static_cast<std::int64_t>(colour))),
+                     {{0, 0, 0}, volume});
     each_cube(box, colour, [&](Index3 cube) {
       bool uniform = true;
       if (!coarsener.visit(cube, uniform) || !tile.contains(cube)) return;

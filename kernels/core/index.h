@@ -3,6 +3,7 @@
 // Integer positions and boxes in voxels.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace mw {
@@ -38,5 +39,16 @@ struct Box3 {
     return ((v.z - lo.z) * s.y + (v.y - lo.y)) * s.x + (v.x - lo.x);
   }
 };
+
+/// The voxels of both boxes; nothing (lo not below hi) when they do not meet.
+[[nodiscard]] inline Box3 intersection(const Box3& a, const Box3& b) {
+  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
+          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
+}
+
+/// The box and `by` voxels around it.
+[[nodiscard]] inline Box3 grown(const Box3& box, std::int64_t by) {
+  return {box.lo - Index3{by, by, by}, box.hi + Index3{by, by, by}};
+}
 
 }  // namespace mw

@@ -59,11 +59,7 @@ CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked,
 }
 
 void CellLevels::find_levels(int highest) {
-  const Box3& box = labels_.box;
-  known_ = {{std::max<std::int64_t>(box.lo.x, 0), std::max<std::int64_t>(box.lo.y, 0),
-             std::max<std::int64_t>(box.lo.z, 0)},
-            {std::min(box.hi.x, volume_.x), std::min(box.hi.y, volume_.y),
-             std::min(box.hi.z, volume_.z)}};
+  known_ = intersection(labels_.box, {{0, 0, 0}, volume_});
   for (int k = 1; k <= highest; ++k) {
     Level level = cells_of(k);
     std::size_t i = 0;
@@ -112,13 +108,8 @@ bool CellLevels::finer_allowed(Index3 cell, int level) const {
 }
 
 void CellLevels::find_leaves(const Box3& asked) {
-  pairs_ = {cell_at({std::max<std::int64_t>(asked.lo.x, 0), std::max<std::int64_t>(asked.lo.y, 0),
-                     std::max<std::int64_t>(asked.lo.z, 0)},
-                    1),
-            cell_at({std::min(asked.hi.x, volume_.x) - 1, std::min(asked.hi.y, volume_.y) - 1,
-                     std::min(asked.hi.z, volume_.z) - 1},
-                    1) +
-                Index3{1, 1, 1}};
+  const Box3 known = intersection(asked, {{0, 0, 0}, volume_});
+  pairs_ = {cell_at(known.lo, 1), cell_at(known.hi - Index3{1, 1, 1}, 1) + Index3{1, 1, 1}};
   leaves_.reserve(static_cast<std::size_t>(pairs_.voxels()));
   each_index(pairs_, [&](Index3 c) {
     leaves_.push_back(small_level_at({2 * c.x, 2 * c.y, 2 * c.z}));
