@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Windows wait for memory, and no wait is for ever.
+#include "engine/admission.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+namespace mw::engine {
+namespace {
+
+/// Lets a window in when there is room, as a budget of so many windows would.
+class RoomFor : public BlockStore {
+ public:
+  explicit RoomFor(int windows) : room_(windows) {}
+  void give_back() { ++room_; }
+
+  [[nodiscard]] bool admit(Index3, std::uint64_t) override {
+    if (room_ == 0) return false;
+    --room_;
+    return true;
+  }
+  [[nodiscard]] std::vector<std::optional<BlockMesh>> take(Index3) override { return {}; }
+  void commit(Index3, std::vector<BlockMesh>) override {}
+  [[nodiscard]] BlockMesh load(Index3) const override { return {}; }
+  [[nodiscard]] bool is_done(Index3) const override { return false; }
+  [[nodiscard]] std::uint64_t taken_bytes(Index3) const override { return 0; }
+  [[nodiscard]] std::uint64_t loaded_bytes(Index3) const override { return 0; }
+
+ private:
+  std::atomic<int> room_;
+};
+
+TEST(Admitter, RefusesWhatIsNotNextAndHoldsUpWhatIs) {
+  const WindowGrid grid({40, 40, 40}, 8);
+  for (int i = 0; i < 50; ++i) {
+    RoomFor store(1);
+    Admitter admitter(grid, store);
+    ASSERT_NE(admitter.admit({0, 0, 0}, true), nullptr);
+    EXPECT_EQ(admitter.admit({2, 0, 0}, false), nullptr);
+    std::atomic<bool> over = false;
+    std::thread visitor([&] {
+      std::this_thread::yield();
+      over = true;
+      store.give_back();
+      admitter.ended();
+    });
+    EXPECT_NE(admitter.admit({1, 0, 0}, true), nullptr);
+    EXPECT_TRUE(over);
+    visitor.join();
+  }
+}
+
+TEST(Admitter, WaitsForNobodyWhenAllHaveEndedAndKeptTheirMemory) {
+  const WindowGrid grid({40, 40, 40}, 8);
+  RoomFor store(1);
+  Admitter admitter(grid, store);
+  ASSERT_NE(admitter.admit({0, 0, 0}, true), nullptr);
+  admitter.ended();
+  EXPECT_EQ(admitter.admit({1, 0, 0}, true), nullptr);
+}
+
+}  // namespace
+}  // namespace mw::engine
