@@ -13,20 +13,36 @@ Admission Admitter::admit(Index3 window, bool first) {
   for (;;) {
     const std::uint64_t seen = ended_;
     if (store_.admit(window, window_bytes(grid_, window, store_))) {
-      ++started_;
+      ++in_flight_;
       return token;
     }
     if (!first) return nullptr;
-    // All others have ended and there is still no room: one of them failed and keeps what it held.
-    // Its error is on its way to the march, which will not look at what this window does.
-    if (started_ == ended_) return nullptr;
+    if (in_flight_ == 0) {
+      // There is still no room: a window that failed keeps what it held.  Its error is on its way
+      // to the march; this window starts all the same, and visit() lets it pass.
+      ++in_flight_;
+      return nullptr;
+    }
     over_.wait(lock, [&] { return ended_ != seen; });
   }
 }
 
-void Admitter::ended() {
+void Admitter::visit(Index3 window, const VisitWindow& work) {
+  if (failed_) return end(false);
+  try {
+    work(window);
+  } catch (...) {
+    end(true);
+    throw;
+  }
+  end(false);
+}
+
+void Admitter::end(bool failed) {
   {
     const std::lock_guard lock(mutex_);
+    if (failed) failed_ = true;
+    --in_flight_;
     ++ended_;
   }
   over_.notify_all();

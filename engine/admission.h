@@ -3,6 +3,7 @@
 // Lets windows of a march in when the store has memory for them.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 
@@ -21,16 +22,21 @@ class Admitter {
 
   /// As AdmitWindow.  ERRORS: those of BlockStore::admit.
   [[nodiscard]] Admission admit(Index3 window, bool first);
-  /// To be called when a visit is over, also when it failed.
-  void ended();
+  /// Does the work of a window that admit() was asked for.  Once one has failed the others are let
+  /// pass undone, because nobody will ask for their results; either way the window has ended, and
+  /// those that wait look again.  ERRORS: those of work.
+  void visit(Index3 window, const VisitWindow& work);
 
  private:
+  void end(bool failed);
+
   const WindowGrid& grid_;
   BlockStore& store_;
   std::mutex mutex_;
   std::condition_variable over_;
-  std::uint64_t started_ = 0;
+  std::uint64_t in_flight_ = 0;
   std::uint64_t ended_ = 0;
+  std::atomic<bool> failed_ = false;
 };
 
 }  // namespace mw::engine

@@ -53,12 +53,13 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
 
 }  // namespace
 
-PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings)
-    : original_(volume.info().shape, volume.table().size(), io::scratch_folder()) {
+PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
+                               const std::filesystem::path& folder)
+    : original_(volume.info().shape, volume.table().size(), folder) {
   read_bricks(volume);
   // Coarsening keeps the topology of labels, not that of interfaces.
   if (settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels) {
-    coarse_.emplace(original_.shape(), volume.table().size(), io::scratch_folder());
+    coarse_.emplace(original_.shape(), volume.table().size(), folder);
     coarsen_tiles(settings.max_distance.value_or(kMostCoarseDistance));
   }
   if (settings.start != StartMesh::kDense) find_levels();

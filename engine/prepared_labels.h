@@ -19,8 +19,10 @@ namespace mw::engine {
 class PreparedLabels {
  public:
   /// Reads the volume once, and coarsens it when the start mesh asks for that.
+  /// folder: where temporary files go.
   /// ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
-  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings);
+  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
+                 const std::filesystem::path& folder = io::scratch_folder());
 
   /// Boxes may reach outside the volume; voxels there are kExterior.
   [[nodiscard]] LabelBox original(const Box3& box) const;

@@ -4,7 +4,6 @@
 #include "engine/run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -45,19 +44,11 @@ class Marches {
   void run(int march_number, const WindowOrder& order, BlockStore& store,
            const WindowVisitor& visitor) {
     Admitter admitter(order.grid(), store);
-    std::atomic<bool> failed = false;
-    const VisitWindow visit = [&](Index3 window) {
-      if (failed) return;  // its result would not be asked for
-      try {
-        if (hooks_.before_visit) hooks_.before_visit(window);
-        add(visitor.visit(window));
-      } catch (...) {
-        failed = true;
-        admitter.ended();
-        throw;
-      }
-      admitter.ended();
+    const VisitWindow work = [&](Index3 window) {
+      if (hooks_.before_visit) hooks_.before_visit(window);
+      add(visitor.visit(window));
     };
+    const VisitWindow visit = [&](Index3 window) { admitter.visit(window, work); };
     const OnVisited tell = [&](const Visited& v) { note(march_number, v); };
     if (hooks_.pick) {
       const VisitWindow visit_and_tell = [&](Index3 w) {
@@ -148,7 +139,8 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
                      const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
                      const RunHooks& hooks, RunReport& report) {
   Stopwatch watch;
-  const PreparedLabels labels(volume, settings);
+  const std::filesystem::path& folder = hooks.store.workdir;
+  const PreparedLabels labels(volume, settings, folder.empty() ? io::scratch_folder() : folder);
   watch.lap(report.prepare_seconds);
   const Metric metric(volume.info().spacing);
   Marches marches(hooks, store.facts().resumed_windows, layout.windows());

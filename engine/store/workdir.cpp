@@ -19,6 +19,7 @@
 #include "engine/store/mapped_file.h"
 #include "io/file/atomic_file.h"
 #include "io/file/errors.h"
+#include "io/file/nameless_file.h"
 
 namespace mw::engine {
 namespace {
@@ -31,9 +32,13 @@ constexpr const char* kSettingsFile = "settings.txt";
 constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettingsFile, kLockFile};
 constexpr const char* kPartialSettings = ".settings.txt.partial-";  // AtomicFile, after a kill
 
+/// Left by a kill in an unlucky instant.
+bool is_left_over(const std::string& name) {
+  return name.starts_with(kPartialSettings) || name.starts_with(io::kScratchPrefix);
+}
+
 bool is_ours(const std::string& name) {
-  return name.starts_with(kPartialSettings) ||
-         std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
+  return is_left_over(name) || std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
@@ -169,7 +174,7 @@ void Workdir::remove_files() const {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(path_, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(kPartialSettings)) fs::remove(entry.path(), ignored);
+    if (is_left_over(name)) fs::remove(entry.path(), ignored);
   }
   for (const char* name : kFiles) fs::remove(path_ / name, ignored);
   fs::remove(path_, ignored);

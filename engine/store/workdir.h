@@ -18,7 +18,7 @@ inline constexpr const char* kJournalFile = "journal";
 ///     settings.txt  what the result depends on, a line each: "name = value"
 ///     blocks        bytes of blocks, engine/store/block_codec.h, where the journal says
 ///     journal       engine/store/journal.h
-/// and nothing else.
+/// and, while the run goes on, files without a name (PreparedLabels); nothing else.
 class Workdir : public WorkFiles {
  public:
   /// Makes the folder, or takes over one whose run has ended.  Work saved there is gone on with

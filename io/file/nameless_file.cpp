@@ -14,7 +14,7 @@ namespace mw::io {
 
 NamelessFile::NamelessFile(const std::filesystem::path& folder)
     : folder_(folder.empty() ? "." : folder.string()) {
-  std::string path = folder_ + "/.mwmesh-scratch-XXXXXX";
+  std::string path = folder_ + "/" + kScratchPrefix + "XXXXXX";
   file_ = FileDescriptor(::mkostemp(path.data(), O_CLOEXEC));
   if (!file_.valid()) fail_output(folder_, "create a temporary file there", errno);
   ::unlink(path.c_str());

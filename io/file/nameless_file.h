@@ -13,6 +13,10 @@
 
 namespace mw::io {
 
+/// Names of such files begin so in the instant before they have none; a kill then leaves one
+/// behind.
+inline constexpr const char* kScratchPrefix = ".mwmesh-scratch-";
+
 /// Bytes by place.
 /// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
 /// the folder cannot be written.  Thread safety: different places may be used at once.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/core/each_index.h"
 #include "kernels/core/label_box.h"
 
 namespace mw {
@@ -37,13 +38,9 @@ class LevelMap {
   /// lies inside the volume and inside one label.
   template <typename IsUniform>
   void find_cubes(IsUniform is_uniform) {
-    for (Index3 c{0, 0, 0}; c.z < cubes_.z; ++c.z) {
-      for (c.y = 0; c.y < cubes_.y; ++c.y) {
-        for (c.x = 0; c.x < cubes_.x; ++c.x) {
-          whole_[row(c)] = is_uniform(c) && eighths_around_allowed(c) ? 1 : 0;
-        }
-      }
-    }
+    each_index(cubes_, [&](Index3 c) {
+      whole_[row(c)] = is_uniform(c) && eighths_around_allowed(c) ? 1 : 0;
+    });
   }
 
   /// Is the cell of 2^level voxels that contains the voxel allowed?  Outside the volume: no.

@@ -48,17 +48,6 @@ namespace mw {
   return std::min(worst, std::max(kDecent, quality_floor));
 }
 
-/// Least radius ratio of the real tets at v.
-[[nodiscard]] inline double worst_of_star(const TetMesh& mesh, const Metric& metric,
-                                          LocalVertex v) {
-  double worst = 1.0;
-  for (const LinkTriangle& t : mesh.star(v)) {
-    if (t.label == kExterior) continue;
-    worst = std::min(worst, radius_ratio(mesh, metric, mesh.position(v), t));
-  }
-  return worst;
-}
-
 /// The real tets at v: the least radius ratio, and the sum of their energies.
 struct StarShape {
   double worst = 1.0;

@@ -92,7 +92,7 @@ ShapeVerdict ShapeFilter::judge(const Contraction& c) {
   const bool may_be_poor = poor_[c.keep] != 0 || poor_[c.drop] != 0;
   if (verdict != ShapeVerdict::kLowQuality || !may_be_poor) return verdict;
   const double present =
-      std::min(worst_of_star(mesh_, metric_, c.drop), worst_of_star(mesh_, metric_, c.keep));
+      std::min(star_shape(mesh_, metric_, c.drop).worst, star_shape(mesh_, metric_, c.keep).worst);
   if (present >= options_.quality_floor) return verdict;
   const ShapeVerdict again = judge(c, present);
   if (again == ShapeVerdict::kGood) mark_poor(c);

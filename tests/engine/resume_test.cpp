@@ -104,6 +104,42 @@ TEST_F(ResumeTest, Promise5SameBytesAfterKillsAtRandomInstants) {
 
 struct Stop {};
 
+/// The size that an error advises; 0 when there was none.
+std::uint64_t advised_memory(const Trial& trial, const StoreOptions& store,
+                             const io::MeshData& expected) {
+  try {
+    expect_same(run_in_memory(trial, hooks_with(store)), expected);
+    return 0;
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::kResource) << e.what();
+    const std::string message = e.what();
+    const std::size_t at = message.find("--memory ");
+    EXPECT_NE(at, std::string::npos) << message;
+    return at == std::string::npos ? 0 : std::stoull(message.substr(at + 9)) << 20;
+  }
+}
+
+/// A window that waits for memory must not wait for one that has failed, nor for those that were
+/// let in and then not visited any more.
+TEST_F(ResumeTest, EndsWhenAWindowFailsUnderATightBudget) {
+  std::mt19937 random(374);
+  const Trial trial = trial_of(random, VolumeKind::kNoise);
+  StoreOptions store = options();
+  store.resume = false;
+  store.memory = 1;
+  store.memory = advised_memory(trial, store, {});
+  for (int i = 0; i < 16; ++i) {
+    RunHooks hooks = hooks_with(store);
+    hooks.threads = 2 + i % 7;
+    std::atomic<int> visits = 0;
+    hooks.before_visit = [&](Index3) {
+      if (++visits > i % 10) throw Stop{};
+    };
+    EXPECT_ANY_THROW(run_in_memory(trial, hooks));
+    std::filesystem::remove_all(store.workdir);
+  }
+}
+
 /// Progress may stop a run after any window; what was done is saved and said to be.
 TEST_F(ResumeTest, GoesOnAfterBeingStopped) {
   std::mt19937 random(372);
@@ -122,21 +158,6 @@ TEST_F(ResumeTest, GoesOnAfterBeingStopped) {
     EXPECT_THROW(run_in_memory(trial, hooks), Stop);
     EXPECT_EQ(kept, 1);
     EXPECT_EQ(resumed_windows(trial, store, expected), stop_at);
-  }
-}
-
-/// The size that an error advises; 0 when there was none.
-std::uint64_t advised_memory(const Trial& trial, const StoreOptions& store,
-                             const io::MeshData& expected) {
-  try {
-    expect_same(run_in_memory(trial, hooks_with(store)), expected);
-    return 0;
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::kResource) << e.what();
-    const std::string message = e.what();
-    const std::size_t at = message.find("--memory ");
-    EXPECT_NE(at, std::string::npos) << message;
-    return at == std::string::npos ? 0 : std::stoull(message.substr(at + 9)) << 20;
   }
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -17,38 +16,24 @@
 
 #include "io/volume/label_volume.h"
 #include "kernels/core/error.h"
+#include "tests/temp_folder.h"
 
 namespace mw::io {
 
-/// A folder that goes away with the object.
-class TempDir {
- public:
-  TempDir() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "mwmesh-test-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~TempDir() { std::filesystem::remove_all(path_); }
-  TempDir(const TempDir&) = delete;
-  TempDir& operator=(const TempDir&) = delete;
+using test::content_of;
 
-  [[nodiscard]] std::filesystem::path path() const { return path_; }
+/// A folder with files.
+class TempDir : public test::TempFolder {
+ public:
   std::filesystem::path file(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
+    std::ofstream(path() / name, std::ios::binary) << content;
+    return path() / name;
   }
   [[nodiscard]] std::size_t entries() const {
-    const std::filesystem::directory_iterator begin(path_);
+    const std::filesystem::directory_iterator begin(path());
     return static_cast<std::size_t>(std::distance(begin, std::filesystem::directory_iterator()));
   }
-
- private:
-  std::filesystem::path path_;
 };
-
-inline std::string content_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 inline std::string gzip(const std::string& plain) {
   z_stream stream{};

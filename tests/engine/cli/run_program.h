@@ -4,14 +4,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
+
+#include "tests/temp_folder.h"
 
 namespace mw::cli {
 
@@ -21,34 +22,22 @@ struct ProgramRun {
   std::string err;
 };
 
-inline std::string content_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using mw::test::content_of;
 
 /// A test with an empty folder that is the program's working directory.
 class ProgramTest : public testing::Test {
  protected:
-  ProgramTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "mwmesh-cli-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~ProgramTest() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-
   /// Runs `prefix program arguments` in a shell; prefix holds variables or a wrapping command.
   ProgramRun run(const std::string& arguments, const std::string& prefix = {}) const {
-    const std::string command = "cd '" + folder_.string() + "' && " + prefix + " '" + MW_PROGRAM +
-                                "' " + arguments + " >.out 2>.err </dev/null";
+    const std::string command = "cd '" + folder_.path().string() + "' && " + prefix + " '" +
+                                MW_PROGRAM + "' " + arguments + " >.out 2>.err </dev/null";
     const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe)
     ProgramRun result;
     result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    result.out = content_of(folder_ / ".out");
-    result.err = content_of(folder_ / ".err");
-    std::filesystem::remove(folder_ / ".out");
-    std::filesystem::remove(folder_ / ".err");
+    result.out = content_of(folder_.path() / ".out");
+    result.err = content_of(folder_.path() / ".err");
+    std::filesystem::remove(folder_.path() / ".out");
+    std::filesystem::remove(folder_.path() / ".err");
     return result;
   }
 
@@ -69,16 +58,16 @@ class ProgramTest : public testing::Test {
   }
 
   void write(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
+    std::ofstream(folder_.path() / name, std::ios::binary) << content;
   }
 
   [[nodiscard]] std::string read(const std::string& name) const {
-    return content_of(folder_ / name);
+    return content_of(folder_.path() / name);
   }
 
   [[nodiscard]] std::set<std::string> files() const {
     std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
       names.insert(entry.path().filename().string());
     }
     return names;
@@ -91,7 +80,7 @@ class ProgramTest : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  mw::test::TempFolder folder_;
 };
 
 }  // namespace mw::cli

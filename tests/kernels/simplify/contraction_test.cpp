@@ -266,7 +266,7 @@ TEST(Sec54Filters, JudgeAlikeAfterContractions) {
       ASSERT_EQ(verdict, ShapeFilter(mesh, metric, options).judge(*c));
       if (verdict != ShapeVerdict::kGood || !topology.keeps_topology(mesh, c->keep, c->drop))
         continue;
-      below_floor += worst_of_star(mesh, metric, c->drop) < options.quality_floor ? 1 : 0;
+      below_floor += star_shape(mesh, metric, c->drop).worst < options.quality_floor ? 1 : 0;
       mesh.contract(c->keep, c->drop, c->position, contracted_quadric(mesh, metric, *c));
       ++contracted;
     }
