@@ -80,6 +80,21 @@ void sort_rows(std::vector<Item>& items, std::size_t vertices) {
   items = std::move(sorted);
 }
 
+/// Joins samples of the same face on the same triangle.  REQUIRES: sorted.
+void join_faces(std::vector<BlockSample>& sorted) {
+  std::size_t kept = 0;
+  for (const BlockSample& s : sorted) {
+    BlockSample* const last = kept == 0 ? nullptr : &sorted[kept - 1];
+    if (last != nullptr && last->triangle == s.triangle && last->side == s.side &&
+        on_same_face(last->samples, s.samples)) {
+      last->samples |= s.samples;
+    } else {
+      sorted[kept++] = s;
+    }
+  }
+  sorted.resize(kept);
+}
+
 /// Tets and samples of one block to be, still with rows of the window.
 struct Share {
   std::vector<BlockTet> tets;
@@ -105,6 +120,7 @@ BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row
     for (std::uint32_t& v : s.triangle) v = row[v];
   }
   sort_rows(share.samples, used.size());
+  join_faces(share.samples);
   out.tets = std::move(share.tets);
   out.samples = std::move(share.samples);
   return out;
@@ -122,7 +138,7 @@ void take_samples(const WindowContent& content, const BlockTet& tet, Share& shar
   for (const TriangleKey& face : faces) {
     if (!may_carry(face[0]) || !may_carry(face[1]) || !may_carry(face[2])) continue;
     if (!content.samples.has(face, tet.label)) continue;
-    content.samples.each(face, [&](FaceSample s) {
+    content.samples.each(face, [&](FaceSamples s) {
       share.samples.push_back({face, tet.label, s});
       return true;
     });
@@ -154,7 +170,7 @@ WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume) {
   const BlockMesh merged = merge(blocks);
   for (const BlockTet& t : merged.tets) check_extent(t, merged.vertices);
   CarriedSamples samples;
-  for (const BlockSample& s : merged.samples) samples.add(s.triangle, s.side, s.sample);
+  for (const BlockSample& s : merged.samples) samples.add(s.triangle, s.side, s.samples);
   const Point box{lattice(volume.x), lattice(volume.y), lattice(volume.z)};
   const bool one_label =
       std::all_of(merged.tets.begin(), merged.tets.end(),

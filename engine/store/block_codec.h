@@ -23,7 +23,7 @@ struct BlockKey {
 /// The block's bytes.  All numbers little-endian; "var" is a varint (engine/store/byte_codes.h).
 ///
 ///     offset  size  what
-///     0       4     "MWB" and the version of this layout, 1
+///     0       4     "MWB" and the version of this layout, 2
 ///     4       4     CRC-32 of everything from offset 8 on
 ///     8       8     length of the whole, this head included
 ///     16      -     march var, block x y z var

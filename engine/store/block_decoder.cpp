@@ -41,7 +41,7 @@ class Decoder {
   void check_head(std::span<const std::byte> bytes) {
     if (bytes.size() < kBlockHeadBytes) throw BadBytes{"it ends too early"};
     if (in_.low_bytes(4) != kBlockMagic)
-      throw BadBytes{"it does not begin as a block of version 1"};
+      throw BadBytes{"it does not begin as a block of version 2"};
     const std::uint64_t sum = in_.low_bytes(4);
     if (in_.low_bytes(8) != bytes.size()) throw BadBytes{"its length is wrong"};
     if (io::checksum(bytes.subspan(kBlockSizeAt)) != sum) {
@@ -139,18 +139,18 @@ class Decoder {
     const std::size_t lists = in_.count();
     mesh_.samples.reserve(total);
     std::uint32_t before = 0;
-    FaceSample last = 0;
+    FaceSamples last = 0;
     for (std::size_t i = 0; i < lists; ++i) {
       BlockSample s;
       rows(s.triangle, before);
       s.side = label();
       const std::size_t count = in_.count();
-      last += static_cast<FaceSample>(unzigzag(in_.varint()));
+      last += static_cast<FaceSamples>(unzigzag(in_.varint()));
       if (count == 0) throw BadBytes{"a list of samples is empty"};
       for (std::size_t k = 0; k < count; ++k) {
         const std::uint64_t step = k == 0 ? 0 : in_.varint();
         if (step > ~last) throw BadBytes{"its samples do not ascend"};
-        s.sample = last += step;
+        s.samples = last += step;
         if (!mesh_.samples.empty() && s < mesh_.samples.back()) {
           throw BadBytes{"its samples do not ascend"};
         }

@@ -136,16 +136,16 @@ class Encoder {
     out_.varint(mesh_.samples.size());
     out_.varint(lists);
     std::uint32_t before = 0;
-    FaceSample last = 0;
+    FaceSamples last = 0;
     for (std::size_t i = 0; i < mesh_.samples.size();) {
       const std::size_t end = list_end(i);
       rows(mesh_.samples[i].triangle, before);
       label(mesh_.samples[i].side);
       out_.varint(end - i);
-      const FaceSample first = mesh_.samples[i].sample;
+      const FaceSamples first = mesh_.samples[i].samples;
       out_.varint(zigzag(static_cast<std::int64_t>(first - std::exchange(last, first))));
       for (++i; i < end; ++i) {
-        const FaceSample sample = mesh_.samples[i].sample;
+        const FaceSamples sample = mesh_.samples[i].samples;
         out_.varint(sample - std::exchange(last, sample));
       }
     }

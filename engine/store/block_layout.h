@@ -9,7 +9,7 @@
 
 namespace mw::engine {
 
-inline constexpr std::uint64_t kBlockMagic = 0x0142574DU;  ///< "MWB", version 1
+inline constexpr std::uint64_t kBlockMagic = 0x0242574DU;  ///< "MWB", version 2
 inline constexpr std::size_t kBlockHeadBytes = 16;
 inline constexpr std::size_t kBlockSumAt = 4;
 inline constexpr std::size_t kBlockSizeAt = 8;  ///< here the checksummed part begins

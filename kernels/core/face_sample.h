@@ -11,39 +11,72 @@
 
 namespace mw {
 
-/// A sample on a voxel face, in 8 bytes: from the highest bit on z, y and x (20 bits each) of the
-/// voxel on the face's lower side, the face's axis (2 bits), and which of the face's quarters the
-/// sample is the centre of (2 bits).
-using FaceSample = std::uint64_t;
-
-/// Largest distance of a point of a voxel face to the nearest of its four samples: sqrt(2) / 4.
-inline constexpr double kSampleCoveringRadius = 0.35355339059327379;
+/// Each voxel face has a sample at the centre of each of its quarters.
 inline constexpr unsigned kSamplesPerFace = 4;
-/// Voxels along an axis that a sample can number.
-inline constexpr std::int64_t kMaxSampledVoxels = 1 << 20;
+/// Largest distance of a point of a voxel face to the nearest of its four samples: sqrt(2) / 4.
+/// It is also how far the samples are from the centre of the face.
+inline constexpr double kSampleCoveringRadius = 0.35355339059327379;
+/// Voxels along an axis that samples can number.
+inline constexpr std::int64_t kMaxSampledVoxels = 1 << 19;
 
-[[nodiscard]] inline FaceSample face_sample(Index3 lower_voxel, unsigned axis, unsigned quarter) {
-  return static_cast<FaceSample>(lower_voxel.z) << 44 |
-         static_cast<FaceSample>(lower_voxel.y) << 24 |
-         static_cast<FaceSample>(lower_voxel.x) << 4 | axis << 2 | quarter;
+/// Some of the four samples of a voxel face, in 8 bytes: from the highest bit but one on z, y and x
+/// (19 bits each) of the voxel on the face's lower side, the face's axis (2 bits), and one bit for
+/// each quarter.
+using FaceSamples = std::uint64_t;
+
+/// One bit for each quarter, 0 to 3.
+using QuarterBits = unsigned;
+inline constexpr QuarterBits kAllQuarters = 15;
+
+[[nodiscard]] inline FaceSamples face_samples(Index3 lower_voxel, unsigned axis,
+                                              QuarterBits quarters) {
+  return static_cast<FaceSamples>(lower_voxel.z) << 44 |
+         static_cast<FaceSamples>(lower_voxel.y) << 25 |
+         static_cast<FaceSamples>(lower_voxel.x) << 6 | axis << 4 | quarters;
 }
 
-/// Where the sample lies.  Quarter bit 0 is the upper half along the face's first axis, bit 1 along
-/// its second (axes in ascending order).
-[[nodiscard]] inline Point position(FaceSample sample) {
-  constexpr FaceSample kCoordinate = kMaxSampledVoxels - 1;
-  constexpr std::int32_t kQuarter = kUnitsPerVoxel / 4, kHalf = kUnitsPerVoxel / 2;
-  const auto axis = static_cast<unsigned>(sample >> 2 & 3U);
-  const auto first = kQuarter + static_cast<std::int32_t>(sample & 1U) * kHalf;
-  const auto second = kQuarter + static_cast<std::int32_t>(sample >> 1 & 1U) * kHalf;
-  const auto base = [sample](unsigned shift) {
-    return static_cast<std::int32_t>(sample >> shift & kCoordinate) * kUnitsPerVoxel;
+[[nodiscard]] inline QuarterBits quarters_of(FaceSamples samples) {
+  return static_cast<QuarterBits>(samples & kAllQuarters);
+}
+
+[[nodiscard]] inline unsigned axis_of(FaceSamples samples) {
+  return static_cast<unsigned>(samples >> 4 & 3U);
+}
+
+[[nodiscard]] inline bool on_same_face(FaceSamples a, FaceSamples b) {
+  return ((a ^ b) & ~FaceSamples{kAllQuarters}) == 0;
+}
+
+/// The same face, other quarters.
+[[nodiscard]] inline FaceSamples with_quarters(FaceSamples samples, QuarterBits quarters) {
+  return (samples & ~FaceSamples{kAllQuarters}) | quarters;
+}
+
+/// The point of the face at these places, in lattice units, along its two axes, ascending.
+[[nodiscard]] inline Point point_on_face(FaceSamples samples, std::int32_t first,
+                                         std::int32_t second) {
+  constexpr FaceSamples kCoordinate = kMaxSampledVoxels - 1;
+  const unsigned axis = axis_of(samples);
+  const auto base = [samples](unsigned shift) {
+    return static_cast<std::int32_t>(samples >> shift & kCoordinate) * kUnitsPerVoxel;
   };
-  return {base(4) + (axis == 0 ? kUnitsPerVoxel : first),
-          base(24) + (axis == 0   ? first
+  return {base(6) + (axis == 0 ? kUnitsPerVoxel : first),
+          base(25) + (axis == 0   ? first
                       : axis == 1 ? kUnitsPerVoxel
                                   : second),
           base(44) + (axis == 2 ? kUnitsPerVoxel : second)};
+}
+
+[[nodiscard]] inline Point face_centre(FaceSamples samples) {
+  return point_on_face(samples, kUnitsPerVoxel / 2, kUnitsPerVoxel / 2);
+}
+
+/// Where the sample of a quarter lies.  Quarter bit 0 is the upper half along the face's first
+/// axis, bit 1 along its second (axes in ascending order).
+[[nodiscard]] inline Point sample_position(FaceSamples samples, unsigned quarter) {
+  constexpr std::int32_t kQuarter = kUnitsPerVoxel / 4, kHalf = kUnitsPerVoxel / 2;
+  return point_on_face(samples, kQuarter + static_cast<std::int32_t>(quarter & 1U) * kHalf,
+                       kQuarter + static_cast<std::int32_t>(quarter >> 1 & 1U) * kHalf);
 }
 
 }  // namespace mw

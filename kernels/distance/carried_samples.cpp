@@ -25,7 +25,7 @@ std::size_t CarriedSamples::find(const TriangleKey& key) const {
   return at;
 }
 
-void CarriedSamples::add(const TriangleKey& key, Label side, FaceSample sample) {
+void CarriedSamples::add(const TriangleKey& key, Label side, FaceSamples sample) {
   if (2 * (used_ + 1) > slots_.size()) grow();
   Slot& slot = slots_[find(key)];
   if (slot.head == kNone) {

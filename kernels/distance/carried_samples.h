@@ -37,7 +37,7 @@ class CarriedSamples {
     return slot.head != kNone && slot.side == side;
   }
 
-  void add(const TriangleKey& key, Label side, FaceSample sample);
+  void add(const TriangleKey& key, Label side, FaceSamples sample);
   void erase(const TriangleKey& key);
 
   /// Calls visit(sample) for each sample of the triangle, until it returns false.
@@ -60,7 +60,7 @@ class CarriedSamples {
     std::uint32_t head = kNone;  ///< kNone: the slot is free
   };
   struct Node {
-    FaceSample sample = 0;
+    FaceSamples sample = 0;
     std::uint32_t next = kNone;
   };
 

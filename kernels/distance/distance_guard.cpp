@@ -92,31 +92,46 @@ bool DistanceGuard::keeps_bound() {
 }
 
 bool DistanceGuard::place_samples(std::size_t from) {
-  return samples_.each(changed_[from].before, [&](FaceSample s) { return place(s, from); });
+  return samples_.each(changed_[from].before, [&](FaceSamples s) { return place(s, from); });
 }
 
-bool DistanceGuard::place(FaceSample sample, std::size_t from) {
-  const Vec3 p = in_voxels(position(sample));
-  const Changed& old = changed_[from];
-  const double limit = placing_distance_ * placing_distance_;
-  if (!old.vanishes && old.shape.squared_distance(p) <= limit) {
-    handovers_.push_back({from, sample});
+/// Together when the centre of the face is so near that all of them are, else one by one.
+bool DistanceGuard::place(FaceSamples samples, std::size_t from) {
+  const double for_centre = placing_distance_ - kSampleCoveringRadius;
+  if (const auto to = receiver(in_voxels(face_centre(samples)), from, for_centre)) {
+    handovers_.push_back({*to, samples});
     return true;
   }
-  double best = limit;
-  std::size_t to = changed_.size();
+  for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+    const QuarterBits bit = 1U << quarter;
+    if ((quarters_of(samples) & bit) == 0) continue;
+    const auto to =
+        receiver(in_voxels(sample_position(samples, quarter)), from, placing_distance_);
+    if (!to) return false;
+    handovers_.push_back({*to, with_quarters(samples, bit)});
+  }
+  return true;
+}
+
+/// The triangle that takes p over: what becomes of its present one, else the nearest; none when
+/// that is farther than limit.
+std::optional<std::size_t> DistanceGuard::receiver(const Vec3& p, std::size_t from,
+                                                   double limit) const {
+  if (limit < 0.0) return std::nullopt;
+  const Changed& old = changed_[from];
+  double nearest = limit * limit;
+  if (!old.vanishes && old.shape.squared_distance(p) <= nearest) return from;
+  std::optional<std::size_t> to;
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     const Changed& t = changed_[i];
     if (t.vanishes || t.low != old.low || t.high != old.high) continue;
     const double d = t.shape.squared_distance(p);
-    if (d <= best && (to == changed_.size() || d < best)) {
-      best = d;
+    if (to ? d < nearest : d <= nearest) {
+      nearest = d;
       to = i;
     }
   }
-  if (to == changed_.size()) return false;
-  handovers_.push_back({to, sample});
-  return true;
+  return to;
 }
 
 void DistanceGuard::commit() {
@@ -125,7 +140,7 @@ void DistanceGuard::commit() {
   }
   for (const Handover& h : handovers_) {
     const Changed& t = changed_[h.to];
-    samples_.add(t.after, t.low, h.sample);
+    samples_.add(t.after, t.low, h.samples);
   }
 }
 

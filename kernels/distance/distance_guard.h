@@ -3,6 +3,8 @@
 // The hard two-sided bound on the distance between input and output interfaces (promise P4).
 #pragma once
 
+#include <optional>
+
 #include "kernels/distance/carried_samples.h"
 #include "kernels/distance/interface_fan.h"
 #include "kernels/distance/label_reach.h"
@@ -55,14 +57,16 @@ class DistanceGuard {
   };
   struct Handover {
     std::size_t to = 0;
-    FaceSample sample = 0;
+    FaceSamples samples = 0;
   };
 
   void add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other, LocalVertex survivor,
                    Point target);
   [[nodiscard]] bool keeps_bound();
   [[nodiscard]] bool place_samples(std::size_t from);
-  [[nodiscard]] bool place(FaceSample sample, std::size_t from);
+  [[nodiscard]] bool place(FaceSamples samples, std::size_t from);
+  [[nodiscard]] std::optional<std::size_t> receiver(const Vec3& p, std::size_t from,
+                                                    double limit) const;
 
   LabelReach reach_;
   double placing_distance_;

@@ -167,8 +167,12 @@ class StartBuilder {
     const Index3 owner = low_is_lower ? carrier.lower : carrier.upper();
     if (!block_.contains(owner)) return;
     triangulate(owner, {carrier.axis, low_is_lower});
+    const FaceSamples all = face_samples(face.lower, face.axis, kAllQuarters);
+    const std::size_t first = mesh_.samples.size();
     for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-      add_sample(face_sample(face.lower, face.axis, quarter), carrier, pair.low);
+      const BlockSample one{triangle_below(sample_position(all, quarter), carrier), pair.low,
+                            with_quarters(all, 1U << quarter)};
+      add_to_face(one, first);
     }
   }
 
@@ -190,15 +194,26 @@ class StartBuilder {
     throw Error(ErrorKind::kInternal, "coarsening left an interface face without a carrier");
   }
 
-  void add_sample(FaceSample sample, const VoxelFace& carrier, Label label) {
-    const Point p = nearest_on(carrier, position(sample));
+  /// Places of the triangle among triangles_ that holds the point of the carrier nearest to p.
+  std::array<std::uint32_t, 3> triangle_below(Point p, const VoxelFace& carrier) {
+    const Point foot = nearest_on(carrier, p);
     const auto found =
         std::find_if(triangles_.begin(), triangles_.end(),
-                     [&](const CornerTriangle& t) { return on_triangle(p, t, carrier.axis); });
+                     [&](const CornerTriangle& t) { return on_triangle(foot, t, carrier.axis); });
     MW_ASSERT(found != triangles_.end());
     std::array<std::uint32_t, 3> places{place((*found)[0]), place((*found)[1]), place((*found)[2])};
     std::sort(places.begin(), places.end());
-    mesh_.samples.push_back({places, label, sample});
+    return places;
+  }
+
+  /// Joins a sample to those of its face, which begin at `first`, on the same triangle.
+  void add_to_face(const BlockSample& one, std::size_t first) {
+    for (std::size_t i = first; i < mesh_.samples.size(); ++i) {
+      if (mesh_.samples[i].triangle != one.triangle) continue;
+      mesh_.samples[i].samples |= one.samples;
+      return;
+    }
+    mesh_.samples.push_back(one);
   }
 
   /// Turns places into rows and lists the vertices.

@@ -31,18 +31,18 @@ struct BlockTet {
   friend auto operator<=>(const BlockTet&, const BlockTet&) = default;
 };
 
-/// A sample of the input's interface, carried by a triangle of the mesh's (distance bound).  It is
-/// stored with the tet on that side of the triangle whose label is the smaller.
+/// Samples of one face of the input's interface, carried by a triangle of the mesh's (distance
+/// bound).  They are stored with the tet on that side of the triangle whose label is the smaller.
 struct BlockSample {
   std::array<std::uint32_t, 3> triangle{};  ///< rows of the block's vertex list, ascending
   Label side = 0;                           ///< label of that tet
-  FaceSample sample = 0;
+  FaceSamples samples = 0;
 
   friend auto operator<=>(const BlockSample&, const BlockSample&) = default;
 };
 
 /// Content of one block.  Canonical: vertices ascending by id, tets and samples ascending; every
-/// vertex is referenced.  Equal content is equal bytes, whichever window wrote it.
+/// vertex is referenced; a triangle names a face once.  Equal content is equal bytes, whichever window wrote it.
 struct BlockMesh {
   std::vector<BlockVertex> vertices;
   std::vector<BlockTet> tets;
