@@ -58,11 +58,11 @@ std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOpti
 
 std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                            DistanceGuard* guard) {
-  const SmoothOptions smooth{options.smooth_below, options.quality_floor};
+  Smoother smoother(mesh, metric, {options.smooth_below, options.quality_floor}, guard);
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
-    moves += smooth_vertex(mesh, metric, v, smooth, guard) ? 1U : 0U;
+    moves += smoother.smooth(v) ? 1U : 0U;
   }
   return moves;
 }

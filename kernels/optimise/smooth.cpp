@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/star_batch.h"
 
 namespace mw {
 namespace {
@@ -26,8 +27,14 @@ constexpr double kLeastGain = 0.002;
 /// What a move of one vertex has to respect.
 class Mover {
  public:
-  Mover(const TetMesh& mesh, const Metric& metric, LocalVertex v, double least)
-      : mesh_(mesh), metric_(metric), v_(v), fixed_(fixed_axes(mesh.planes(v))), least_(least) {
+  Mover(const TetMesh& mesh, const Metric& metric, const StarBatch& star, LocalVertex v,
+        double least)
+      : mesh_(mesh),
+        metric_(metric),
+        star_(star),
+        v_(v),
+        fixed_(fixed_axes(mesh.planes(v))),
+        least_(least) {
     if (mesh.on_interface(v)) {
       const Quadric& q = mesh.quadric(v);
       quadric_limit_ = std::max(q.c, kInterfaceSlack * q.trace());
@@ -43,8 +50,7 @@ class Mover {
     const Point y = metric_.moved(x, offset);
     if (y == x) return std::nullopt;
     if (quadric_limit_) {
-      const Vec3 from_owner = metric_.vector(mesh_.position(v_), y);
-      if (mesh_.quadric(v_).value(from_owner) > *quadric_limit_) return std::nullopt;
+      if (mesh_.quadric(v_).value(from_start(y)) > *quadric_limit_) return std::nullopt;
     }
     return y;
   }
@@ -60,41 +66,24 @@ class Mover {
   }
 
   [[nodiscard]] double energy(Point x, double enough) const {
-    return star_energy(mesh_, metric_, v_, x, least_, enough);
+    return star_.energy_at(from_start(x), least_, enough);
   }
 
-  /// Newton's step for the sum of s^3 / v^2 over the star, s the sum of a tet's six squared edges
-  /// and v its volume (times 6): a convex function of the position wherever all tets are positive,
-  /// least for regular tets, and free of square roots.  On interfaces the quadric is added.
+  /// Newton's step for StarBatch::terms_at; on interfaces the quadric is added.
   [[nodiscard]] Vec3 newton_step(Point x) const {
-    Vec3 gradient = Vec3::Zero();
-    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-    double sum = 0.0;
-    for (const LinkTriangle& t : mesh_.star(v_)) {
-      if (t.label == kExterior) continue;
-      const TetEdges e =
-          tet_edges(metric_, x, mesh_.position(t.a), mesh_.position(t.b), mesh_.position(t.c));
-      const Vec3 ab = e.b - e.a, ac = e.c - e.a;
-      const Vec3 dv = -ab.cross(ac), ds = -2.0 * (e.a + e.b + e.c);
-      const double s = e.a.squaredNorm() + e.b.squaredNorm() + e.c.squaredNorm() +
-                       ab.squaredNorm() + ac.squaredNorm() + (ac - ab).squaredNorm();
-      const double r = s / -e.a.dot(dv);
-      const Vec3 u = r * (ds - r * dv);
-      sum += s * r * r;
-      gradient += r * r * (3.0 * ds - 2.0 * r * dv);
-      hessian += 6.0 / s * u * u.transpose();
-      hessian.diagonal().array() += 18.0 * r * r;
-    }
+    StarTerms terms = star_.terms_at(from_start(x));
     if (quadric_limit_) {
-      const double weight = kQuadricShare * sum / *quadric_limit_;
-      const Quadric q = mesh_.quadric(v_).shifted(metric_.vector(mesh_.position(v_), x));
-      gradient += 2.0 * weight * q.linear();
-      hessian += 2.0 * weight * q.matrix();
+      const double weight = kQuadricShare * terms.value / *quadric_limit_;
+      const Quadric q = mesh_.quadric(v_).shifted(from_start(x));
+      terms.gradient += 2.0 * weight * q.linear();
+      terms.hessian += 2.0 * weight * q.matrix();
     }
-    return solve(hessian, gradient);
+    return solve(terms.hessian, terms.gradient);
   }
 
  private:
+  [[nodiscard]] Vec3 from_start(Point x) const { return metric_.vector(mesh_.position(v_), x); }
+
   /// -hessian^-1 gradient over the axes along which the vertex may move.
   [[nodiscard]] Vec3 solve(Eigen::Matrix3d hessian, Vec3 gradient) const {
     for (int i = 0; i < 3; ++i) {
@@ -109,6 +98,7 @@ class Mover {
 
   const TetMesh& mesh_;
   const Metric& metric_;
+  const StarBatch& star_;
   LocalVertex v_;
   unsigned fixed_;
   double least_;
@@ -143,20 +133,20 @@ void search(const Mover& mover, Best& best) {
 
 }  // namespace
 
-bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, const SmoothOptions& options,
-                   DistanceGuard* guard) {
-  const StarShape present = star_shape(mesh, metric, v);
-  if (present.worst >= options.smooth_below) return false;
-  const Mover mover(mesh, metric, v, least_allowed(present.worst, options.quality_floor));
-  const Point start = mesh.position(v);
+bool Smoother::smooth(LocalVertex v) {
+  star_.collect(mesh_, metric_, v);
+  const StarShape present = star_.shape_at(Vec3::Zero());
+  if (present.worst >= options_.smooth_below) return false;
+  const Mover mover(mesh_, metric_, star_, v, least_allowed(present.worst, options_.quality_floor));
+  const Point start = mesh_.position(v);
   Best best{start, present.energy};
   search(mover, best);
   if (best.energy > (1.0 - kLeastGain) * present.energy) return false;
-  const bool guarded = guard != nullptr && mesh.on_interface(v);
-  if (guarded && !guard->allows_move(mesh, v, best.position)) return false;
-  const Vec3 move = metric.vector(start, best.position);
-  mesh.move(v, best.position, mesh.quadric(v).shifted(move));
-  if (guarded) guard->commit();
+  const bool guarded = guard_ != nullptr && mesh_.on_interface(v);
+  if (guarded && !guard_->allows_move(mesh_, v, best.position)) return false;
+  const Vec3 move = metric_.vector(start, best.position);
+  mesh_.move(v, best.position, mesh_.quadric(v).shifted(move));
+  if (guarded) guard_->commit();
   return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
+#include "kernels/quality/star_batch.h"
 
 namespace mw {
 
@@ -13,15 +14,29 @@ struct SmoothOptions {
   double quality_floor = 0.1;  ///< no move creates a tet below, unless it replaces a worse one
 };
 
-/// Moves v, if that clearly lowers the shape energy of its star (kernels/quality/mesh_quality.h).
+/// Moves vertices to where the shape energy of their stars (kernels/quality/star_batch.h) is
+/// clearly lower.
 ///
 /// Inner vertices move freely, box vertices within their planes, interface vertices only where
 /// their quadric stays below max(present value, a quarter voxel squared per accumulated plane): the
 /// slack is absolute, so it does not add up over visits.  With a guard they keep the distance bound
 /// as well.
-/// REQUIRES: v free.  ENSURES: all tets exactly positive; connectivity unchanged, so topology is.
-/// Returns true when v moved.
-bool smooth_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, const SmoothOptions& options,
-                   DistanceGuard* guard = nullptr);
+class Smoother {
+ public:
+  Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& options,
+           DistanceGuard* guard = nullptr)
+      : mesh_(mesh), metric_(metric), options_(options), guard_(guard) {}
+
+  /// REQUIRES: v free.  ENSURES: all tets exactly positive; connectivity unchanged, so topology is.
+  /// Returns true when v moved.
+  bool smooth(LocalVertex v);
+
+ private:
+  TetMesh& mesh_;
+  const Metric& metric_;
+  SmoothOptions options_;
+  DistanceGuard* guard_;
+  StarBatch star_;
+};
 
 }  // namespace mw

@@ -48,35 +48,4 @@ namespace mw {
   return std::min(worst, std::max(kDecent, quality_floor));
 }
 
-/// The real tets at v: the least radius ratio, and the sum of their energies.
-struct StarShape {
-  double worst = 1.0;
-  double energy = 0.0;
-};
-
-[[nodiscard]] inline StarShape star_shape(const TetMesh& mesh, const Metric& metric,
-                                          LocalVertex v) {
-  StarShape out;
-  for (const LinkTriangle& t : mesh.star(v)) {
-    if (t.label == kExterior) continue;
-    const double r = radius_ratio(mesh, metric, mesh.position(v), t);
-    out.worst = std::min(out.worst, r);
-    out.energy += shape_energy(r, 0.0);
-  }
-  return out;
-}
-
-/// Energy of the real tets at v, were v at x; infinite when one is below `least`, not finished when
-/// it exceeds `enough`.
-[[nodiscard]] inline double star_energy(const TetMesh& mesh, const Metric& metric, LocalVertex v,
-                                        Point x, double least, double enough) {
-  double sum = 0.0;
-  for (const LinkTriangle& t : mesh.star(v)) {
-    if (t.label == kExterior) continue;
-    sum += shape_energy(radius_ratio(mesh, metric, x, t), least);
-    if (sum > enough) break;
-  }
-  return sum;
-}
-
 }  // namespace mw

@@ -86,13 +86,17 @@ ShapeVerdict ShapeFilter::judge(const Contraction& c, double floor) const {
   return verdict;
 }
 
+double ShapeFilter::worst_of_star(LocalVertex v) {
+  star_.collect(mesh_, metric_, v);
+  return star_.shape_at(Vec3::Zero()).worst;
+}
+
 ShapeVerdict ShapeFilter::judge(const Contraction& c) {
   const double floor = floor_for(c);
   const ShapeVerdict verdict = judge(c, floor);
   const bool may_be_poor = poor_[c.keep] != 0 || poor_[c.drop] != 0;
   if (verdict != ShapeVerdict::kLowQuality || !may_be_poor) return verdict;
-  const double present =
-      std::min(star_shape(mesh_, metric_, c.drop).worst, star_shape(mesh_, metric_, c.keep).worst);
+  const double present = std::min(worst_of_star(c.drop), worst_of_star(c.keep));
   if (present >= options_.quality_floor) return verdict;
   const ShapeVerdict again = judge(c, present);
   if (again == ShapeVerdict::kGood) mark_poor(c);

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "kernels/quality/star_batch.h"
 #include "kernels/simplify/contraction.h"
 #include "kernels/simplify/simplify.h"
 
@@ -27,11 +28,13 @@ class ShapeFilter {
  private:
   [[nodiscard]] double floor_for(const Contraction& c) const;
   [[nodiscard]] ShapeVerdict judge(const Contraction& c, double floor) const;
+  [[nodiscard]] double worst_of_star(LocalVertex v);
   void mark_poor(const Contraction& c);
 
   const TetMesh& mesh_;
   const Metric& metric_;
   const SimplifyOptions& options_;
+  StarBatch star_;
   /// Vertices that had a tet below quality_floor at some time; only there is the fallback looked
   /// at.
   std::vector<std::uint8_t> poor_;

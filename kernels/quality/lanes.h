@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Four numbers at a time, with the same result on every machine.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "kernels/core/metric.h"
+
+/// Compiles a function for processors with wide registers too; the loader picks.  Lanes never mix
+/// and nothing is fused, so all versions give the same bits.  (Sanitizers cannot instrument what
+/// the loader runs.)
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define MW_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define MW_WIDE
+#endif
+
+namespace mw {
+
+inline constexpr std::size_t kLanes = 4;
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+/// All bits set in lanes where something holds, else none.
+using LaneMask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
+
+struct Lanes3 {
+  Lanes x, y, z;
+};
+
+/// Lanes in memory.  (How far the compiler aligns the vector types depends on the processor that
+/// it compiles for, so they stay out of what several versions of a function share.)
+template <typename T>
+using Stored = std::array<T, kLanes>;
+struct Stored3 {
+  Stored<double> x, y, z;
+};
+
+// Always inline: what a function of MW_WIDE calls must be compiled along with it.
+#define MW_LANES [[gnu::always_inline, nodiscard]] inline
+
+MW_LANES Lanes lanes(double value) {
+  return Lanes{value, value, value, value};
+}
+MW_LANES Lanes3 lanes(const Vec3& v) {
+  return {lanes(v[0]), lanes(v[1]), lanes(v[2])};
+}
+MW_LANES Lanes load(const Stored<double>& s) {
+  Lanes v;
+  std::memcpy(&v, s.data(), sizeof v);
+  return v;
+}
+MW_LANES LaneMask load(const Stored<std::int64_t>& s) {
+  LaneMask v;
+  std::memcpy(&v, s.data(), sizeof v);
+  return v;
+}
+MW_LANES Lanes3 load(const Stored3& s) {
+  return {load(s.x), load(s.y), load(s.z)};
+}
+MW_LANES Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+MW_LANES Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+MW_LANES Lanes3 operator*(const Lanes& s, const Lanes3& v) {
+  return {s * v.x, s * v.y, s * v.z};
+}
+MW_LANES Lanes dot(const Lanes3& a, const Lanes3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+MW_LANES Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+MW_LANES Lanes root(const Lanes& v) {
+  return Lanes{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+}
+MW_LANES bool any(const LaneMask& m) {
+  return (m[0] | m[1] | m[2] | m[3]) != 0;
+}
+/// In a fixed order.
+MW_LANES double sum(const Lanes& v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
+}
+
+}  // namespace mw
