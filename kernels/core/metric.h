@@ -34,6 +34,8 @@ class Metric {
     return {(b.x - a.x) * unit_[0], (b.y - a.y) * unit_[1], (b.z - a.z) * unit_[2]};
   }
 
+  /// Edge lengths of a cell of the lattice.
+  [[nodiscard]] const Vec3& unit() const { return unit_; }
   /// Edge lengths of a voxel.
   [[nodiscard]] Vec3 voxel() const { return unit_ * kUnitsPerVoxel; }
 

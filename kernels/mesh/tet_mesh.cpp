@@ -190,9 +190,11 @@ void TetMesh::move(LocalVertex v, Point position, const Quadric& quadric) {
   points_[v] = position;
   quadrics_[v] = quadric;
   ++versions_[v];
+  ++changes_;
 }
 
 void TetMesh::add_tet(const LocalTet& tet) {
+  ++changes_;
   for (int i = 0; i < 4; ++i) {
     const LocalVertex v = tet.vertices[static_cast<std::size_t>(i)];
     if (v != infinity()) append(v, link_triangle(tet, i));
@@ -200,6 +202,7 @@ void TetMesh::add_tet(const LocalTet& tet) {
 }
 
 void TetMesh::remove_tet(const LocalTet& tet) {
+  ++changes_;
   for (int i = 0; i < 4; ++i) {
     const LocalVertex v = tet.vertices[static_cast<std::size_t>(i)];
     if (v == infinity()) continue;

@@ -77,6 +77,8 @@ class TetMesh {
   [[nodiscard]] BoxPlanes planes(LocalVertex v) const { return planes_[v]; }
   [[nodiscard]] bool is_free(LocalVertex v) const { return free_[v] != 0; }
   [[nodiscard]] bool is_alive(LocalVertex v) const { return stars_[v].size != 0; }
+  /// Grows with every change of the mesh.
+  [[nodiscard]] std::uint64_t changes() const { return changes_; }
   /// Changes whenever v moves, another vertex is merged into it, or a tet at it is removed.
   [[nodiscard]] std::uint32_t version(LocalVertex v) const { return versions_[v]; }
 
@@ -142,6 +144,7 @@ class TetMesh {
   std::vector<std::uint32_t> versions_;
   std::vector<Star> stars_;
   std::vector<LinkTriangle> pool_;
+  std::uint64_t changes_ = 0;
   VertexMarks marks_;
 };
 

@@ -27,8 +27,7 @@ constexpr double kLeastGain = 0.002;
 /// What a move of one vertex has to respect.
 class Mover {
  public:
-  Mover(const TetMesh& mesh, const Metric& metric, const StarBatch& star, LocalVertex v,
-        double least)
+  Mover(const TetMesh& mesh, const Metric& metric, StarBatch& star, LocalVertex v, double least)
       : mesh_(mesh),
         metric_(metric),
         star_(star),
@@ -98,7 +97,7 @@ class Mover {
 
   const TetMesh& mesh_;
   const Metric& metric_;
-  const StarBatch& star_;
+  StarBatch& star_;
   LocalVertex v_;
   unsigned fixed_;
   double least_;

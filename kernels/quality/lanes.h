@@ -23,20 +23,18 @@ namespace mw {
 
 inline constexpr std::size_t kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-/// All bits set in lanes where something holds, else none.
+/// All bits set in lanes where something holds, else none.  (How far the compiler aligns these
+/// types depends on the processor that it compiles for, so they stay out of what is kept in
+/// memory.)
 using LaneMask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
+using LaneInts = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
 
 struct Lanes3 {
   Lanes x, y, z;
 };
 
-/// Lanes in memory.  (How far the compiler aligns the vector types depends on the processor that
-/// it compiles for, so they stay out of what several versions of a function share.)
-template <typename T>
-using Stored = std::array<T, kLanes>;
-struct Stored3 {
-  Stored<double> x, y, z;
-};
+/// Whole numbers of four lanes in memory.
+using StoredInts = std::array<std::int32_t, kLanes>;
 
 // Always inline: what a function of MW_WIDE calls must be compiled along with it.
 #define MW_LANES [[gnu::always_inline, nodiscard]] inline
@@ -47,18 +45,17 @@ MW_LANES Lanes lanes(double value) {
 MW_LANES Lanes3 lanes(const Vec3& v) {
   return {lanes(v[0]), lanes(v[1]), lanes(v[2])};
 }
-MW_LANES Lanes load(const Stored<double>& s) {
-  Lanes v;
+MW_LANES LaneInts load(const StoredInts& s) {
+  LaneInts v;
   std::memcpy(&v, s.data(), sizeof v);
   return v;
 }
-MW_LANES LaneMask load(const Stored<std::int64_t>& s) {
-  LaneMask v;
-  std::memcpy(&v, s.data(), sizeof v);
-  return v;
+MW_LANES Lanes to_lanes(const StoredInts& s) {
+  return __builtin_convertvector(load(s), Lanes);
 }
-MW_LANES Lanes3 load(const Stored3& s) {
-  return {load(s.x), load(s.y), load(s.z)};
+/// Where a stored number is another one than `value`.
+MW_LANES LaneMask differs(const StoredInts& s, std::int32_t value) {
+  return __builtin_convertvector(load(s) != value, LaneMask);
 }
 MW_LANES Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};

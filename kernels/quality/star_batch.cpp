@@ -10,6 +10,20 @@ namespace {
 
 using Group = StarBatch::Group;
 
+struct Corners {
+  Lanes3 a, b, c;
+};
+
+/// Corner i (0 to 2) of the tets, seen from x.
+MW_LANES Lanes3 corner(const Group& g, std::size_t i, const Vec3& unit, const Lanes3& x) {
+  return {to_lanes(g.corners[3 * i]) * unit[0] - x.x,
+          to_lanes(g.corners[3 * i + 1]) * unit[1] - x.y,
+          to_lanes(g.corners[3 * i + 2]) * unit[2] - x.z};
+}
+MW_LANES Corners corners_from(const Group& g, const Vec3& unit, const Lanes3& x) {
+  return {corner(g, 0, unit, x), corner(g, 1, unit, x), corner(g, 2, unit, x)};
+}
+
 /// What radius ratio and its bounds are made of; names as at radius_ratio().
 struct Ratio {
   Lanes3 n1, n2, n3, n4;
@@ -17,23 +31,24 @@ struct Ratio {
   Lanes3 w;
 };
 
-MW_LANES Ratio ratio_terms(const Group& g, const Lanes3& x) {
-  const Lanes3 a = load(g.a) - x, b = load(g.b) - x, c = load(g.c) - x;
+MW_LANES Ratio ratio_terms(const Group& g, const Vec3& unit, const Lanes3& x) {
+  const auto [a, b, c] = corners_from(g, unit, x);
   const Lanes3 n1 = cross(b, c), n2 = cross(c, a), n3 = cross(a, b);
   return {n1, n2, n3, n1 + n2 + n3, dot(a, n1), dot(a, a) * n1 + dot(b, b) * n2 + dot(c, c) * n3};
 }
 
 /// 1 / radius ratio; infinite where the tet is not positive.
-MW_LANES Lanes energy(const Group& g, const Lanes3& x) {
-  const Ratio r = ratio_terms(g, x);
+MW_LANES Lanes energy(const Group& g, const Vec3& unit, const Lanes3& x) {
+  const Ratio r = ratio_terms(g, unit, x);
   const Lanes area =
       root(dot(r.n1, r.n1)) + root(dot(r.n2, r.n2)) + root(dot(r.n3, r.n3)) + root(dot(r.n4, r.n4));
   const Lanes e = area * root(dot(r.w, r.w)) / (6.0 * r.v6 * r.v6);
   return r.v6 > 0.0 ? e : lanes(std::numeric_limits<double>::infinity());
 }
 
-MW_WIDE void energies(const Group& g, const Vec3& x, Stored<double>& out) {
-  const Lanes e = energy(g, lanes(x));
+MW_WIDE void energies(const Group& g, const Vec3& unit, const Vec3& x,
+                      std::array<double, kLanes>& out) {
+  const Lanes e = energy(g, unit, lanes(x));
   std::memcpy(out.data(), &e, sizeof e);
 }
 
@@ -42,9 +57,9 @@ struct TermSums {
   Lanes value{}, gx{}, gy{}, gz{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
 };
 
-[[gnu::always_inline]] inline void add_terms(const Group& g, const Lanes3& x, const Lanes& weight,
-                                             TermSums& sums) {
-  const Lanes3 a = load(g.a) - x, b = load(g.b) - x, c = load(g.c) - x;
+[[gnu::always_inline]] inline void add_terms(const Group& g, const Vec3& unit, const Lanes3& x,
+                                             const Lanes& weight, TermSums& sums) {
+  const auto [a, b, c] = corners_from(g, unit, x);
   const Lanes3 ab = b - a, ac = c - a, bc = c - b;
   const Lanes3 dv = cross(ac, ab);
   const Lanes3 ds = lanes(-2.0) * (a + b + c);
@@ -66,12 +81,15 @@ struct TermSums {
   sums.zz += outer * u.z * u.z + diagonal;
 }
 
-MW_WIDE void sum_terms(const Group* groups, std::size_t count, const Stored<double>& last,
+/// last: how many tets of the last group count.
+MW_WIDE void sum_terms(const std::vector<Group>& groups, std::size_t last, const Vec3& unit,
                        const Vec3& x, StarTerms& out) {
   TermSums sums;
   const Lanes3 at = lanes(x);
-  for (std::size_t i = 0; i < count; ++i) {
-    add_terms(groups[i], at, i + 1 < count ? lanes(1.0) : load(last), sums);
+  const auto n = static_cast<double>(last);
+  const Lanes in_last = Lanes{0.0, 1.0, 2.0, 3.0} < n ? lanes(1.0) : lanes(0.0);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    add_terms(groups[i], unit, at, i + 1 < groups.size() ? lanes(1.0) : in_last, sums);
   }
   out.value = sum(sums.value);
   out.gradient = {sum(sums.gx), sum(sums.gy), sum(sums.gz)};
@@ -81,11 +99,12 @@ MW_WIDE void sum_terms(const Group* groups, std::size_t count, const Stored<doub
 
 /// The sum A of the four |n| lies between the root of their sum of squares and twice that, which
 /// decides most cases without a square root (reaches_ratio()).
-MW_LANES StarVerdict judge(const Group& g, const Lanes3& x, std::int64_t without, double floor) {
+MW_WIDE StarVerdict judge(const Group& g, const Vec3& unit, const Vec3& x, std::int32_t without,
+                          double floor) {
   constexpr double kRounding = 1e-12;
   const LaneMask counts =
-      (load(g.rows[0]) != without) & (load(g.rows[1]) != without) & (load(g.rows[2]) != without);
-  const Ratio r = ratio_terms(g, x);
+      differs(g.rows[0], without) & differs(g.rows[1], without) & differs(g.rows[2], without);
+  const Ratio r = ratio_terms(g, unit, lanes(x));
   if (any(counts & (r.v6 <= 0.0))) return StarVerdict::kInverted;
   const Lanes q1 = dot(r.n1, r.n1), q2 = dot(r.n2, r.n2), q3 = dot(r.n3, r.n3),
               q4 = dot(r.n4, r.n4);
@@ -99,53 +118,58 @@ MW_LANES StarVerdict judge(const Group& g, const Lanes3& x, std::int64_t without
   return low ? StarVerdict::kLowQuality : StarVerdict::kGood;
 }
 
-MW_WIDE StarVerdict judge_groups(const Group* groups, std::size_t count, const Vec3& x,
-                                 std::int64_t without, double floor) {
-  const Lanes3 at = lanes(x);
-  for (std::size_t i = 0; i < count; ++i) {
-    const StarVerdict verdict = judge(groups[i], at, without, floor);
-    if (verdict != StarVerdict::kGood) return verdict;
-  }
-  return StarVerdict::kGood;
-}
-
 }  // namespace
 
 void StarBatch::collect(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
+  mesh_ = &mesh;
+  unit_ = metric.unit();
+  vertex_ = v;
+  next_ = 0;
+  groups_.clear();
   size_ = 0;
-  const Point origin = mesh.position(v);
-  const auto star = mesh.star(v);
-  groups_.resize((star.size() + kLanes - 1) / kLanes);
-  const auto put = [&](std::size_t at, const LinkTriangle& t) {
-    Group& g = groups_[at / kLanes];
-    const std::size_t lane = at % kLanes;
-    const auto corner = [&](LocalVertex w, Stored3& to, std::size_t i) {
-      const Vec3 p = metric.vector(origin, mesh.position(w));
-      to.x[lane] = p[0];
-      to.y[lane] = p[1];
-      to.z[lane] = p[2];
-      g.rows[i][lane] = w;
-    };
-    corner(t.a, g.a, 0);
-    corner(t.b, g.b, 1);
-    corner(t.c, g.c, 2);
-  };
-  const LinkTriangle* last = nullptr;
-  for (const LinkTriangle& t : star) {
-    if (t.label == kExterior) continue;
-    put(size_++, t);
-    last = &t;
-  }
-  groups_.resize((size_ + kLanes - 1) / kLanes);
-  for (std::size_t i = size_; i < groups_.size() * kLanes; ++i) put(i, *last);
 }
 
-StarShape StarBatch::shape_at(const Vec3& x) const {
+bool StarBatch::gather_group() {
+  const auto star = mesh_->star(vertex_);
+  const Point origin = mesh_->position(vertex_);
+  std::size_t lane = 0;
+  for (; lane < kLanes && next_ < star.size(); ++next_) {
+    const LinkTriangle& t = star[next_];
+    if (t.label == kExterior) continue;
+    if (lane == 0) groups_.emplace_back();
+    Group& g = groups_.back();
+    std::size_t i = 0;
+    for (LocalVertex w : {t.a, t.b, t.c}) {
+      const Point p = mesh_->position(w);
+      g.corners[3 * i][lane] = p.x - origin.x;
+      g.corners[3 * i + 1][lane] = p.y - origin.y;
+      g.corners[3 * i + 2][lane] = p.z - origin.z;
+      g.rows[i++][lane] = static_cast<std::int32_t>(w);
+    }
+    ++lane;
+  }
+  if (lane == 0) return false;
+  size_ += lane;
+  Group& g = groups_.back();
+  for (; lane < kLanes; ++lane) {
+    for (StoredInts& c : g.corners) c[lane] = c[lane - 1];
+    for (StoredInts& r : g.rows) r[lane] = r[lane - 1];
+  }
+  return true;
+}
+
+void StarBatch::gather_all() {
+  while (gather_group()) {
+  }
+}
+
+StarShape StarBatch::shape_at(const Vec3& x) {
+  gather_all();
   StarShape out;
   double worst = 1.0;
-  Stored<double> e;
+  std::array<double, kLanes> e;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    energies(groups_[i], x, e);
+    energies(groups_[i], unit_, x, e);
     for (std::size_t k = 0; k < used_lanes(i); ++k) {
       worst = std::max(worst, e[k]);
       out.energy += e[k];
@@ -155,12 +179,13 @@ StarShape StarBatch::shape_at(const Vec3& x) const {
   return out;
 }
 
-double StarBatch::energy_at(const Vec3& x, double least, double enough) const {
+double StarBatch::energy_at(const Vec3& x, double least, double enough) {
+  gather_all();
   double sum = 0.0;
   const double most = 1.0 / least;
-  Stored<double> e;
+  std::array<double, kLanes> e;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    energies(groups_[i], x, e);
+    energies(groups_[i], unit_, x, e);
     for (std::size_t k = 0; k < used_lanes(i); ++k) {
       if (e[k] > most) return std::numeric_limits<double>::infinity();
       sum += e[k];
@@ -170,17 +195,21 @@ double StarBatch::energy_at(const Vec3& x, double least, double enough) const {
   return sum;
 }
 
-StarTerms StarBatch::terms_at(const Vec3& x) const {
+StarTerms StarBatch::terms_at(const Vec3& x) {
+  gather_all();
   StarTerms out;
   if (groups_.empty()) return out;
-  Stored<double> last{1.0, 1.0, 1.0, 1.0};
-  for (std::size_t k = used_lanes(groups_.size() - 1); k < kLanes; ++k) last[k] = 0.0;
-  sum_terms(groups_.data(), groups_.size(), last, x, out);
+  sum_terms(groups_, used_lanes(groups_.size() - 1), unit_, x, out);
   return out;
 }
 
-StarVerdict StarBatch::judge_at(const Vec3& x, LocalVertex without, double floor) const {
-  return judge_groups(groups_.data(), groups_.size(), x, without, floor);
+StarVerdict StarBatch::judge_at(const Vec3& x, LocalVertex without, double floor) {
+  const auto other = static_cast<std::int32_t>(without);
+  for (std::size_t i = 0; i < groups_.size() || gather_group(); ++i) {
+    const StarVerdict verdict = judge(groups_[i], unit_, x, other, floor);
+    if (verdict != StarVerdict::kGood) return verdict;
+  }
+  return StarVerdict::kGood;
 }
 
 }  // namespace mw

@@ -35,36 +35,44 @@ enum class StarVerdict { kGood, kInverted, kLowQuality };
 /// Results do not depend on the processor.
 class StarBatch {
  public:
+  /// Keeps a reference: REQUIRES that the mesh does not change until the last question.  (Gathers
+  /// no more than what is asked for: most contractions are refused by the first few tets.)
   void collect(const TetMesh& mesh, const Metric& metric, LocalVertex v);
 
-  [[nodiscard]] StarShape shape_at(const Vec3& x) const;
+  [[nodiscard]] StarShape shape_at(const Vec3& x);
 
   /// The sum of energies; infinite when a tet is below `least`; not finished when it exceeds
   /// `enough`.
-  [[nodiscard]] double energy_at(const Vec3& x, double least, double enough) const;
+  [[nodiscard]] double energy_at(const Vec3& x, double least, double enough);
 
   /// The sum of s^3 / v^2, s the sum of a tet's six squared edges and v its volume (times 6): a
   /// convex function of the position wherever all tets are positive, least for regular tets, and
   /// free of square roots.
-  [[nodiscard]] StarTerms terms_at(const Vec3& x) const;
+  [[nodiscard]] StarTerms terms_at(const Vec3& x);
 
   /// Whether all tets without the vertex `without` reach radius ratio `floor`, up to rounding in
   /// the last digits; inverted ones are found only up to rounding.
-  [[nodiscard]] StarVerdict judge_at(const Vec3& x, LocalVertex without, double floor) const;
+  [[nodiscard]] StarVerdict judge_at(const Vec3& x, LocalVertex without, double floor);
 
-  /// Link vertices of four tets; what is beyond the last tet repeats it.
+  /// Four tets; what is beyond the last one repeats it.
   struct Group {
-    Stored3 a, b, c;  ///< (v, a, b, c) is positive
-    std::array<Stored<std::int64_t>, 3> rows;
+    std::array<StoredInts, 9> corners;  ///< x, y, z of a, b, c from v, in lattice units
+    std::array<StoredInts, 3> rows;     ///< of a, b, c; (v, a, b, c) is positive
   };
 
  private:
+  bool gather_group();
+  void gather_all();
   [[nodiscard]] std::size_t used_lanes(std::size_t group) const {
     return std::min(kLanes, size_ - group * kLanes);
   }
 
+  const TetMesh* mesh_ = nullptr;
+  Vec3 unit_ = Vec3::Zero();  ///< of the lattice
+  LocalVertex vertex_ = 0;
+  std::size_t next_ = 0;  ///< triangle of the star to be gathered
   std::vector<Group> groups_;
-  std::size_t size_ = 0;  ///< tets
+  std::size_t size_ = 0;  ///< tets gathered
 };
 
 }  // namespace mw

@@ -17,39 +17,28 @@ bool within_extent(Point a, Point b) {
          std::abs(std::int64_t{a.z} - b.z) < kMaxTetExtent / 2;
 }
 
-/// Calls visit(triangle) for each real tet at v that survives without `other`, until a verdict is
-/// not good.
-template <typename Visit>
-ShapeVerdict each_survivor(const TetMesh& mesh, LocalVertex v, LocalVertex other, Visit visit) {
+/// In whole numbers: what counts.
+StarVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x) {
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior || t.has(other)) continue;
-    const ShapeVerdict verdict = visit(t);
-    if (verdict != ShapeVerdict::kGood) return verdict;
-  }
-  return ShapeVerdict::kGood;
-}
-
-/// In floating point: rejects most of what is inverted, and all that is badly shaped.
-ShapeVerdict shape_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other,
-                      Point x, double floor, const std::optional<double>& variance) {
-  return each_survivor(mesh, v, other, [&](const LinkTriangle& t) {
-    const TetEdges edges =
-        tet_edges(metric, x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c));
-    if (edges.a.dot(edges.b.cross(edges.c)) <= 0.0) return ShapeVerdict::kInverted;
-    const bool good =
-        reaches_ratio(edges, floor) && (!variance || edge_length_variance(edges) < *variance);
-    return good ? ShapeVerdict::kGood : ShapeVerdict::kLowQuality;
-  });
-}
-
-/// In whole numbers: what counts.
-ShapeVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x) {
-  return each_survivor(mesh, v, other, [&](const LinkTriangle& t) {
     const Point a = mesh.position(t.a), b = mesh.position(t.b), c = mesh.position(t.c);
     const bool positive = within_extent(x, a) && within_extent(x, b) && within_extent(x, c) &&
                           volume6(x, a, b, c) > 0;
-    return positive ? ShapeVerdict::kGood : ShapeVerdict::kInverted;
-  });
+    if (!positive) return StarVerdict::kInverted;
+  }
+  return StarVerdict::kGood;
+}
+
+/// Eq (3) for the paper's filter.
+StarVerdict variance_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other,
+                        Point x, double most) {
+  for (const LinkTriangle& t : mesh.star(v)) {
+    if (t.label == kExterior || t.has(other)) continue;
+    const TetEdges edges =
+        tet_edges(metric, x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c));
+    if (edge_length_variance(edges) >= most) return StarVerdict::kLowQuality;
+  }
+  return StarVerdict::kGood;
 }
 
 }  // namespace
@@ -73,33 +62,60 @@ double ShapeFilter::floor_for(const Contraction& c) const {
                      : options_.quality_floor;
 }
 
-ShapeVerdict ShapeFilter::judge(const Contraction& c, double floor) const {
-  ShapeVerdict verdict =
-      shape_at(mesh_, metric_, c.drop, c.keep, c.position, floor, options_.edge_variance);
-  if (verdict == ShapeVerdict::kGood && c.moves) {
-    verdict = shape_at(mesh_, metric_, c.keep, c.drop, c.position, floor, options_.edge_variance);
-  }
-  if (verdict == ShapeVerdict::kGood) verdict = sign_at(mesh_, c.drop, c.keep, c.position);
-  if (verdict == ShapeVerdict::kGood && c.moves) {
-    verdict = sign_at(mesh_, c.keep, c.drop, c.position);
-  }
-  return verdict;
+bool ShapeFilter::is_gathered(LocalVertex v) const {
+  const std::uint64_t now = mesh_.changes() + 1;
+  return std::any_of(gathered_.begin(), gathered_.end(),
+                     [&](const Gathered& g) { return g.vertex == v && g.at == now; });
 }
 
-double ShapeFilter::worst_of_star(LocalVertex v) {
-  star_.collect(mesh_, metric_, v);
-  return star_.shape_at(Vec3::Zero()).worst;
+/// Replaces the star of neither v nor other.
+StarBatch& ShapeFilter::star_of(LocalVertex v, LocalVertex other) {
+  const std::uint64_t now = mesh_.changes() + 1;
+  for (Gathered& g : gathered_) {
+    if (g.vertex == v && g.at == now) return g.star;
+  }
+  const bool first_is_other = gathered_[0].vertex == other && gathered_[0].at == now;
+  Gathered& g = gathered_[first_is_other ? 1 : 0];
+  g.vertex = v;
+  g.at = now;
+  g.star.collect(mesh_, metric_, v);
+  return g.star;
 }
 
-ShapeVerdict ShapeFilter::judge(const Contraction& c) {
+/// In floating point: rejects most of what is inverted, and all that is badly shaped.
+StarVerdict ShapeFilter::judge_shape(LocalVertex v, LocalVertex other, Point x, double floor) {
+  const Vec3 offset = metric_.vector(mesh_.position(v), x);
+  const StarVerdict verdict = star_of(v, other).judge_at(offset, other, floor);
+  if (verdict != StarVerdict::kGood || !options_.edge_variance) return verdict;
+  return variance_at(mesh_, metric_, v, other, x, *options_.edge_variance);
+}
+
+StarVerdict ShapeFilter::judge(const Contraction& c, double floor) {
+  const auto all = [&](auto judge_star) {
+    // A star that is at hand may spare the other.
+    const bool keep_first = c.moves && is_gathered(c.keep);
+    const LocalVertex first = keep_first ? c.keep : c.drop, second = keep_first ? c.drop : c.keep;
+    const StarVerdict verdict = judge_star(first, second);
+    return verdict == StarVerdict::kGood && c.moves ? judge_star(second, first) : verdict;
+  };
+  const StarVerdict shape =
+      all([&](LocalVertex v, LocalVertex w) { return judge_shape(v, w, c.position, floor); });
+  if (shape != StarVerdict::kGood) return shape;
+  return all([&](LocalVertex v, LocalVertex w) { return sign_at(mesh_, v, w, c.position); });
+}
+
+StarVerdict ShapeFilter::judge(const Contraction& c) {
   const double floor = floor_for(c);
-  const ShapeVerdict verdict = judge(c, floor);
+  const StarVerdict verdict = judge(c, floor);
   const bool may_be_poor = poor_[c.keep] != 0 || poor_[c.drop] != 0;
-  if (verdict != ShapeVerdict::kLowQuality || !may_be_poor) return verdict;
-  const double present = std::min(worst_of_star(c.drop), worst_of_star(c.keep));
+  if (verdict != StarVerdict::kLowQuality || !may_be_poor) return verdict;
+  const auto worst = [&](LocalVertex v, LocalVertex w) {
+    return star_of(v, w).shape_at(Vec3::Zero()).worst;
+  };
+  const double present = std::min(worst(c.drop, c.keep), worst(c.keep, c.drop));
   if (present >= options_.quality_floor) return verdict;
-  const ShapeVerdict again = judge(c, present);
-  if (again == ShapeVerdict::kGood) mark_poor(c);
+  const StarVerdict again = judge(c, present);
+  if (again == StarVerdict::kGood) mark_poor(c);
   return again;
 }
 

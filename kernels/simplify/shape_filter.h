@@ -3,6 +3,7 @@
 // Geometric filters of a contraction: exact positivity, radius ratio floor, edge length variance.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kernels/quality/star_batch.h"
@@ -10,8 +11,6 @@
 #include "kernels/simplify/simplify.h"
 
 namespace mw {
-
-enum class ShapeVerdict { kGood, kInverted, kLowQuality };
 
 /// Judges the tets that contractions would leave around the surviving vertex.
 class ShapeFilter {
@@ -22,19 +21,27 @@ class ShapeFilter {
   /// Good: all tets are positive, exactly (with that the ambient link condition holds, topology.md
   /// D.3, and contractions of Cases 1 and 2 keep every region as a point set), and reach the floor,
   /// or where the present ones do not reach quality_floor, the worst of those.
-  /// Cost: O(stars); no allocation.
-  [[nodiscard]] ShapeVerdict judge(const Contraction& c);
+  /// Cost: O(stars); less when one of the ends is that of the last call; no allocation.
+  [[nodiscard]] StarVerdict judge(const Contraction& c);
 
  private:
+  struct Gathered {
+    LocalVertex vertex = 0;
+    std::uint64_t at = 0;  ///< TetMesh::changes(), and 1; 0: nothing gathered
+    StarBatch star;
+  };
+
+  [[nodiscard]] bool is_gathered(LocalVertex v) const;
+  [[nodiscard]] StarBatch& star_of(LocalVertex v, LocalVertex other);
   [[nodiscard]] double floor_for(const Contraction& c) const;
-  [[nodiscard]] ShapeVerdict judge(const Contraction& c, double floor) const;
-  [[nodiscard]] double worst_of_star(LocalVertex v);
+  [[nodiscard]] StarVerdict judge_shape(LocalVertex v, LocalVertex other, Point x, double floor);
+  [[nodiscard]] StarVerdict judge(const Contraction& c, double floor);
   void mark_poor(const Contraction& c);
 
   const TetMesh& mesh_;
   const Metric& metric_;
   const SimplifyOptions& options_;
-  StarBatch star_;
+  std::array<Gathered, 2> gathered_;
   /// Vertices that had a tet below quality_floor at some time; only there is the fallback looked
   /// at.
   std::vector<std::uint8_t> poor_;

@@ -141,13 +141,13 @@ class Simplifier {
   bool try_contraction(const Contraction& c) {
     ++stats_.tried;
     switch (shape_.judge(c)) {
-      case ShapeVerdict::kInverted:
+      case StarVerdict::kInverted:
         ++stats_.inverted;
         return false;
-      case ShapeVerdict::kLowQuality:
+      case StarVerdict::kLowQuality:
         ++stats_.low_quality;
         return false;
-      case ShapeVerdict::kGood:
+      case StarVerdict::kGood:
         break;
     }
     const bool both_on_boundaries = mesh_.order(c.keep) > 1 && mesh_.order(c.drop) > 1;
