@@ -4,6 +4,7 @@
 #include "engine/window.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/core/error.h"
 
@@ -101,17 +102,18 @@ struct Share {
   std::vector<BlockSample> samples;
 };
 
+/// row: scratch of a number for each vertex of the mesh, all 0, and so again afterwards.
 BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row) {
   BlockMesh out;
-  std::vector<LocalVertex> used;
+  std::size_t used = 0;
   for (const BlockTet& t : share.tets) {
-    used.insert(used.end(), t.vertices.begin(), t.vertices.end());
+    for (LocalVertex v : t.vertices) used += std::exchange(row[v], 1U) == 0 ? 1U : 0U;
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    row[used[i]] = static_cast<std::uint32_t>(i);
-    out.vertices.push_back(mesh.vertex(used[i]));
+  out.vertices.reserve(used);
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (row[v] == 0) continue;
+    row[v] = static_cast<std::uint32_t>(out.vertices.size());
+    out.vertices.push_back(mesh.vertex(v));
   }
   for (BlockTet& t : share.tets) {
     for (std::uint32_t& v : t.vertices) v = row[v];
@@ -119,10 +121,11 @@ BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row
   for (BlockSample& s : share.samples) {
     for (std::uint32_t& v : s.triangle) v = row[v];
   }
-  sort_rows(share.samples, used.size());
+  sort_rows(share.samples, used);
   join_faces(share.samples);
   out.tets = std::move(share.tets);
   out.samples = std::move(share.samples);
+  std::fill(row.begin(), row.end(), 0U);
   return out;
 }
 

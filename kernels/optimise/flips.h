@@ -61,6 +61,8 @@ class Flipper {
     return ring_.vertices[i % ring_.size()];
   }
   [[nodiscard]] double energy_of_old_tets();
+  /// No radius ratio exceeds 1.
+  [[nodiscard]] double least_energy_of_new_tets() const;
   [[nodiscard]] double energy_of(const LocalTet& tet) const;
   [[nodiscard]] double best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon);
   bool collect_triangles(LocalVertex p, LocalVertex q, const Polygon& polygon);
