@@ -33,11 +33,12 @@ double Flipper::energy_of_old_tets() {
 }
 
 double Flipper::least_energy_of_new_tets() const {
+  constexpr double kBestMean = 1.2;
   std::size_t tets = 0;
   for (const Polygon& polygon : polygons_) {
     if (polygon.label != kExterior) tets += 2 * (polygon.last - polygon.first - 1);
   }
-  return static_cast<double>(tets);
+  return kBestMean * static_cast<double>(tets);
 }
 
 double Flipper::best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon) {
@@ -126,8 +127,7 @@ bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
     old_tets_.push_back({{p, q, ring_.vertices[i], ring_.ends[i]}, ring_.labels[i]});
   }
   double gain = energy_of_old_tets();
-  static const double LB = getenv("LB") ? atof(getenv("LB")) : 1.0;
-  if (!(gain - LB * least_energy_of_new_tets() > kLeastGain)) return false;
+  if (!(gain - least_energy_of_new_tets() > kLeastGain)) return false;
   new_tets_.clear();
   for (const Polygon& polygon : polygons_) {
     gain -= best_triangulation(p, q, polygon);

@@ -61,7 +61,8 @@ class Flipper {
     return ring_.vertices[i % ring_.size()];
   }
   [[nodiscard]] double energy_of_old_tets();
-  /// No radius ratio exceeds 1.
+  /// What new tets must hope for: no ring is replaced by tets of a mean radius ratio above 1 / 1.2.
+  /// (Trying all flips that a ratio of 1 would allow costs 3 % more and finds none on EM.)
   [[nodiscard]] double least_energy_of_new_tets() const;
   [[nodiscard]] double energy_of(const LocalTet& tet) const;
   [[nodiscard]] double best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon);

@@ -33,7 +33,7 @@ std::vector<Vec3> points_of(const VoxelFace& face, int steps) {
 double farthest_sample(const VoxelFace& from, const VoxelFace& to) {
   double farthest = 0.0;
   for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-    const Point p = position(face_sample(from.lower, from.axis, quarter));
+    const Point p = sample_position(face_samples(from.lower, from.axis, kAllQuarters), quarter);
     const Vec3 sample = Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
     double nearest = std::numeric_limits<double>::infinity();
     for (const Vec3& x : points_of(to, 4)) nearest = std::min(nearest, (x - sample).norm());

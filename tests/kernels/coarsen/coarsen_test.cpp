@@ -132,7 +132,7 @@ void expect_samples_carried(const SmallVolume& before, const SmallVolume& after,
   });
   each_interface_face(before, [&](const VoxelFace& face, LabelPair labels) {
     for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-      const Point p = position(face_sample(face.lower, face.axis, quarter));
+      const Point p = sample_position(face_samples(face.lower, face.axis, kAllQuarters), quarter);
       double nearest = 1e9;
       for (const VoxelFace& f : faces[{labels.low, labels.high}]) {
         nearest = std::min(nearest, distance_to(f, p));

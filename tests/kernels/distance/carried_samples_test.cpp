@@ -19,13 +19,13 @@ using audit::test::below;
 /// What the table should hold.
 struct Carried {
   Label side = 0;
-  std::multiset<FaceSample> samples;
+  std::multiset<FaceSamples> samples;
 };
 using Expected = std::map<TriangleKey, Carried>;
 
-std::multiset<FaceSample> listed(const CarriedSamples& samples, const TriangleKey& key) {
-  std::multiset<FaceSample> out;
-  EXPECT_TRUE(samples.each(key, [&](FaceSample s) {
+std::multiset<FaceSamples> listed(const CarriedSamples& samples, const TriangleKey& key) {
+  std::multiset<FaceSamples> out;
+  EXPECT_TRUE(samples.each(key, [&](FaceSamples s) {
     out.insert(s);
     return true;
   }));
@@ -60,7 +60,7 @@ TEST(CarriedSamples, FindWhatWasAddedAndNotErased) {
       CarriedSamples samples;
       Expected expected;
       std::set<TriangleKey> seen;
-      for (FaceSample s = 0; s < 4000; ++s) {
+      for (FaceSamples s = 0; s < 4000; ++s) {
         const auto row = [&] { return below(random, rows); };
         const auto a = row(), b = row(), c = row();
         const TriangleKey key = triangle_key(a, b, c);
@@ -112,14 +112,14 @@ TEST(CarriedSamples, FindTheOthersAfterEachRemovalFromAFullTable) {
 
 TEST(CarriedSamples, StopWhenTheVisitorSaysSo) {
   CarriedSamples samples;
-  for (FaceSample s = 0; s < 5; ++s) samples.add({1, 2, 3}, 0, s);
+  for (FaceSamples s = 0; s < 5; ++s) samples.add({1, 2, 3}, 0, s);
   int visited = 0;
-  EXPECT_FALSE(samples.each({1, 2, 3}, [&](FaceSample) { return ++visited < 3; }));
+  EXPECT_FALSE(samples.each({1, 2, 3}, [&](FaceSamples) { return ++visited < 3; }));
   EXPECT_EQ(visited, 3);
 }
 
 /// Of its voxel, however far out that lies.
-TEST(FaceSample, LiesInItsQuarterOfItsFace) {
+TEST(FaceSamples, LieInTheirQuartersOfTheirFace) {
   constexpr std::int64_t kLast = kMaxSampledVoxels - 1;
   for (const Index3 voxel : {Index3{3, 6, 1},
                              {0, 0, 0},
@@ -129,7 +129,7 @@ TEST(FaceSample, LiesInItsQuarterOfItsFace) {
                              {kLast, kLast, kLast}}) {
     for (unsigned axis = 0; axis < 3; ++axis) {
       for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-        const Point p = position(face_sample(voxel, axis, quarter));
+        const Point p = sample_position(face_samples(voxel, axis, kAllQuarters), quarter);
         const std::array<std::int64_t, 3> at{p.x, p.y, p.z}, v{voxel.x, voxel.y, voxel.z};
         unsigned bit = 0;
         for (unsigned i = 0; i < 3; ++i) {

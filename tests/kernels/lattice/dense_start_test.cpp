@@ -187,16 +187,19 @@ TEST(Sec51StartMesh, SamplesCoverEveryInterfaceFaceOnce) {
     const Box3 all{{0, 0, 0}, shape};
     const LabelBox labels = labels_in(volume, {{-1, -1, -1}, shape + Index3{1, 1, 1}});
     const std::int64_t cut = 1 + below(random, static_cast<std::uint32_t>(shape.x - 1));
-    std::multiset<FaceSample> found, expected;
+    std::multiset<FaceSamples> found, expected;
     for (const Box3& block : {Box3{{0, 0, 0}, {cut, shape.y, shape.z}}, Box3{{cut, 0, 0}, shape}}) {
       const BlockMesh mesh = dense_block(volume, block, {.with_samples = true});
       for (const BlockSample& s : mesh.samples) {
-        found.insert(s.sample);
         const auto at = [&](std::size_t k) { return mesh.vertices[s.triangle[k]].position; };
-        EXPECT_EQ(volume6(position(s.sample), at(0), at(1), at(2)), 0);
-        for (std::size_t k = 0; k < 3; ++k) {
-          const Vec3 d = Metric().vector(position(s.sample), at(k));
-          EXPECT_LE(d.cwiseAbs().maxCoeff(), 0.75);
+        for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+          if ((quarters_of(s.samples) >> quarter & 1U) == 0) continue;
+          found.insert(with_quarters(s.samples, 1U << quarter));
+          const Point p = sample_position(s.samples, quarter);
+          EXPECT_EQ(volume6(p, at(0), at(1), at(2)), 0);
+          for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_LE(Metric().vector(p, at(k)).cwiseAbs().maxCoeff(), 0.75);
+          }
         }
       }
     }
@@ -207,7 +210,7 @@ TEST(Sec51StartMesh, SamplesCoverEveryInterfaceFaceOnce) {
             const Index3 next = v + Index3{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
             if (!all.contains(next) || labels.at(v) == labels.at(next)) continue;
             for (unsigned quarter = 0; quarter < 4; ++quarter) {
-              expected.insert(face_sample(v, axis, quarter));
+              expected.insert(face_samples(v, axis, 1U << quarter));
             }
           }
         }

@@ -138,15 +138,15 @@ CoarseVolume random_start(std::mt19937& random, int i) {
   return out;
 }
 
-std::multiset<FaceSample> samples_of_input(const SmallVolume& volume) {
-  std::multiset<FaceSample> out;
+std::multiset<FaceSamples> samples_of_input(const SmallVolume& volume) {
+  std::multiset<FaceSamples> out;
   const LabelBox labels = labels_in(volume, {{0, 0, 0}, volume.shape + Index3{1, 1, 1}});
   each_index(volume.shape, [&](Index3 v) {
     for (unsigned axis = 0; axis < 3; ++axis) {
       const Label next = labels.at(VoxelFace{v, axis}.upper());
       if (next == kExterior || next == labels.at(v)) continue;
       for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-        out.insert(face_sample(v, axis, quarter));
+        out.insert(face_samples(v, axis, 1U << quarter));
       }
     }
   });
@@ -205,21 +205,25 @@ TEST(Promise4Distance, SamplesOfTheCoarseStartAreNearTheirTriangles) {
     const auto labels = labels_at_triangles(mesh);
     const LabelBox input = labels_in(start.original, {{0, 0, 0}, start.original.shape});
     const double reach = start.options.max_distance - kSampleCoveringRadius;
-    std::multiset<FaceSample> found;
+    std::multiset<FaceSamples> found;
     for (const BlockSample& s : mesh.samples) {
-      found.insert(s.sample);
       std::array<VertexId, 3> ids{};
       std::array<Vec3, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) {
         ids[k] = mesh.vertices[s.triangle[k]].id;
         corners[k] = Metric().vector({0, 0, 0}, mesh.vertices[s.triangle[k]].position);
       }
-      const Point p = position(s.sample);
-      const double distance =
-          std::sqrt(DistanceTriangle(corners).squared_distance(Metric().vector({0, 0, 0}, p)));
-      ASSERT_LE(distance, (start.options.coarse ? reach : 0.0) + 1e-12);
-      moved += distance > 1e-12 ? 1 : 0;
-      const auto axis = static_cast<unsigned>(s.sample >> 2 & 3U);
+      ASSERT_NE(quarters_of(s.samples), 0U);
+      for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+        if ((quarters_of(s.samples) >> quarter & 1U) == 0) continue;
+        found.insert(with_quarters(s.samples, 1U << quarter));
+        const Vec3 p = Metric().vector({0, 0, 0}, sample_position(s.samples, quarter));
+        const double distance = std::sqrt(DistanceTriangle(corners).squared_distance(p));
+        ASSERT_LE(distance, (start.options.coarse ? reach : 0.0) + 1e-12);
+        moved += distance > 1e-12 ? 1 : 0;
+      }
+      const unsigned axis = axis_of(s.samples);
+      const Point p = face_centre(s.samples);
       const std::int64_t unit = kUnitsPerVoxel;
       const VoxelFace face{{p.x / unit - (axis == 0 ? 1 : 0), p.y / unit - (axis == 1 ? 1 : 0),
                             p.z / unit - (axis == 2 ? 1 : 0)},
@@ -235,13 +239,13 @@ TEST(Promise4Distance, SamplesOfTheCoarseStartAreNearTheirTriangles) {
   EXPECT_GT(moved, 2000);
 }
 
-using GlobalSamples = std::multiset<std::tuple<std::array<VertexId, 3>, Label, FaceSample>>;
+using GlobalSamples = std::multiset<std::tuple<std::array<VertexId, 3>, Label, FaceSamples>>;
 
 void add_samples(GlobalSamples& out, const BlockMesh& block) {
   for (const BlockSample& s : block.samples) {
     std::array<VertexId, 3> ids{};
     for (std::size_t k = 0; k < 3; ++k) ids[k] = block.vertices[s.triangle[k]].id;
-    out.insert({ids, s.side, s.sample});
+    out.insert({ids, s.side, s.samples});
   }
 }
 
