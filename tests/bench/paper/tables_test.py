@@ -69,7 +69,9 @@ class Runs(WithVolume):
         reports[0].write_text(json.dumps(marked))
         again = self.runner().measure(self.volume, Mode("default"))
         self.assertEqual(again.run, first.run | {"marked": True})
-        other = self.runner().measure(self.volume, Mode("default", ("--window", "8")))
+        same = self.runner().measure(self.volume, Mode("said", ("--order", "raster")))
+        self.assertIn("marked", same.run)
+        other = self.runner().measure(self.volume, Mode("other", ("--window", "8")))
         self.assertNotIn("marked", other.run)
 
     def test_a_run_that_was_stopped_before_its_check_is_made_whole(self):
@@ -78,6 +80,18 @@ class Runs(WithVolume):
         again = self.runner().measure(self.volume, Mode("default"))
         self.assertEqual(again.check["quality"], whole.check["quality"])
         self.assertEqual(list((self.folder / "runs").rglob("*.vtu")), [])
+
+    def test_a_mesh_that_fails_its_check_is_not_a_failed_run(self):
+        other = self.folder / "other.npy"
+        voxels = numpy.load(self.volume)
+        numpy.save(other, numpy.where(voxels == voxels.max(), voxels.min(), voxels))
+        peer = self.folder / "peer"  # meshes another volume, whatever it is asked
+        peer.write_text(f'#!/bin/sh\nshift\nexec "{PROGRAM}" mesh "{other}" "$@"\n')
+        peer.chmod(0o755)
+        runner = Runner({"mwmesh": PROGRAM, "cgal_mesh": peer}, self.folder / "runs")
+        facts = runner.measure(self.volume, Mode("peer", tool="cgal_mesh"))
+        self.assertEqual(facts.failure, "")
+        self.assertFalse(facts.check["passed"])
 
     def test_a_refusal_is_a_fact(self):
         refused = self.runner().measure(self.volume, Mode("odd", ("--window", "7")))
