@@ -6,7 +6,7 @@ import studies
 from render import Column, Table, count, percent
 from studies import Study
 
-ANGLE_MODES = [studies.DEFAULT, studies.PAPER, studies.CGAL[-1]]
+ANGLE_MODES = [studies.DEFAULT, studies.PAPER, studies.CGAL]
 
 
 def fig_11(runs):
