@@ -67,10 +67,11 @@ TEST(Smoothing, LowersTheEnergyWithinPlanesAndQuadrics) {
   for (int i = 0; i < 24 && !HasFailure(); ++i) {
     const Metric metric = i % 3 == 0 ? Metric({1.0, 1.0, 3.0}) : Metric();
     TetMesh mesh = random_mesh(random, metric, random_five(random));
+    Smoother smoother(mesh, metric, kOptions);
     for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
       if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
       const TetMesh before = mesh;
-      const bool moved = smooth_vertex(mesh, metric, v, kOptions);
+      const bool moved = smoother.smooth(v);
       ASSERT_EQ(moved, mesh.position(v) != before.position(v));
       for (LocalVertex w = 0; w < mesh.vertex_count(); ++w) {
         ASSERT_TRUE(std::ranges::equal(mesh.star(w), before.star(w)));

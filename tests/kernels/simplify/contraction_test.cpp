@@ -223,7 +223,7 @@ ExpectedShape expected_shape(const TetMesh& mesh, const Metric& metric, const Co
 }
 
 TEST(Sec54Filters, JudgeTheTetsThatChange) {
-  std::map<ShapeVerdict, int> seen;
+  std::map<StarVerdict, int> seen;
   std::mt19937 random(718);
   each_random_edge(719, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
     const auto c = plan_contraction(mesh, metric, p, q);
@@ -231,19 +231,19 @@ TEST(Sec54Filters, JudgeTheTetsThatChange) {
     SimplifyOptions options{.quality_floor = 0.1 * below(random, 5),
                             .inner_quality = 0.1 * below(random, 5)};
     if (below(random, 2) == 0) options.edge_variance = 0.1;
-    const ShapeVerdict verdict = ShapeFilter(mesh, metric, options).judge(*c);
+    const StarVerdict verdict = ShapeFilter(mesh, metric, options).judge(*c);
     const ExpectedShape expected = expected_shape(mesh, metric, *c, options);
     // What is inverted may be found badly shaped first.
     if (expected.inverted) {
-      ASSERT_NE(verdict, ShapeVerdict::kGood);
+      ASSERT_NE(verdict, StarVerdict::kGood);
     } else if (!expected.too_close) {
-      ASSERT_EQ(verdict, expected.good ? ShapeVerdict::kGood : ShapeVerdict::kLowQuality);
+      ASSERT_EQ(verdict, expected.good ? StarVerdict::kGood : StarVerdict::kLowQuality);
     }
     ++seen[verdict];
   });
-  EXPECT_GT(seen[ShapeVerdict::kGood], 200);
-  EXPECT_GT(seen[ShapeVerdict::kInverted], 200);
-  EXPECT_GT(seen[ShapeVerdict::kLowQuality], 200);
+  EXPECT_GT(seen[StarVerdict::kGood], 200);
+  EXPECT_GT(seen[StarVerdict::kInverted], 200);
+  EXPECT_GT(seen[StarVerdict::kLowQuality], 200);
 }
 
 /// The filter remembers where bad tets were; after any contractions it says what a new one says.
@@ -257,16 +257,18 @@ TEST(Sec54Filters, JudgeAlikeAfterContractions) {
     const SimplifyOptions options{.quality_floor = 0.3, .inner_quality = 0.4};
     ShapeFilter filter(mesh, metric, options);
     CollapseTest topology(mesh);
+    StarBatch star;
     for (int k = 0; k < 100; ++k) {
       const auto [p, q] = random_edge(mesh, random);
       if (p == q) continue;
       const auto c = plan_contraction(mesh, metric, p, q);
       if (!c) continue;
-      const ShapeVerdict verdict = filter.judge(*c);
+      const StarVerdict verdict = filter.judge(*c);
       ASSERT_EQ(verdict, ShapeFilter(mesh, metric, options).judge(*c));
-      if (verdict != ShapeVerdict::kGood || !topology.keeps_topology(mesh, c->keep, c->drop))
+      if (verdict != StarVerdict::kGood || !topology.keeps_topology(mesh, c->keep, c->drop))
         continue;
-      below_floor += star_shape(mesh, metric, c->drop).worst < options.quality_floor ? 1 : 0;
+      star.collect(mesh, metric, c->drop);
+      below_floor += star.shape_at(Vec3::Zero()).worst < options.quality_floor ? 1 : 0;
       mesh.contract(c->keep, c->drop, c->position, contracted_quadric(mesh, metric, *c));
       ++contracted;
     }
