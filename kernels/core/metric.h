@@ -49,7 +49,9 @@ class Metric {
  private:
   static std::int32_t nearest(double units) {
     constexpr double kLimit = kMaxTetExtent;
-    return static_cast<std::int32_t>(std::floor(std::clamp(units, -kLimit, kLimit) + 0.5));
+    // Rounded down from the limit's far side, where all is positive and a cast rounds down.
+    return static_cast<std::int32_t>(std::clamp(units, -kLimit, kLimit) + (0.5 + kLimit)) -
+           kMaxTetExtent;
   }
 
   Vec3 unit_;
