@@ -134,10 +134,10 @@ void require_least(const RunLayout& layout, const io::DenseVolume& volume, Memor
                                               start_window_bytes(layout.grid(0)));
 }
 
-/// Everything between an open store and a written mesh.
+/// Everything between an open store and a written mesh.  workers: null without TetGen.
 void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
                      const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
-                     const RunHooks& hooks, RunReport& report) {
+                     const RunHooks& hooks, codt::WorkerPool* workers, RunReport& report) {
   Stopwatch watch;
   const std::filesystem::path& folder = hooks.store.workdir;
   const PreparedLabels labels(volume, settings, folder.empty() ? io::scratch_folder() : folder);
@@ -148,10 +148,14 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
     if (report.threads > 1) visitor.seed_with(tbb_for);
     if (i + 1 == layout.marches()) visitor.polish();
+    if (i + 1 == layout.marches() && workers != nullptr) {
+      visitor.reconnect_with([workers](const Plc& plc) { return workers->triangulate(plc); });
+    }
     marches.run(static_cast<int>(i), WindowOrder(layout.grid(i), settings.order), store.march(i),
                 visitor);
   }
   static_cast<VisitStats&>(report) = marches.stats();
+  if (workers != nullptr) report.workers = workers->facts();
   watch.restart();
   const std::uint32_t last = layout.marches() - 1;
   FinishedBlocks blocks(store.march(last), hooks.progress, layout.windows());
@@ -187,10 +191,13 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   MemoryBudget budget(hooks.store.memory);
   require_least(layout, volume, budget);
   const auto program = budget.reserve(Purpose::kProgram, program_bytes(volume));
+  std::optional<codt::WorkerPool> workers;
+  if (settings.optimizer == Optimizer::kTetgen) workers.emplace(hooks.workers);
   const auto workdir = open_workdir(volume.info(), settings, hooks.store);
   RunStore store(layout, budget, workdir.get(), hooks.store.group);
   try {
-    march_and_write(layout, volume, settings, store, sink, hooks, report);
+    march_and_write(layout, volume, settings, store, sink, hooks, workers ? &*workers : nullptr,
+                    report);
   } catch (...) {
     keep_work(store, workdir.get(), hooks.store);
     throw;

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "engine/codt/worker_pool.h"
 #include "engine/finish.h"
 #include "engine/march/march.h"
 #include "engine/settings.h"
@@ -27,6 +28,7 @@ struct RunReport : VisitStats {
   std::uint64_t memory_budget_bytes = 0;
   std::uint64_t peak_accounted_bytes = 0;
   StoreFacts store;
+  std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
 };
 
 /// Called after each window with the number done and the total, never by two threads at a time; may
@@ -52,7 +54,8 @@ struct RunHooks {
   /// Optional; called by the visiting thread before each visit, by many threads at once.
   std::function<void(Index3 window)> before_visit;
   OutputOptions output;
-  StoreOptions store;  ///< memory and disk
+  StoreOptions store;         ///< memory and disk
+  codt::PoolOptions workers;  ///< of Optimizer::kTetgen
 };
 
 /// Meshes the whole box of the volume into `sink`.

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kMaxMarches = 4;
 constexpr double kMaxDistance = 16.0;
+constexpr int kMaxOdtIterations = 1000;
 
 [[noreturn]] void refuse(const std::string& setting, const std::string& allowed) {
   throw Error(ErrorKind::kUsage, setting + " must be " + allowed);
@@ -25,6 +26,9 @@ void check(const MeshSettings& s) {
   }
   if (s.marches < 1 || s.marches > kMaxMarches) {
     refuse("marches", "from 1 to " + std::to_string(kMaxMarches));
+  }
+  if (s.odt_iterations < 1 || s.odt_iterations > kMaxOdtIterations) {
+    refuse("odt-iterations", "from 1 to " + std::to_string(kMaxOdtIterations));
   }
   if (!(s.quality_floor >= 0.0 && s.quality_floor <= 0.5)) {
     refuse("quality-floor", "from 0 to 0.5");

@@ -25,6 +25,13 @@ enum class Order {
   kColour,  ///< eight colours by parity of the window's position: far wider on small volumes
 };
 
+/// What improves tets after each simplification.
+enum class Optimizer {
+  kLocal,   ///< flips and smoothing
+  kTetgen,  ///< in the last march the paper's constrained ODT (Sec 5.5), else as kLocal
+  kNone,
+};
+
 struct MeshSettings {
   int window = 32;  ///< window edge in voxels, even
   int marches = 2;  ///< each over the whole volume, with windows twice as large
@@ -36,7 +43,8 @@ struct MeshSettings {
   /// Each window stops collapsing at this many vertices a voxel; none: only the bounds stop it.
   std::optional<double> target_reduction;
   KeptTopology topology = KeptTopology::kLabels;
-  bool optimise = true;  ///< local optimisation after each simplification
+  Optimizer optimizer = Optimizer::kLocal;
+  int odt_iterations = 10;  ///< at most, in each window, by kTetgen; the paper's number (Sec 6)
 };
 
 /// ERRORS: mw::Error(kUsage) naming the setting, its value and what is allowed.

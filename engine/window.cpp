@@ -169,16 +169,20 @@ BlockMesh merge(std::span<const BlockMesh> blocks) {
   return out;
 }
 
+Point lattice_corner(Index3 volume) {
+  return {lattice(volume.x), lattice(volume.y), lattice(volume.z)};
+}
+
 WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume) {
   const BlockMesh merged = merge(blocks);
   for (const BlockTet& t : merged.tets) check_extent(t, merged.vertices);
   CarriedSamples samples;
   for (const BlockSample& s : merged.samples) samples.add(s.triangle, s.side, s.samples);
-  const Point box{lattice(volume.x), lattice(volume.y), lattice(volume.z)};
   const bool one_label =
       std::all_of(merged.tets.begin(), merged.tets.end(),
                   [&](const BlockTet& t) { return t.label == merged.tets[0].label; });
-  return {TetMesh(merged.vertices, merged.tets, box), std::move(samples), one_label};
+  return {TetMesh(merged.vertices, merged.tets, lattice_corner(volume)), std::move(samples),
+          one_label};
 }
 
 std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,

@@ -23,6 +23,9 @@ struct WindowContent {
   bool one_label = false;  ///< there is no interface
 };
 
+/// The far corner of a volume, in lattice units.
+[[nodiscard]] Point lattice_corner(Index3 volume);
+
 /// Merges blocks into the content of a window; as merge().
 [[nodiscard]] WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume);
 

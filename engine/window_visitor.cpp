@@ -38,17 +38,26 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       simplify_{.quality_floor = settings.quality_floor,
                 .edge_variance = settings.edge_variance,
                 .topology = settings.topology},
-      optimise_{.sweeps = settings.optimise ? 1 : 0, .quality_floor = settings.quality_floor},
+      optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
+                .quality_floor = settings.quality_floor},
+      codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance),
       target_reduction_(settings.target_reduction) {}
+
+void WindowVisitor::reconnect_with(Triangulate triangulate) {
+  triangulate_ = std::move(triangulate);
+  if (codt_.quality_floor == 0.0) optimise_.sweeps = 0;
+}
 
 VisitStats& VisitStats::operator+=(const VisitStats& other) {
   windows += other.windows;
   simplify += other.simplify;
   optimise += other.optimise;
+  codt += other.codt;
   start_seconds += other.start_seconds;
   simplify_seconds += other.simplify_seconds;
   optimise_seconds += other.optimise_seconds;
+  codt_seconds += other.codt_seconds;
   exchange_seconds += other.exchange_seconds;
   return *this;
 }
@@ -92,6 +101,21 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   watch.lap(stats.simplify_seconds);
   stats.optimise += optimise(content.mesh, metric_, optimise_, keep_distance);
   watch.lap(stats.optimise_seconds);
+  if (!triangulate_) return;
+  reconnect(window, content, stats);
+  watch.lap(stats.codt_seconds);
+  OptimiseOptions light = optimise_;
+  light.sweeps = std::min(light.sweeps, 1);
+  stats.optimise += optimise(content.mesh, metric_, light, keep_distance);
+  watch.lap(stats.optimise_seconds);
+}
+
+void WindowVisitor::reconnect(Index3 window, WindowContent& content, VisitStats& stats) const {
+  CodtOptions options = codt_;
+  options.ids = steiner_ids(raster(window, grid_.windows()),
+                            static_cast<std::uint64_t>(grid_.windows().product()));
+  stats.codt += codt(content.mesh, content.samples, lattice_corner(grid_.volume()), metric_,
+                     options, triangulate_);
 }
 
 BlockMesh WindowVisitor::start(Index3 block) const {

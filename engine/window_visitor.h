@@ -11,6 +11,7 @@
 #include "engine/window.h"
 #include "io/labels/label_table.h"
 #include "kernels/lattice/graded_start.h"
+#include "kernels/odt/codt.h"
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
 
@@ -22,9 +23,11 @@ struct VisitStats {
   std::uint64_t windows = 0;
   SimplifyStats simplify;
   OptimiseStats optimise;
+  CodtStats codt;
   double start_seconds = 0.0;
   double simplify_seconds = 0.0;
   double optimise_seconds = 0.0;
+  double codt_seconds = 0.0;
   double exchange_seconds = 0.0;  ///< gather and scatter
 
   VisitStats& operator+=(const VisitStats& other);
@@ -40,6 +43,11 @@ class WindowVisitor {
 
   /// Optimises longer: for the last march, when shape is all that is left to gain.
   void polish() { optimise_.sweeps *= kPolishSweeps; }
+  /// Adds constrained ODT with this triangulation, which many threads may ask at once.  Local
+  /// optimisation stays around it when there is a quality floor: tets of a Delaunay triangulation
+  /// are often below one, so patches that are good already come through, and one sweep more lifts
+  /// what CODT left.  Without a floor CODT stands alone, as in the paper.
+  void reconnect_with(Triangulate triangulate);
   /// Lends threads to the filling of a window's queue; none by default.  The result is the same.
   void seed_with(ParallelFor loop) { simplify_.seeding = std::move(loop); }
 
@@ -50,6 +58,7 @@ class WindowVisitor {
   static constexpr int kPolishSweeps = 3;
 
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
+  void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;
   [[nodiscard]] BlockMesh start(Index3 block) const;
 
   const PreparedLabels& labels_;
@@ -59,6 +68,8 @@ class WindowVisitor {
   StartOptions start_;
   SimplifyOptions simplify_;
   OptimiseOptions optimise_;
+  CodtOptions codt_;
+  Triangulate triangulate_;
   std::optional<double> max_distance_;
   std::optional<double> target_reduction_;
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/cli/values.h"
+#include "engine/codt/worker_pool.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -36,25 +37,26 @@ int parse_count(const std::string& text) {
   throw Error(ErrorKind::kUsage, "out of range");
 }
 
-[[noreturn]] void refuse_for_now(const std::string& alternative) {
-  throw Error(ErrorKind::kUsage, "not available in this version; " + alternative);
-}
-
 constexpr std::array<std::pair<const char*, engine::StartMesh>, 3> kStartMeshes{
     {{"coarse", engine::StartMesh::kCoarse},
      {"octree", engine::StartMesh::kOctree},
      {"dense", engine::StartMesh::kDense}}};
 
-/// REQUIRES: one of the choices.
-engine::StartMesh parse_start(const std::string& text) {
-  return std::find_if(kStartMeshes.begin(), kStartMeshes.end(),
-                      [&](const auto& s) { return text == s.first; })
+constexpr std::array<std::pair<const char*, engine::Optimizer>, 3> kOptimizers{
+    {{"local", engine::Optimizer::kLocal},
+     {"tetgen", engine::Optimizer::kTetgen},
+     {kNone, engine::Optimizer::kNone}}};
+
+/// REQUIRES: one of the names.
+template <typename Names>
+auto parse_name(const Names& names, const std::string& text) {
+  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return text == n.first; })
       ->second;
 }
 
-std::string start_text(engine::StartMesh start) {
-  return std::find_if(kStartMeshes.begin(), kStartMeshes.end(),
-                      [&](const auto& s) { return start == s.second; })
+template <typename Names, typename Value>
+std::string text_of(const Names& names, Value value) {
+  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return value == n.second; })
       ->first;
 }
 
@@ -144,22 +146,30 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
   add_setting(options, request,
               {.name = "optimizer",
                .value = "WHICH",
-               .help = "what improves tets after collapse: local, none; tetgen comes later",
-               .fallback = defaults.optimise ? "local" : kNone,
+               .help = "what improves tets after collapse: local, none, or tetgen (local, and "
+                       "the paper's constrained ODT in the last march)",
+               .fallback = text_of(kOptimizers, defaults.optimizer),
                .choices = {"local", "tetgen", kNone}},
               [](engine::MeshSettings& s, const std::string& t) {
-                if (t == "tetgen") refuse_for_now("local is");
-                s.optimise = t == "local";
+                s.optimizer = parse_name(kOptimizers, t);
               });
+  add_setting(
+      options, request,
+      {.name = "odt-iterations",
+       .value = "N",
+       .help = "iterations of --optimizer tetgen in a window, at most",
+       .kind = ValueKind::kInteger,
+       .fallback = std::to_string(defaults.odt_iterations)},
+      [](engine::MeshSettings& s, const std::string& t) { s.odt_iterations = parse_count(t); });
   add_setting(
       options, request,
       {.name = "start",
        .value = "MESH",
        .help = "start mesh: coarse (labels coarsened first, larger cells inside them), octree "
                "(larger cells only), dense (the paper's)",
-       .fallback = start_text(defaults.start),
+       .fallback = text_of(kStartMeshes, defaults.start),
        .choices = {"coarse", "octree", "dense"}},
-      [](engine::MeshSettings& s, const std::string& t) { s.start = parse_start(t); });
+      [](engine::MeshSettings& s, const std::string& t) { s.start = parse_name(kStartMeshes, t); });
 }
 
 int parse_threads(const std::string& text) {
@@ -282,6 +292,7 @@ void check_mesh_request(MeshRequest& request) {
     throw Error(ErrorKind::kUsage, "--labels and --background: give one of them, not both");
   }
   require_names_used_once(request);
+  if (request.settings.optimizer == engine::Optimizer::kTetgen) (void)engine::codt::find_worker();
 }
 
 }  // namespace mw::cli

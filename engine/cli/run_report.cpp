@@ -45,20 +45,37 @@ ordered_json performance_json(const FinishedRun& run) {
             {"start_s", engine.start_seconds},
             {"simplify_s", engine.simplify_seconds},
             {"optimise_s", engine.optimise_seconds},
+            {"codt_s", engine.codt_seconds},
             {"exchange_s", engine.exchange_seconds},
             {"output_s", engine.output_seconds}}}};
 }
 
+ordered_json codt_json(const engine::RunReport& run) {
+  const CodtStats& codt = run.codt;
+  return {{"windows", codt.windows},
+          {"iterations", codt.iterations},
+          {"vertices_moved", codt.moves},
+          {"vertices_added", codt.added},
+          {"patches", codt.replaced.patches},
+          {"patches_unproved", codt.replaced.unproved},
+          {"patches_unimproved", codt.replaced.unimproved},
+          {"fallbacks", codt.fallbacks},
+          {"workers_restarted", run.workers->restarted},
+          {"seconds", run.codt_seconds}};
+}
+
 ordered_json engine_json(const FinishedRun& run) {
   const engine::StoreFacts& store = run.engine.store;
-  return {{"windows", run.engine.windows},
-          {"windows_resumed", store.resumed_windows},
-          {"threads", run.engine.threads},
-          {"memory_budget_bytes", run.engine.memory_budget_bytes},
-          {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
-          {"blocks_spilled", store.blocks_spilled},
-          {"bytes_written", store.bytes_written},
-          {"bytes_read", store.bytes_read}};
+  ordered_json out{{"windows", run.engine.windows},
+                   {"windows_resumed", store.resumed_windows},
+                   {"threads", run.engine.threads},
+                   {"memory_budget_bytes", run.engine.memory_budget_bytes},
+                   {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
+                   {"blocks_spilled", store.blocks_spilled},
+                   {"bytes_written", store.bytes_written},
+                   {"bytes_read", store.bytes_read}};
+  if (run.engine.workers) out["codt"] = codt_json(run.engine);
+  return out;
 }
 
 }  // namespace

@@ -31,6 +31,12 @@ const char* start_name(StartMesh start) {
   return start == StartMesh::kCoarse ? "coarse" : start == StartMesh::kOctree ? "octree" : "dense";
 }
 
+const char* optimizer_name(Optimizer optimizer) {
+  return optimizer == Optimizer::kLocal    ? "local"
+         : optimizer == Optimizer::kTetgen ? "tetgen"
+                                           : "none";
+}
+
 }  // namespace
 
 std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& s) {
@@ -49,7 +55,8 @@ std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& s) {
                   "quality-floor = ", number(s.quality_floor), "\n",        //
                   "max-distance = ", number(s.max_distance), "\n",          //
                   "target-reduction = ", number(s.target_reduction), "\n",  //
-                  "optimizer = ", s.optimise ? "local" : "none", "\n");
+                  "optimizer = ", optimizer_name(s.optimizer), "\n",        //
+                  "odt-iterations = ", s.odt_iterations, "\n");
 }
 
 }  // namespace mw::engine

@@ -115,8 +115,8 @@ struct Trial {
            (settings.order == Order::kRaster ? " raster" : " colour") + " marches " +
            std::to_string(settings.marches) +
            (settings.topology == KeptTopology::kInterfaces ? " interfaces" : "") +
-           (settings.optimise ? " optimised" : " not optimised") + " spacing z " +
-           std::to_string(frame.spacing[2]);
+           (settings.optimizer == Optimizer::kNone ? " not optimised" : " optimised") +
+           " spacing z " + std::to_string(frame.spacing[2]);
   }
 };
 
@@ -160,7 +160,7 @@ inline void expect_same(const io::MeshData& actual, const io::MeshData& expected
   trial.settings.marches = static_cast<int>(1 + below(random, 3));
   trial.settings.start = kStarts[below(random, 4)];
   trial.settings.order = below(random, 3) == 0 ? Order::kColour : Order::kRaster;
-  trial.settings.optimise = below(random, 3) != 0;
+  trial.settings.optimizer = below(random, 3) != 0 ? Optimizer::kLocal : Optimizer::kNone;
   if (below(random, 3) == 0) trial.settings.edge_variance = 0.1;
   trial.settings.quality_floor = kFloors[below(random, 4)];
   trial.settings.max_distance = kDistances[below(random, 3)];

@@ -231,7 +231,7 @@ TEST(Promise3Quality, FloorIsWhatKeepsTheWorstTetUp) {
               .settings = {.window = 8,
                            .start = StartMesh::kDense,
                            .quality_floor = 0.0,
-                           .optimise = false},
+                           .optimizer = Optimizer::kNone},
               .frame = {}};
   const auto worst = [&] {
     return measure_quality(small_mesh(run_in_memory(trial)).view()).radius_ratio_min;

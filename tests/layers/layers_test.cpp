@@ -128,6 +128,12 @@ TEST(Layers, RuleForbids) {
       {"engine/cli/a.cpp", {"tests/engine/a.h", true}},
       {"engine/cli/a.h", {"tetgen.h", false}},
       {"kernels/odt/a.h", {"tetgen.h", true}},
+      {"engine/codt/a.cpp", {"tetgen.h", false}},
+      {"engine/cli/a.cpp", {"tetgen.h", false}},
+      {"engine/codt/worker/a.cpp", {"tetgen.h", false}},
+      {"engine/codt/a.cpp", {"engine/codt/worker/constrained_delaunay.h", true}},
+      {"engine/a.cpp", {"engine/codt/worker/constrained_delaunay.h", true}},
+      {"kernels/odt/a.cpp", {"engine/codt/wire.h", true}},
       {"somewhere/a.cpp", {"vector", false}},
   };
   for (const Edge& edge : edges) {
@@ -152,6 +158,9 @@ TEST(Layers, RuleAllows) {
       {"engine/a.cpp", {"kernels/simplify/simplify.h", true}},
       {"engine/a.cpp", {"tbb/flow_graph.h", false}},
       {"engine/a.cpp", {"chrono", false}},
+      {"engine/codt/worker/constrained_delaunay.cpp", {"tetgen.h", false}},
+      {"engine/codt/worker/a.cpp", {"engine/codt/worker/constrained_delaunay.h", true}},
+      {"engine/codt/a.cpp", {"boost/interprocess/mapped_region.hpp", false}},
       {"engine/cli/a.cpp", {"io/mesh/open_mesh.h", true}},
       {"engine/cli/a.cpp", {"CLI/CLI.hpp", false}},
   };

@@ -65,7 +65,8 @@ TEST_F(ConfigTest, NamesFileLineAndKey) {
   expect_refused("edge_variance = \"some\"\n", "c.toml:1: edge_variance: wrong type");
   expect_refused("edge_variance = nan\n", "c.toml:1: edge_variance");
   expect_refused("resume = 1\n", "c.toml:1: resume: wrong type");
-  expect_refused("optimizer = \"tetgen\"\n", "c.toml:1: optimizer = tetgen: not available");
+  expect_refused("optimizer = \"best\"\n", "c.toml:1: optimizer = best: expected one of");
+  expect_refused("odt_iterations = 0\n", "c.toml:1: odt_iterations = 0");
   expect_refused("window = 40\nwindow = 32\n", "c.toml:2");
   expect_refused("window = = 2\n", "c.toml:1");
   expect_failure(2, "mesh --print-config --config missing.toml", "missing.toml");
@@ -93,6 +94,7 @@ TEST_F(ConfigTest, PaperTomlIsAccepted) {
   EXPECT_EQ(line("window", "--config " + file), "window = 40");
   EXPECT_EQ(line("edge_variance", "--config " + file), "edge_variance = 0.1");
   EXPECT_EQ(line("max_distance", "--config " + file), "max_distance = \"none\"");
+  EXPECT_EQ(line("optimizer", "--config " + file), "optimizer = \"tetgen\"");
 }
 
 }  // namespace

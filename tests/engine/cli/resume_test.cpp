@@ -35,6 +35,8 @@ TEST_F(ResumeProgramTest, EndsWith75AndGoesOnToTheSameMesh) {
   const std::string mesh = "mesh n.npy -o n.vtu ";
   expect_failure(2, mesh + "--window 8", "add --resume to go on");
   expect_failure(2, mesh + "--window 10 --resume", "window was 8 and is 10");
+  expect_failure(2, mesh + "--window 8 --odt-iterations 3 --resume",
+                 "odt-iterations was 10 and is 3");
   expect_done("synth noise --shape 30,30,30 --labels 3 --seed 2 -o other.npy");
   expect_failure(2, "mesh other.npy -o n.vtu --window 8 --resume", "label fingerprint was");
   expect_done(mesh + "--window 8 --resume --report r.json");

@@ -157,6 +157,25 @@ TEST_F(RoundTripTest, ReportHasEveryDocumentedKey) {
   EXPECT_EQ(r["digest"].get<std::string>() + "\n", run("digest v.vtu").out);
 }
 
+TEST_F(RoundTripTest, TetgenGivesASoundMeshAndAReport) {
+  if (!std::filesystem::exists(MW_CODT_WORKER)) GTEST_SKIP() << "built without TetGen";
+  make_volume();
+  expect_done(
+      "mesh v.npy -o v.vtu --window 10 --optimizer tetgen --odt-iterations 2 --report r.json");
+  expect_done("verify v.npy v.vtu");
+  const json codt = report("r.json")["engine"]["codt"];
+  for (const char* key :
+       {"windows", "iterations", "vertices_moved", "vertices_added", "patches", "patches_unproved",
+        "patches_unimproved", "fallbacks", "workers_restarted", "seconds"}) {
+    EXPECT_TRUE(codt.contains(key)) << key;
+  }
+  EXPECT_GT(codt["patches"], 100);
+  EXPECT_LE(codt["iterations"], 2 * codt["windows"].get<int>());
+  EXPECT_EQ(codt["fallbacks"], 0);
+  expect_done("mesh v.npy -o w.vtu --window 10 --report r.json");
+  EXPECT_FALSE(report("r.json")["engine"].contains("codt"));
+}
+
 TEST_F(RoundTripTest, EveryStartAndOptimizerGivesASoundMesh) {
   make_volume();
   for (const char* flags : {"--start dense", "--start octree", "--optimizer none",

@@ -61,9 +61,18 @@ TEST_F(UsageTest, RefusesContradictions) {
 TEST_F(UsageTest, SaysWhatIsNotAvailableYet) {
   make_volume();
   const std::string mesh = "mesh v.npy -o v.vtu ";
-  for (const char* flag : {"--optimizer tetgen", "--dataset a"}) {
-    expect_failure(2, mesh + flag, "not available in this version");
-  }
+  expect_failure(2, mesh + "--dataset a", "not available in this version");
+}
+
+TEST_F(UsageTest, RefusesTetgenWithoutItsWorker) {
+  make_volume();
+  const std::string mesh = "mesh v.npy -o v.vtu --optimizer tetgen";
+  expect_failure(2, mesh, "no program /nowhere/worker", "MW_CODT_WORKER=/nowhere/worker");
+  expect_failure(2, mesh, "no program /dev", "MW_CODT_WORKER=/dev");
+  write("text", "no program");
+  expect_failure(2, mesh, "no program ./text", "MW_CODT_WORKER=./text");
+  expect_failure(2, mesh, "cannot start ./text", "chmod +x text && MW_CODT_WORKER=./text");
+  expect_failure(2, mesh + " --odt-iterations 0", "--odt-iterations 0");
 }
 
 TEST_F(UsageTest, RefusesUnwritableOutputBeforeWork) {

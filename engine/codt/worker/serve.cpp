@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Orders in, replies out, until the engine is gone.
+#include "engine/codt/worker/serve.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "engine/codt/shared_memory.h"
+#include "engine/codt/wire.h"
+
+namespace mw::engine::codt {
+namespace {
+
+/// Ends the process when the engine is gone, also in the middle of a triangulation.
+void watch_engine() {
+  pollfd control{kControlDescriptor, 0, 0};
+  while (::poll(&control, 1, -1) <= 0) {
+  }
+  ::_exit(0);
+}
+
+class Worker {
+ public:
+  explicit Worker(const Triangulate& triangulate) : triangulate_(triangulate) {}
+
+  Reply answer(const Order& order) {
+    switch (order.kind) {
+      case OrderKind::kMap:
+        memory_ = SharedMemory::open(order.name.data());
+        return {};
+      case OrderKind::kRun:
+        return run();
+      case OrderKind::kFetch:
+        put(made_.value(), memory_.bytes());
+        return {};
+    }
+    return {};
+  }
+
+ private:
+  Reply run() {
+    made_ = triangulate_(get_plc(memory_.bytes()).value());
+    if (!made_) return {.kind = ReplyKind::kNoTriangulation};
+    return {.kind = ReplyKind::kDone, .bytes = bytes_of(*made_)};
+  }
+
+  const Triangulate& triangulate_;
+  SharedMemory memory_;
+  std::optional<Triangulation> made_;
+};
+
+}  // namespace
+
+void serve(const Triangulate& triangulate) {
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  ::signal(SIGINT, SIG_IGN);  // a terminal's Ctrl-C is for the engine
+  std::thread(watch_engine).detach();
+  Worker worker(triangulate);
+  Order order;
+  while (::recv(kControlDescriptor, &order, sizeof order, 0) == sizeof order) {
+    const Reply reply = worker.answer(order);
+    if (::send(kControlDescriptor, &reply, sizeof reply, MSG_NOSIGNAL) != sizeof reply) return;
+  }
+}
+
+}  // namespace mw::engine::codt

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The worker's side of the protocol of wire.h.
+#pragma once
+
+#include "kernels/odt/triangulation.h"
+
+namespace mw::engine::codt {
+
+/// Answers orders on kControlDescriptor until the engine is gone.  An engine that breaks the
+/// protocol finds a dead worker.
+void serve(const Triangulate& triangulate);
+
+}  // namespace mw::engine::codt

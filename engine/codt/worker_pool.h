@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Worker processes for constrained Delaunay triangulation, as many as threads ask at once.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "engine/codt/worker_process.h"
+
+namespace mw::engine::codt {
+
+/// The worker program: MW_CODT_WORKER, or mwmesh-codt beside the running program.
+/// ERRORS: kUsage when it is not there or cannot be executed.
+[[nodiscard]] std::filesystem::path find_worker();
+
+struct PoolOptions {
+  std::filesystem::path program;               ///< empty: find_worker()
+  std::chrono::milliseconds patience{60'000};  ///< for one triangulation, then the worker is killed
+};
+
+/// What a pool did beside answering.
+struct PoolFacts {
+  std::uint64_t requests = 0;
+  std::uint64_t refused = 0;    ///< TetGen found no triangulation
+  std::uint64_t failed = 0;     ///< two workers in a row died over a request
+  std::uint64_t restarted = 0;  ///< workers started in place of dead ones
+};
+
+/// TetGen keeps predicate constants in statics, rewrites tables and uses the process-wide rand(),
+/// so two threads of one process get different meshes; it may crash or hang, and it is under the
+/// AGPL. So it runs in processes of its own (design.md section 7).
+///
+/// A worker that dies or is too late costs its request nothing: a fresh one is asked the same. When
+/// that dies as well the request fails, as it would fail again.
+/// Thread safety: all members.
+class WorkerPool {
+ public:
+  /// Starts one worker, so that a program that cannot start is known before work.
+  /// ERRORS: those of find_worker() and WorkerProcess.
+  explicit WorkerPool(PoolOptions options);
+
+  /// As a Triangulate.  ERRORS: those of WorkerProcess.
+  [[nodiscard]] std::optional<Triangulation> triangulate(const Plc& plc);
+
+  [[nodiscard]] PoolFacts facts() const;
+  /// Of workers that wait for work; for tests that kill them.
+  [[nodiscard]] std::vector<pid_t> idle() const;
+
+ private:
+  [[nodiscard]] std::unique_ptr<WorkerProcess> take();
+  void give_back(std::unique_ptr<WorkerProcess> worker);
+
+  PoolOptions options_;
+  mutable std::mutex mutex_;
+  std::vector<std::unique_ptr<WorkerProcess>> idle_;
+  std::atomic<std::uint64_t> requests_ = 0, refused_ = 0, failed_ = 0, restarted_ = 0;
+};
+
+}  // namespace mw::engine::codt

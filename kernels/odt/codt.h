@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Constrained optimal Delaunay triangulation of a window (Sec 5.5).
+#pragma once
+
+#include "kernels/distance/carried_samples.h"
+#include "kernels/odt/replacement.h"
+#include "kernels/odt/triangulation.h"
+
+namespace mw {
+
+/// Ids that a window may give to Steiner points.  Voxel corners have smaller ids than any of these,
+/// and no two windows of a march share one.
+struct SteinerIds {
+  VertexId first = 0;
+  std::uint64_t count = 0;
+};
+
+/// Of window number `window` among `windows`.  REQUIRES: window < windows <= 2^57.
+[[nodiscard]] SteinerIds steiner_ids(std::uint64_t window, std::uint64_t windows);
+
+struct CodtOptions {
+  int iterations = 10;       ///< at most; the paper's number
+  double least_gain = 2e-3;  ///< the last one lowers the ODT energy by less than this share
+  double quality_floor = 0.0;
+  SteinerIds ids;
+};
+
+struct CodtStats {
+  std::uint64_t windows = 0;
+  std::uint64_t iterations = 0;
+  std::uint64_t moves = 0;
+  std::uint64_t added = 0;      ///< Steiner points
+  std::uint64_t fallbacks = 0;  ///< windows that kept what they had, for want of a triangulation
+  ReplacementStats replaced;
+
+  CodtStats& operator+=(const CodtStats& other);
+};
+
+/// What ODT minimises, up to a constant: the sum over tets of volume times squared edges.  (The
+/// mean radius ratio is no guide: after local optimisation it falls first.)
+[[nodiscard]] double odt_energy(const TetMesh& mesh, const Metric& metric);
+
+/// Iterates vertex moves (odt_sweep.h) and constrained Delaunay reconnection (replacement.h).
+/// Steiner points become vertices inside their label, with a point quadric as such have from the
+/// start (Eq (2)), and ids of the window in the triangulation's order.
+/// REQUIRES: `samples` are carried by the mesh; box as the mesh was made with; no vertex of the
+///           volume has one of the ids.
+/// ENSURES: as optimise(), but rows may change: vertices that no tet uses are gone, samples follow.
+CodtStats codt(TetMesh& mesh, CarriedSamples& samples, Point box, const Metric& metric,
+               const CodtOptions& options, const Triangulate& triangulate);
+
+}  // namespace mw

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Whole runs with constrained ODT: the promises, for any number of threads and whatever befalls the
+// workers.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "kernels/audit/betti.h"
+#include "kernels/audit/quality.h"
+#include "kernels/audit/validity.h"
+#include "tests/engine/codt/random_plcs.h"
+#include "tests/engine/memory_run.h"
+#include "tests/temp_folder.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::test::below;
+using audit::test::random_volume_of;
+using audit::test::VolumeKind;
+using codt::test::has_worker;
+using test::expect_same;
+using test::MemorySink;
+using test::MemoryVolume;
+using test::random_trial;
+using test::small_mesh;
+using test::SmallMesh;
+using test::Trial;
+
+#define NEEDS_WORKER() \
+  if (!has_worker()) GTEST_SKIP() << "built without TetGen"
+
+struct Outcome {
+  io::MeshData mesh;
+  RunReport report;
+};
+
+Outcome run(const Trial& trial, int threads = 1,
+            const codt::PoolOptions& workers = {.program = MW_CODT_WORKER}) {
+  const MemoryVolume volume(trial.volume, trial.frame);
+  const io::LabelTable table = io::collect_labels(volume);
+  MemorySink sink;
+  RunReport report = mesh_volume(io::DenseVolume(volume, table), trial.settings, sink,
+                                 {.threads = threads, .workers = workers});
+  return {sink.mesh(), std::move(report)};
+}
+
+/// Settings at random, but with CODT; every kind of volume in turn.
+Trial codt_trial(std::mt19937& random, int number, std::int64_t edge) {
+  const auto kind =
+      static_cast<VolumeKind>(static_cast<std::uint32_t>(number) % audit::test::kVolumeKinds);
+  const Index3 shape{edge, edge - below(random, 3), edge - below(random, 3)};
+  Trial trial = random_trial(random, random_volume_of(random, kind, shape, 1 + below(random, 5)));
+  trial.settings.optimizer = Optimizer::kTetgen;
+  trial.settings.marches = 1 + static_cast<int>(below(random, 2));
+  trial.settings.odt_iterations = 1 + static_cast<int>(below(random, 3));
+  if (number % 3 == 0) trial.settings.quality_floor = 0.0;
+  return trial;
+}
+
+/// P1 and P2; P3 where the start mesh reaches the floor.
+void expect_promises(const Trial& trial, const SmallMesh& mesh) {
+  const std::size_t n = trial.volume.label_count;
+  const auto expected = audit::voxel_betti(trial.volume.view(), n);
+  const auto actual = audit::mesh_betti(mesh.view(), n);
+  for (std::size_t l = 0; l <= n; ++l) EXPECT_TRUE(actual[l] == expected[l]) << "label " << l;
+  const auto report = check_validity(mesh.view(), trial.volume.view(), trial.frame, n);
+  for (const audit::Check& c : report.checks) EXPECT_TRUE(c.passed) << c.name << ": " << c.detail;
+  if (trial.settings.start == StartMesh::kOctree && trial.settings.quality_floor > 0.25) return;
+  EXPECT_GE(measure_quality(mesh.view()).radius_ratio_min, trial.settings.quality_floor - 1e-9);
+}
+
+TEST(CodtRun, KeepsThePromises) {
+  NEEDS_WORKER();
+  std::mt19937 random(1401);
+  CodtStats stats;
+  for (int i = 0; i < 48 && !HasFailure(); ++i) {
+    const Trial trial = codt_trial(random, i, 9);
+    SCOPED_TRACE(trial.text());
+    const Outcome out = run(trial);
+    expect_promises(trial, small_mesh(out.mesh));
+    stats += out.report.codt;
+  }
+  EXPECT_GT(stats.moves, 1000U);
+  EXPECT_GT(stats.replaced.patches, 1000U);
+  EXPECT_LT(stats.fallbacks, stats.windows / 20);
+}
+
+TEST(CodtRun, SameBytesForEveryNumberOfThreads) {
+  NEEDS_WORKER();
+  std::mt19937 random(1402);
+  for (int i = 0; i < 8 && !HasFailure(); ++i) {
+    Trial trial = codt_trial(random, i, 11);
+    trial.settings.window = i % 2 == 0 ? 4 : 8;
+    SCOPED_TRACE(trial.text());
+    const Outcome reference = run(trial, 1);
+    for (int threads : {2, 4}) expect_same(run(trial, threads).mesh, reference.mesh);
+  }
+}
+
+/// Points that a triangulation adds get ids that no other window gives, and the march carries them
+/// on.
+TEST(CodtRun, KeepsThePromisesWithSteinerPoints) {
+  NEEDS_WORKER();
+  std::mt19937 random(1406);
+  std::uint64_t added = 0;
+  for (int i = 0; i < 16 && !HasFailure(); ++i) {
+    Trial trial = codt_trial(random, i, 10);
+    trial.settings.window = i % 2 == 0 ? 4 : 8;
+    trial.settings.quality_floor = i % 3 == 0 ? 0.0 : 0.02;
+    SCOPED_TRACE(trial.text());
+    const codt::PoolOptions splitting{.program = MW_SPLITTING_WORKER};
+    const Outcome out = run(trial, 1, splitting);
+    expect_promises(trial, small_mesh(out.mesh));
+    expect_same(run(trial, 3, splitting).mesh, out.mesh);
+    added += out.report.codt.added;
+  }
+  EXPECT_GT(added, 500U);
+}
+
+/// A worker program that a shell starts.
+class Script {
+ public:
+  explicit Script(const std::string& lines) : path_(folder_.path() / "worker") {
+    std::ofstream(path_) << "#!/bin/sh\n" << lines << "\n";
+    std::filesystem::permissions(path_, std::filesystem::perms::owner_all);
+  }
+  [[nodiscard]] codt::PoolOptions options(int patience_ms = 20'000) const {
+    return {.program = path_, .patience = std::chrono::milliseconds(patience_ms)};
+  }
+
+ private:
+  mw::test::TempFolder folder_;
+  std::filesystem::path path_;
+};
+
+TEST(CodtRun, KilledWorkersChangeNoByte) {
+  NEEDS_WORKER();
+  // Each worker is killed from outside some time after its start.
+  const Script mortal("(exec 3>&-; sleep 0.1; kill -KILL $$) &\nexec " MW_CODT_WORKER);
+  std::mt19937 random(1403);
+  std::uint64_t restarted = 0;
+  for (int i = 0; i < 6 && !HasFailure(); ++i) {
+    Trial trial = codt_trial(random, i, 14);
+    trial.settings.window = 6;
+    SCOPED_TRACE(trial.text());
+    const Outcome calm = run(trial), stormy = run(trial, 2, mortal.options());
+    restarted += stormy.report.workers->restarted;
+    expect_promises(trial, small_mesh(stormy.mesh));
+    // A window that loses two workers in a row, on a machine that sleeps, is allowed another mesh.
+    if (stormy.report.codt.fallbacks == calm.report.codt.fallbacks) {
+      expect_same(stormy.mesh, calm.mesh);
+    }
+  }
+  EXPECT_GT(restarted, 0U);
+}
+
+void expect_fallbacks(const codt::PoolOptions& workers, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  for (int i = 0; i < 3; ++i) {
+    Trial trial = codt_trial(random, i, 8);
+    trial.settings.window = 8;
+    SCOPED_TRACE(trial.text());
+    const Outcome out = run(trial, 2, workers);
+    EXPECT_EQ(out.report.codt.fallbacks, out.report.codt.windows);
+    EXPECT_GE(out.report.codt.windows, 1U);
+    EXPECT_EQ(out.report.workers->failed, out.report.codt.windows);
+    expect_promises(trial, small_mesh(out.mesh));
+    expect_same(run(trial, 1, workers).mesh, out.mesh);
+  }
+}
+
+TEST(CodtRun, WorkersThatCrashCostTheirWindowsCodtOnly) {
+  expect_fallbacks({.program = "/bin/false"}, 1404);
+}
+
+TEST(CodtRun, WorkersThatHangCostTheirWindowsCodtOnly) {
+  const Script hanging("exec sleep 1000");
+  expect_fallbacks(hanging.options(20), 1405);
+}
+
+}  // namespace
+}  // namespace mw::engine
