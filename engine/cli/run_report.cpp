@@ -51,11 +51,16 @@ ordered_json performance_json(const FinishedRun& run) {
 
 ordered_json engine_json(const FinishedRun& run) {
   const engine::StoreFacts& store = run.engine.store;
+  ordered_json purposes;
+  for (std::size_t i = 0; i < engine::kPurposes; ++i) {
+    purposes[engine::kPurposeNames[i]] = run.engine.peak_bytes_by_purpose[i];
+  }
   return {{"windows", run.engine.windows},
           {"windows_resumed", store.resumed_windows},
           {"threads", run.engine.threads},
           {"memory_budget_bytes", run.engine.memory_budget_bytes},
           {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
+          {"peak_bytes_by_purpose", std::move(purposes)},
           {"blocks_spilled", store.blocks_spilled},
           {"bytes_written", store.bytes_written},
           {"bytes_read", store.bytes_read}};
