@@ -106,7 +106,7 @@ engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume
       .workdir = request.workdir,
       .resume = request.resume,
       .identity = "version = " MW_VERSION "\nlabel fingerprint = " + fingerprint + "\n",
-      .group = {},
+      .group = {.age = request.save_every},
       .kept = [&] {
         work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
       }};
@@ -164,6 +164,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   if (files.report) {
     engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
     run.digest = files.digest->digest();
+    run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
     write_json(*files.report, run_report(run, request.output, options.json()));
   }
   return kExitDone;
