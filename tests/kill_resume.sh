@@ -37,8 +37,8 @@ least_memory() { # OPTION... ; the budget that a run asks for when it has too li
   local mib=1 code
   while true; do
     code=0
-    "$program" mesh v.npy -o least.vtu --memory "${mib}MiB" "$@" >log 2>&1 || code=$?
-    rm -rf least.vtu least.vtu.work
+    "$program" mesh v.npy -o least.vtu --report r.json --memory "${mib}MiB" "$@" >log 2>&1 || code=$?
+    rm -rf least.vtu least.vtu.work r.json
     ((code == 0)) && break
     ((code == 4)) || fail "exit code $code under ${mib} MiB"
     mib="$(sed -n 's/.*--memory \([0-9]*\)MiB.*/\1/p' log)"
