@@ -60,7 +60,7 @@ attempt() { # SIGNAL OPTION...
   case "$signal.$code" in
     *.0) return 0 ;;
     KILL.137 | TERM.75 | INT.75) ;;
-    TERM.143 | INT.130) ;; # before the program watches for signals, or before there is work
+    TERM.143 | TERM.130 | INT.130) ;; # before the program watches for signals, or has any work
     *) fail "signal $signal gave exit code $code" ;;
   esac
   stopped=$((stopped + 1))
