@@ -3,8 +3,6 @@
 // Asks the store, again after each visit that ends.
 #include "engine/admission.h"
 
-#include "engine/window_memory.h"
-
 namespace mw::engine {
 
 Admission Admitter::admit(Index3 window, bool first) {
@@ -12,7 +10,7 @@ Admission Admitter::admit(Index3 window, bool first) {
   std::unique_lock lock(mutex_);
   for (;;) {
     const std::uint64_t seen = ended_;
-    if (store_.admit(window, window_bytes(grid_, window, store_))) {
+    if (store_.admit(window, bytes_(window))) {
       ++in_flight_;
       return token;
     }

@@ -18,7 +18,9 @@ namespace mw::engine {
 /// Thread safety: all members.
 class Admitter {
  public:
-  Admitter(const WindowGrid& grid, BlockStore& store) : grid_(grid), store_(store) {}
+  /// bytes: memory that a window takes while it is in flight.
+  Admitter(BlockStore& store, std::function<std::uint64_t(Index3 window)> bytes)
+      : store_(store), bytes_(std::move(bytes)) {}
 
   /// As AdmitWindow.  ERRORS: those of BlockStore::admit.
   [[nodiscard]] Admission admit(Index3 window, bool first);
@@ -30,8 +32,8 @@ class Admitter {
  private:
   void end(bool failed);
 
-  const WindowGrid& grid_;
   BlockStore& store_;
+  std::function<std::uint64_t(Index3 window)> bytes_;
   std::mutex mutex_;
   std::condition_variable over_;
   std::uint64_t in_flight_ = 0;

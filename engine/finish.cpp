@@ -8,6 +8,10 @@
 namespace mw::engine {
 namespace {
 
+// Entries of VertexRows, and a second list while one is merged.
+constexpr std::uint64_t kBytesPerRemembered = 32;
+constexpr std::uint64_t kHoldStepBytes = 1 << 20;
+
 io::Position physical(Point p, const io::VolumeInfo& info) {
   const std::array<double, 3> corner{static_cast<double>(p.x) / kUnitsPerVoxel,
                                      static_cast<double>(p.y) / kUnitsPerVoxel,
@@ -40,8 +44,8 @@ std::vector<io::TetRows> oriented_tets(const BlockMesh& block) {
 /// Second pass.
 class Writer {
  public:
-  Writer(VertexUses uses, const io::DenseVolume& volume, io::MeshSink& sink)
-      : rows_(std::move(uses)), volume_(volume), sink_(sink) {}
+  Writer(VertexUses uses, const io::DenseVolume& volume, io::MeshSink& sink, HoldMemory hold)
+      : rows_(std::move(uses)), volume_(volume), sink_(sink), hold_(std::move(hold)) {}
 
   void write(Index3 where, const BlockMesh& block, audit::QualityMeter* quality) {
     const std::vector<io::Position> positions = positions_of(block, volume_.info());
@@ -66,6 +70,7 @@ class Writer {
  private:
   std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
                                             const std::vector<io::Position>& positions) {
+    hold(block.vertices.size());
     const std::uint64_t first_new = rows_.count();
     std::vector<std::uint64_t> rows = rows_.assign(where, block.vertices);
     std::vector<io::Position> added;
@@ -76,9 +81,19 @@ class Writer {
     return rows;
   }
 
+  /// Before so many vertices more are remembered.
+  void hold(std::size_t more) {
+    const std::uint64_t bytes = kBytesPerRemembered * (rows_.remembered() + more);
+    if (!hold_ || bytes <= held_) return;
+    held_ = bytes + kHoldStepBytes;
+    hold_(held_);
+  }
+
   VertexRows rows_;
   const io::DenseVolume& volume_;
   io::MeshSink& sink_;
+  HoldMemory hold_;
+  std::uint64_t held_ = 0;
 };
 
 }  // namespace
@@ -99,7 +114,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
     out.tets += block.tets.size();
   });
   sink.begin({.tets = out.tets, .labels_signed = volume.table().is_signed()});
-  Writer writer(std::move(uses), volume, sink);
+  Writer writer(std::move(uses), volume, sink, options.hold);
   audit::QualityMeter quality;
   each_index(grid.blocks(), [&](Index3 b) {
     writer.write(b, load(b), options.measure_quality ? &quality : nullptr);

@@ -3,6 +3,7 @@
 // The end of a run: final blocks become one mesh with global rows, in bounded memory (promise P6).
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "engine/final_blocks.h"
@@ -13,10 +14,15 @@
 
 namespace mw::engine {
 
+/// Told how much the merge remembers of vertices, before that grows beyond what was last told; may
+/// throw.
+using HoldMemory = std::function<void(std::uint64_t bytes)>;
+
 /// What is written and told of the mesh.
 struct OutputOptions {
   WantedLabel wanted;            ///< empty: every label
   bool measure_quality = false;  ///< about 0.1 us a tet
+  HoldMemory hold;               ///< optional
 };
 
 /// The finished mesh.

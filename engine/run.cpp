@@ -10,6 +10,7 @@
 #include "engine/admission.h"
 #include "engine/march/timed_visit.h"
 #include "engine/prepared_labels.h"
+#include "engine/resident_memory.h"
 #include "engine/stopwatch.h"
 #include "engine/store/run_identity.h"
 #include "engine/store/workdir.h"
@@ -43,7 +44,13 @@ class Marches {
 
   void run(int march_number, const WindowOrder& order, BlockStore& store,
            const WindowVisitor& visitor) {
-    Admitter admitter(order.grid(), store);
+    const StartSizeOf start_size = [&](Index3 block) { return visitor.start_size(block); };
+    const std::uint64_t budget = hooks_.store.memory;
+    Admitter admitter(store, [&](Index3 window) {
+      const std::uint64_t bytes = window_bytes(order.grid(), window, store, start_size);
+      if (bytes < budget) return_free_memory_above(budget - bytes);
+      return bytes;
+    });
     const VisitWindow work = [&](Index3 window) {
       if (hooks_.before_visit) hooks_.before_visit(window);
       add(visitor.visit(window));
@@ -127,11 +134,45 @@ std::unique_ptr<Workdir> open_workdir(const io::VolumeInfo& volume, const MeshSe
                                    options.identity + identity_text(volume, settings));
 }
 
-/// Tells at once the least that works for the first march.  What a later window takes depends on
-/// what earlier ones leave.
-void require_least(const RunLayout& layout, const io::DenseVolume& volume, MemoryBudget& budget) {
-  (void)budget.reserve(Purpose::kWindows, program_bytes(volume) + index_bytes(layout) +
-                                              start_window_bytes(layout.grid(0)));
+/// Tells at once, before any work, the least that the parts take whose size is known by then.
+/// What windows take depends on the labels, and on what earlier windows leave.
+void require_least(const RunLayout& layout, const io::DenseVolume& volume,
+                   const MeshSettings& settings, const io::MeshSink& sink, int threads,
+                   const MemoryBudget& budget) {
+  const std::uint64_t always = program_bytes(volume.table().size(), threads) +
+                               prepared_label_bytes(volume.info().shape) + index_bytes(layout);
+  const std::uint64_t least = always + std::max(preparation_bytes(settings), sink.buffer_bytes());
+  if (least > budget.limit()) budget.fail(least);
+}
+
+/// Reads and coarsens the labels; their memory is `room`, and more while they are made.
+PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settings,
+                       const std::filesystem::path& folder, RunStore& store,
+                       MemoryBudget::Reservation& room) {
+  room = store.reserve(Purpose::kLabels, prepared_label_bytes(volume.info().shape));
+  const auto scratch = store.reserve(Purpose::kLabels, preparation_bytes(settings));
+  return {volume, settings, folder.empty() ? io::scratch_folder() : folder};
+}
+
+/// Writes what the last march left; memory for that comes first, blocks are spilled to make room.
+FinishedMesh write_mesh(const RunLayout& layout, const io::DenseVolume& volume, RunStore& store,
+                        io::MeshSink& sink, const RunHooks& hooks) {
+  const std::uint32_t last = layout.marches() - 1;
+  const WindowGrid& grid = layout.grid(last);
+  const BlockStore& stored = store.march(last);
+  std::uint64_t largest = 0;
+  each_index(grid.blocks(), [&](Index3 b) { largest = std::max(largest, stored.loaded_bytes(b)); });
+  const auto room =
+      store.reserve(Purpose::kOutput, sink.buffer_bytes() + written_block_bytes(largest));
+  return_free_memory_above(0);
+  MemoryBudget::Reservation rows;
+  OutputOptions options = hooks.output;
+  options.hold = [&](std::uint64_t bytes) {
+    rows = {};
+    rows = store.reserve(Purpose::kOutput, bytes);
+  };
+  FinishedBlocks blocks(stored, hooks.progress, layout.windows());
+  return finish(blocks, grid, volume, sink, options);
 }
 
 /// Everything between an open store and a written mesh.  workers: null without TetGen.
@@ -139,8 +180,8 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
                      const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
                      const RunHooks& hooks, codt::WorkerPool* workers, RunReport& report) {
   Stopwatch watch;
-  const std::filesystem::path& folder = hooks.store.workdir;
-  const PreparedLabels labels(volume, settings, folder.empty() ? io::scratch_folder() : folder);
+  MemoryBudget::Reservation room;
+  const PreparedLabels labels = prepare(volume, settings, hooks.store.workdir, store, room);
   watch.lap(report.prepare_seconds);
   const Metric metric(volume.info().spacing);
   Marches marches(hooks, store.facts().resumed_windows, layout.windows());
@@ -157,9 +198,7 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();
   watch.restart();
-  const std::uint32_t last = layout.marches() - 1;
-  FinishedBlocks blocks(store.march(last), hooks.progress, layout.windows());
-  const FinishedMesh finished = finish(blocks, layout.grid(last), volume, sink, hooks.output);
+  const FinishedMesh finished = write_mesh(layout, volume, store, sink, hooks);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;
@@ -189,8 +228,9 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   report.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   const RunLayout layout(march_grids(volume.info().shape, settings), settings.order);
   MemoryBudget budget(hooks.store.memory);
-  require_least(layout, volume, budget);
-  const auto program = budget.reserve(Purpose::kProgram, program_bytes(volume));
+  require_least(layout, volume, settings, sink, report.threads, budget);
+  const auto program =
+      budget.reserve(Purpose::kProgram, program_bytes(volume.table().size(), report.threads));
   std::optional<codt::WorkerPool> workers;
   if (settings.optimizer == Optimizer::kTetgen) workers.emplace(hooks.workers);
   const auto workdir = open_workdir(volume.info(), settings, hooks.store);
@@ -205,6 +245,9 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   if (workdir != nullptr) workdir->discard();
   report.memory_budget_bytes = budget.limit();
   report.peak_accounted_bytes = budget.peak();
+  for (std::size_t i = 0; i < kPurposes; ++i) {
+    report.peak_bytes_by_purpose[i] = budget.peak(static_cast<Purpose>(i));
+  }
   report.store = store.facts();
   return report;
 }

@@ -3,6 +3,7 @@
 // The library's face: a volume and settings in, a mesh and a report out.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "engine/codt/worker_pool.h"
@@ -27,6 +28,7 @@ struct RunReport : VisitStats {
   std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
   std::uint64_t memory_budget_bytes = 0;
   std::uint64_t peak_accounted_bytes = 0;
+  std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
   StoreFacts store;
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
 };

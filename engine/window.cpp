@@ -11,8 +11,18 @@
 namespace mw::engine {
 namespace {
 
+/// Room for the lists of all blocks, which are many and long: no vector grows by doubling.
+template <typename Item>
+std::vector<Item> room_for(std::span<const BlockMesh> blocks, std::vector<Item> BlockMesh::*list) {
+  std::size_t size = 0;
+  for (const BlockMesh& b : blocks) size += (b.*list).size();
+  std::vector<Item> out;
+  out.reserve(size);
+  return out;
+}
+
 std::vector<BlockVertex> merged_vertices(std::span<const BlockMesh> blocks) {
-  std::vector<BlockVertex> all;
+  std::vector<BlockVertex> all = room_for(blocks, &BlockMesh::vertices);
   for (const BlockMesh& b : blocks) all.insert(all.end(), b.vertices.begin(), b.vertices.end());
   std::sort(all.begin(), all.end(),
             [](const BlockVertex& a, const BlockVertex& b) { return a.id < b.id; });
@@ -148,18 +158,35 @@ void take_samples(const WindowContent& content, const BlockTet& tet, Share& shar
   }
 }
 
+/// Place in `blocks`, those of the window, of the one that owns a tet.
+std::uint8_t owner_place(const TetMesh& mesh, const BlockTet& tet, const WindowGrid& grid,
+                         Index3 window, const std::vector<Index3>& blocks) {
+  std::array<std::int64_t, 3> sum{};
+  for (LocalVertex v : tet.vertices) {
+    const Point p = mesh.position(v);
+    sum[0] += p.x;
+    sum[1] += p.y;
+    sum[2] += p.z;
+  }
+  const Index3 owner = grid.owner(window, sum);
+  return static_cast<std::uint8_t>(std::find(blocks.begin(), blocks.end(), owner) - blocks.begin());
+}
+
 }  // namespace
 
-BlockMesh merge(std::span<const BlockMesh> blocks) {
+BlockMesh merge(std::vector<BlockMesh> blocks) {
   BlockMesh out;
   out.vertices = merged_vertices(blocks);
-  for (const BlockMesh& b : blocks) {
-    const std::vector<LocalVertex> row = window_rows(b, out.vertices);
-    for (BlockTet t : b.tets) {
+  out.tets = room_for(blocks, &BlockMesh::tets);
+  out.samples = room_for(blocks, &BlockMesh::samples);
+  for (BlockMesh& b : blocks) {
+    const BlockMesh block = std::move(b);  // its memory goes with it
+    const std::vector<LocalVertex> row = window_rows(block, out.vertices);
+    for (BlockTet t : block.tets) {
       for (std::uint32_t& v : t.vertices) v = row[v];
       out.tets.push_back(t);
     }
-    for (BlockSample s : b.samples) {
+    for (BlockSample s : block.samples) {
       for (std::uint32_t& v : s.triangle) v = row[v];
       out.samples.push_back(s);
     }
@@ -173,11 +200,12 @@ Point lattice_corner(Index3 volume) {
   return {lattice(volume.x), lattice(volume.y), lattice(volume.z)};
 }
 
-WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume) {
-  const BlockMesh merged = merge(blocks);
+WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume) {
+  BlockMesh merged = merge(std::move(blocks));
   for (const BlockTet& t : merged.tets) check_extent(t, merged.vertices);
   CarriedSamples samples;
   for (const BlockSample& s : merged.samples) samples.add(s.triangle, s.side, s.samples);
+  merged.samples = {};
   const bool one_label =
       std::all_of(merged.tets.begin(), merged.tets.end(),
                   [&](const BlockTet& t) { return t.label == merged.tets[0].label; });
@@ -189,24 +217,23 @@ std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& g
                                Index3 window) {
   const TetMesh& mesh = content.mesh;
   const std::vector<Index3> blocks = grid.blocks_of(window);
-  std::vector<Share> shares(blocks.size());
-  for (const BlockTet& t : mesh.sorted_tets()) {
-    std::array<std::int64_t, 3> sum{};
-    for (LocalVertex v : t.vertices) {
-      const Point p = mesh.position(v);
-      sum[0] += p.x;
-      sum[1] += p.y;
-      sum[2] += p.z;
-    }
-    const Index3 owner = grid.owner(window, sum);
-    const auto place = std::find(blocks.begin(), blocks.end(), owner) - blocks.begin();
-    Share& share = shares[static_cast<std::size_t>(place)];
-    share.tets.push_back(t);
-    take_samples(content, t, share);
-  }
+  const std::vector<BlockTet> tets = mesh.sorted_tets();
+  std::vector<std::uint8_t> owners;
+  owners.reserve(tets.size());
+  for (const BlockTet& t : tets) owners.push_back(owner_place(mesh, t, grid, window, blocks));
   std::vector<std::uint32_t> row(mesh.vertex_count());
   std::vector<BlockMesh> out;
-  for (Share& share : shares) out.push_back(pack(mesh, std::move(share), row));
+  // One block after the other, so that only one list at a time is longer than it need be.
+  for (std::size_t place = 0; place < blocks.size(); ++place) {
+    Share share;
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+      if (owners[i] != place) continue;
+      share.tets.push_back(tets[i]);
+      take_samples(content, tets[i], share);
+    }
+    share.tets.shrink_to_fit();
+    out.push_back(pack(mesh, std::move(share), row));
+  }
   return out;
 }
 

@@ -3,7 +3,7 @@
 // One window: blocks in, kernels, blocks out.
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "engine/window_grid.h"
 #include "kernels/distance/carried_samples.h"
@@ -14,7 +14,8 @@ namespace mw::engine {
 /// Merges blocks into one, canonically.
 /// REQUIRES: canonical blocks; copies of a vertex are equal.
 /// ENSURES: a function of the content alone, not of the order of the blocks.
-[[nodiscard]] BlockMesh merge(std::span<const BlockMesh> blocks);
+/// Memory: the result, and once more its longest list.
+[[nodiscard]] BlockMesh merge(std::vector<BlockMesh> blocks);
 
 /// What a window works on.
 struct WindowContent {
@@ -27,7 +28,7 @@ struct WindowContent {
 [[nodiscard]] Point lattice_corner(Index3 volume);
 
 /// Merges blocks into the content of a window; as merge().
-[[nodiscard]] WindowContent gather(std::span<const BlockMesh> blocks, Index3 volume);
+[[nodiscard]] WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume);
 
 /// Deals the tets of a window to the owner blocks of their barycentres, canonically; samples go
 /// with the tet on the side of their triangle's smaller label.

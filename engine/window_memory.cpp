@@ -6,45 +6,71 @@
 namespace mw::engine {
 namespace {
 
+constexpr std::uint64_t kKibibyte = 1 << 10;
 constexpr std::uint64_t kMebibyte = 1 << 20;
-// The most that any volume took (noise, where every voxel has a label of its own; connectome and
-// CT take a third of it), from start mesh to scatter.
-constexpr std::uint64_t kBytesPerStartVoxel = 2900;
-constexpr std::uint64_t kBytesPerStoredByte = 6;
-constexpr std::uint64_t kBytesPerLabelVoxel = 16;
-// Code, libraries, and a tile of labels that is being coarsened.
-constexpr std::uint64_t kProgramBytes = 32 * kMebibyte;
-// What PreparedLabels holds for each 16^3 voxels: two bricks' places and the large cells.
-constexpr std::uint64_t kBytesPerBrick = 20;
-constexpr std::int64_t kBrickVoxels = 16 * 16 * 16;
+
+// The most that any visit took, from decoding to encoding, was 6.2 times the bytes of the content
+// it began with (a checkerboard whose only block has eight parts); most take 4.
+constexpr double kBytesPerContentByte = 6.5;
+// Labels for the distance bound, and around blocks that are made from voxels.
+constexpr std::uint64_t kBytesPerLabelVoxel = 8;
+constexpr std::int64_t kLabelHalo = 6;
+constexpr std::uint64_t kBytesPerWindow = 64 * kKibibyte;
+
+// Pages of code and libraries, the allocator's slack, and buffers of the reading of labels.
+constexpr std::uint64_t kProgramBytes = 20 * kMebibyte;
+constexpr std::uint64_t kBytesPerThread = kMebibyte;
 constexpr std::uint64_t kBytesPerLabel = 64;
 
-std::uint64_t voxels_of(const WindowGrid& grid, Index3 block) {
-  return static_cast<std::uint64_t>(grid.block_box(block).voxels());
+// Places of a brick of the input and of a coarsened one, and its large cells.
+constexpr std::uint64_t kBytesPerBrick = 20;
+constexpr std::int64_t kBrickEdge = 16;
+// A tile and its halo before and after coarsening, or a row of bricks as raw labels.
+constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
+constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
+
+// Decoding, positions, tets with global rows.
+constexpr std::uint64_t kBytesPerWrittenByte = 4;
+
+std::uint64_t content_bytes(const StartSize& size) {
+  return size.vertices * sizeof(BlockVertex) + size.tets * sizeof(BlockTet) +
+         size.samples * sizeof(BlockSample);
+}
+
+std::uint64_t bricks_of(Index3 shape) {
+  const auto along = [](std::int64_t n) { return (n + kBrickEdge - 1) / kBrickEdge; };
+  return static_cast<std::uint64_t>(along(shape.x) * along(shape.y) * along(shape.z));
 }
 
 }  // namespace
 
-std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockStore& store) {
-  std::uint64_t sum = store.taken_bytes(window) * kBytesPerStoredByte;
+std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockStore& store,
+                           const StartSizeOf& start_size) {
+  std::uint64_t content = store.taken_bytes(window);
   for (Index3 block : grid.blocks_of(window)) {
-    const bool fresh = store.loaded_bytes(block) == 0;
-    sum += voxels_of(grid, block) * (kBytesPerLabelVoxel + (fresh ? kBytesPerStartVoxel : 0));
+    if (store.loaded_bytes(block) == 0) content += content_bytes(start_size(block));
   }
-  return sum;
+  const auto voxels =
+      static_cast<std::uint64_t>(grown(grid.window_box(window), kLabelHalo).voxels());
+  return static_cast<std::uint64_t>(kBytesPerContentByte * static_cast<double>(content)) +
+         kBytesPerLabelVoxel * voxels + kBytesPerWindow;
 }
 
-std::uint64_t start_window_bytes(const WindowGrid& grid) {
-  std::uint64_t sum = 0;
-  for (Index3 block : grid.blocks_of({0, 0, 0})) {
-    sum += voxels_of(grid, block) * (kBytesPerLabelVoxel + kBytesPerStartVoxel);
-  }
-  return sum;
+std::uint64_t program_bytes(std::size_t labels, int threads) {
+  return kProgramBytes + kBytesPerThread * static_cast<std::uint64_t>(threads) +
+         kBytesPerLabel * labels;
 }
 
-std::uint64_t program_bytes(const io::DenseVolume& volume) {
-  const auto bricks = static_cast<std::uint64_t>(volume.info().shape.product() / kBrickVoxels);
-  return kProgramBytes + kBytesPerBrick * bricks + kBytesPerLabel * volume.table().size();
+std::uint64_t prepared_label_bytes(Index3 shape) {
+  return kBytesPerBrick * bricks_of(shape);
+}
+
+std::uint64_t preparation_bytes(const MeshSettings& settings) {
+  return settings.start == StartMesh::kCoarse ? kCoarseningBytes : kReadingBytes;
+}
+
+std::uint64_t written_block_bytes(std::uint64_t loaded) {
+  return kBytesPerWrittenByte * loaded;
 }
 
 }  // namespace mw::engine

@@ -1,23 +1,37 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How much memory a window takes while it is in flight, told before it starts.
+// How much memory each part of a run takes, told before it starts.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "engine/block_store.h"
+#include "engine/settings.h"
 #include "io/labels/label_table.h"
+#include "kernels/lattice/graded_start.h"
 
 namespace mw::engine {
 
-/// An upper bound, from the content of its stored blocks and the voxels of the others.
+/// The size of a block that is made from voxels.
+using StartSizeOf = std::function<StartSize(Index3 block)>;
+
+/// An upper bound on what a visit allocates, by the content that it begins with: blocks as they are
+/// stored, and those that are made from voxels.  It holds for every kind of volume and start mesh
+/// (tests/engine/memory).
 [[nodiscard]] std::uint64_t window_bytes(const WindowGrid& grid, Index3 window,
-                                         const BlockStore& store);
+                                         const BlockStore& store, const StartSizeOf& start_size);
 
-/// The same for a window with no stored block; there is no larger one in the first march.
-[[nodiscard]] std::uint64_t start_window_bytes(const WindowGrid& grid);
+/// What the program takes all the time: code, libraries, threads, the allocator's slack, the label
+/// table.
+[[nodiscard]] std::uint64_t program_bytes(std::size_t labels, int threads);
 
-/// What the program takes beside windows: code, libraries, the label table, prepared labels.
-[[nodiscard]] std::uint64_t program_bytes(const io::DenseVolume& volume);
+/// What PreparedLabels holds.
+[[nodiscard]] std::uint64_t prepared_label_bytes(Index3 shape);
+/// What it takes beside that while it is made.
+[[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings);
+
+/// What it takes to write a block of the finished mesh.  `loaded`: its bytes in memory.
+[[nodiscard]] std::uint64_t written_block_bytes(std::uint64_t loaded);
 
 }  // namespace mw::engine

@@ -72,8 +72,7 @@ VisitStats WindowVisitor::visit(Index3 window) const {
     content.push_back(stored[i] ? std::move(*stored[i]) : start(blocks[i]));
   }
   watch.lap(stats.start_seconds);
-  WindowContent window_content = gather(content, grid_.volume());
-  content.clear();
+  WindowContent window_content = gather(std::move(content), grid_.volume());
   watch.lap(stats.exchange_seconds);
   work_on(window, window_content, stats);
   watch.restart();
@@ -118,18 +117,30 @@ void WindowVisitor::reconnect(Index3 window, WindowContent& content, VisitStats&
                      options, triangulate_);
 }
 
-BlockMesh WindowVisitor::start(Index3 block) const {
+template <typename Use>
+auto WindowVisitor::with_labels(Index3 block, Use use) const {
   const Box3 box = grid_.block_box(block);
-  const Index3 around{kStartHalo, kStartHalo, kStartHalo};
-  const Box3 wide{box.lo - around, box.hi + around};
+  const Box3 wide = grown(box, kStartHalo);
   const LabelBox original = labels_.original(wide);
-  if (!start_.coarse) {
-    return graded_start({.shape = original, .original = original}, labels_.levels(), box,
-                        grid_.volume(), start_);
-  }
+  if (!start_.coarse) return use(StartLabels{.shape = original, .original = original}, box);
   const LabelBox shape = labels_.shape(wide);
-  return graded_start({.shape = shape, .original = original}, labels_.levels(), box, grid_.volume(),
-                      start_);
+  return use(StartLabels{.shape = shape, .original = original}, box);
+}
+
+StartSize WindowVisitor::start_size(Index3 block) const {
+  return with_labels(block, [&](const StartLabels& labels, const Box3& box) {
+    return graded_start_size(labels, labels_.levels(), box, grid_.volume(), start_);
+  });
+}
+
+BlockMesh WindowVisitor::start(Index3 block) const {
+  BlockMesh mesh = with_labels(block, [&](const StartLabels& labels, const Box3& box) {
+    return graded_start(labels, labels_.levels(), box, grid_.volume(), start_);
+  });
+  mesh.vertices.shrink_to_fit();
+  mesh.tets.shrink_to_fit();
+  mesh.samples.shrink_to_fit();
+  return mesh;
 }
 
 }  // namespace mw::engine

@@ -51,6 +51,10 @@ class WindowVisitor {
   /// Lends threads to the filling of a window's queue; none by default.  The result is the same.
   void seed_with(ParallelFor loop) { simplify_.seeding = std::move(loop); }
 
+  /// The size of a block that is made from voxels.  Cost: about a hundredth of a visit.
+  [[nodiscard]] StartSize start_size(Index3 block) const;
+  /// Such a block.
+  [[nodiscard]] BlockMesh start(Index3 block) const;
   /// Returns what this visit did.
   VisitStats visit(Index3 window) const;
 
@@ -59,7 +63,9 @@ class WindowVisitor {
 
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;
-  [[nodiscard]] BlockMesh start(Index3 block) const;
+  /// use(labels around the block, its box).
+  template <typename Use>
+  [[nodiscard]] auto with_labels(Index3 block, Use use) const;
 
   const PreparedLabels& labels_;
   const WindowGrid& grid_;

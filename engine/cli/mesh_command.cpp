@@ -18,6 +18,7 @@
 #include "engine/cli/run_report.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
+#include "engine/resident_memory.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
@@ -32,13 +33,23 @@ struct MeshJob {
   bool print_config = false;
 };
 
+std::uint64_t memory_of(const MeshRequest& request) {
+  return request.memory.value_or(default_memory_budget());
+}
+
+/// What the digest may sort in: a small part of the budget.
+std::size_t digest_memory(std::uint64_t budget) {
+  constexpr std::uint64_t kLeast = 1 << 18;
+  return std::clamp<std::uint64_t>(budget / 64, kLeast, io::DigestSink::kMemoryBytes);
+}
+
 /// The files of a run, created before any work so that a bad path fails at once.
 struct MeshFiles {
   explicit MeshFiles(const MeshRequest& request) : sink(io::open_mesh_sink(request.output)) {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (request.report.empty()) return;
     report.emplace(request.report);
-    digest.emplace(request.output.parent_path());
+    digest.emplace(request.output.parent_path(), digest_memory(memory_of(request)));
     both.emplace(*sink, *digest);
   }
 
@@ -91,11 +102,11 @@ engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume
                                MeshFiles& files, const std::string& fingerprint) {
   std::string work;
   const engine::StoreOptions store{
-      .memory = request.memory.value_or(default_memory_budget()),
+      .memory = memory_of(request),
       .workdir = request.workdir,
       .resume = request.resume,
       .identity = "version = " MW_VERSION "\nlabel fingerprint = " + fingerprint + "\n",
-      .group = {},
+      .group = {.age = request.save_every},
       .kept = [&] {
         work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
       }};
@@ -151,7 +162,9 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   run.resources = meter.read();
   print_summary(run, request);
   if (files.report) {
+    engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
     run.digest = files.digest->digest();
+    run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
     write_json(*files.report, run_report(run, request.output, options.json()));
   }
   return kExitDone;

@@ -172,6 +172,15 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
       [](engine::MeshSettings& s, const std::string& t) { s.start = parse_name(kStartMeshes, t); });
 }
 
+std::chrono::milliseconds parse_delay(const std::string& text) {
+  constexpr double kMostSeconds = 1e6;
+  const double seconds = parse_number(text);
+  if (seconds < 0 || seconds > kMostSeconds) {
+    throw Error(ErrorKind::kUsage, "expected seconds from 0 to 1000000");
+  }
+  return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
+}
+
 int parse_threads(const std::string& text) {
   const std::int64_t threads = parse_integer(text);
   if (threads >= 0 && threads <= kMaxThreads) return static_cast<int>(threads);
@@ -186,13 +195,14 @@ void add_resource_options(OptionSet& options, MeshRequest& request) {
                .kind = ValueKind::kInteger,
                .fallback = "0",
                .assign = [&](const std::string& text) { request.threads = parse_threads(text); }});
-  options.add({.name = "memory",
-               .value = "SIZE",
-               .help = "hard budget for the process, e.g. 512MiB [half of the machine's memory]",
-               .kind = ValueKind::kSize,
-               .assign = [&](const std::string& text) {
-                 if (!text.empty()) request.memory = parse_size(text);
-               }});
+  options.add(
+      {.name = "memory",
+       .value = "SIZE",
+       .help = "hard budget for the process, e.g. 512MiB [half of the memory that is available]",
+       .kind = ValueKind::kSize,
+       .assign = [&](const std::string& text) {
+         if (!text.empty()) request.memory = parse_size(text);
+       }});
   options.add({.name = "workdir",
                .value = "DIR",
                .help = "folder of the block store and journal, removed after success [OUTPUT.work]",
@@ -202,6 +212,12 @@ void add_resource_options(OptionSet& options, MeshRequest& request) {
                .kind = ValueKind::kSwitch,
                .fallback = "false",
                .assign = [&](const std::string& text) { request.resume = parse_switch(text); }});
+  options.add({.name = "save-every",
+               .value = "SECONDS",
+               .help = "how often finished work becomes durable; a kill loses at most so much",
+               .kind = ValueKind::kNumber,
+               .fallback = "10",
+               .assign = [&](const std::string& text) { request.save_every = parse_delay(text); }});
   add_setting(options, request,
               {.name = "order",
                .value = "ORDER",

@@ -3,6 +3,8 @@
 // What `mwmesh mesh` is asked to do.
 #pragma once
 
+#include <chrono>
+
 #include "engine/cli/progress.h"
 #include "engine/cli/volume_options.h"
 #include "engine/settings.h"
@@ -19,6 +21,7 @@ struct MeshRequest {
   std::optional<std::uint64_t> memory;  ///< bytes; none: default_memory_budget()
   std::filesystem::path workdir;        ///< after check_mesh_request() never empty
   bool resume = false;
+  std::chrono::milliseconds save_every{10'000};
   std::optional<std::vector<RawLabel>> labels;  ///< the only ones to write
   std::optional<RawLabel> background;           ///< the one not to write
   ProgressKind progress = ProgressKind::kNone;

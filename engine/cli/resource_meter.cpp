@@ -5,6 +5,9 @@
 
 #include <sys/resource.h>
 
+#include <fstream>
+#include <string>
+
 namespace mw::cli {
 namespace {
 
@@ -18,6 +21,17 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
+/// The kernel's high-water mark of this program's resident memory, in KiB.  Not getrusage's, which
+/// begins with that of the program that started this one.
+std::uint64_t high_water_kib() {
+  constexpr std::string_view kName = "VmHWM:";
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(kName)) return std::stoull(line.substr(kName.size()));
+  }
+  return static_cast<std::uint64_t>(usage().ru_maxrss);
+}
+
 }  // namespace
 
 double ResourceMeter::process_cpu_seconds() {
@@ -29,7 +43,7 @@ Resources ResourceMeter::read() const {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
   return {.wall_seconds = wall.count(),
           .cpu_seconds = process_cpu_seconds() - start_cpu_,
-          .peak_rss_bytes = static_cast<std::uint64_t>(usage().ru_maxrss) * 1024};
+          .peak_rss_bytes = high_water_kib() * 1024};
 }
 
 }  // namespace mw::cli

@@ -10,8 +10,8 @@ namespace mw::cli {
 
 struct Resources {
   double wall_seconds = 0;
-  double cpu_seconds = 0;  ///< user and system, all threads
-  std::uint64_t peak_rss_bytes = 0;
+  double cpu_seconds = 0;            ///< user and system, all threads
+  std::uint64_t peak_rss_bytes = 0;  ///< VmHWM
 };
 
 class ResourceMeter {

@@ -66,11 +66,16 @@ ordered_json codt_json(const engine::RunReport& run) {
 
 ordered_json engine_json(const FinishedRun& run) {
   const engine::StoreFacts& store = run.engine.store;
+  ordered_json purposes;
+  for (std::size_t i = 0; i < engine::kPurposes; ++i) {
+    purposes[engine::kPurposeNames[i]] = run.engine.peak_bytes_by_purpose[i];
+  }
   ordered_json out{{"windows", run.engine.windows},
                    {"windows_resumed", store.resumed_windows},
                    {"threads", run.engine.threads},
                    {"memory_budget_bytes", run.engine.memory_budget_bytes},
                    {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
+                   {"peak_bytes_by_purpose", std::move(purposes)},
                    {"blocks_spilled", store.blocks_spilled},
                    {"bytes_written", store.bytes_written},
                    {"bytes_read", store.bytes_read}};

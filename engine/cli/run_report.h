@@ -17,7 +17,7 @@ struct FinishedRun {
   std::size_t labels = 0;
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels
-  Resources resources;        ///< until the mesh was written
+  Resources resources;        ///< times until the mesh was written, memory until its digest
   std::string digest;
 };
 

@@ -13,13 +13,17 @@
 namespace mw::engine {
 
 enum class Purpose {
-  kProgram,  ///< code, stacks, the allocator's slack, the pages of the work folder being written
+  kProgram,  ///< code, stacks, the allocator's slack, the label table
+  kLabels,   ///< prepared labels, and their making
   kIndex,    ///< where blocks are, which windows are done
   kBlocks,   ///< encoded blocks in memory; they can be spilled to make room
   kWindows,  ///< windows in flight, pages that they map to read their blocks among them
   kOutput,   ///< what the writing of the mesh needs
 };
-inline constexpr std::size_t kPurposes = 5;
+inline constexpr std::size_t kPurposes = 6;
+/// Of the purposes, in their order: how reports call them.
+inline constexpr std::array<const char*, kPurposes> kPurposeNames{"program", "labels",  "index",
+                                                                  "blocks",  "windows", "output"};
 
 /// Thread safety: all members, and reservations of one budget, may be used from many threads.
 class MemoryBudget {

@@ -14,6 +14,9 @@
 namespace mw::engine {
 namespace {
 
+/// Beside its bytes: the block, its place in the table, and the allocator's heads of these.
+constexpr std::uint64_t kBytesPerBlock = sizeof(EncodedBlock) + 144;
+
 std::unique_ptr<SegmentFile> open_disk(WorkFiles* files) {
   if (files == nullptr) return nullptr;
   return std::make_unique<SegmentFile>(files->open(kBlocksFile));
@@ -136,7 +139,7 @@ std::optional<BlockMesh> RunStore::assemble(const std::vector<Source>& sources) 
   if (sources.size() == 1) return read(sources.front());
   std::vector<BlockMesh> parts;
   for (const Source& source : sources) parts.push_back(read(source));
-  return merge(parts);
+  return merge(std::move(parts));
 }
 
 std::vector<std::optional<BlockMesh>> RunStore::take(const WindowKey& key) const {
@@ -209,7 +212,7 @@ BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh,
   auto block = std::make_shared<EncodedBlock>();
   block->bytes = encode_block(key, mesh);
   block->memory_bytes = memory_bytes(mesh);
-  const std::uint64_t bytes = block->bytes.size() + sizeof(EncodedBlock);
+  const std::uint64_t bytes = block->bytes.size() + kBytesPerBlock;
   block->room = room.bytes() >= bytes ? budget_.carve(room, Purpose::kBlocks, bytes)
                                       : reserve(Purpose::kBlocks, bytes);
   return block;

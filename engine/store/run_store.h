@@ -15,7 +15,7 @@ namespace mw::engine {
 
 /// When finished windows become durable: a group at a time.  The result does not depend on it.
 struct GroupCommit {
-  std::uint64_t windows = 1 << 14;        ///< at most so many in a group
+  std::uint64_t windows = 1 << 12;        ///< at most so many in a group, whose record is in memory
   std::chrono::milliseconds age{10'000};  ///< at most so long after the group before
 };
 

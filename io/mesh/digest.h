@@ -20,7 +20,7 @@ namespace mw::io {
 /// The rank of a vertex is the number of vertices whose position sorts before its own, so vertices
 /// at one position share a rank.  Independent of the order of rows, the orientation of tets, the
 /// signedness of labels and the format.
-/// Memory: 2 * memory_bytes and 10 MiB; what does not fit waits in temporary files in `folder`,
+/// Memory: 3 * memory_bytes and 10 MiB; what does not fit waits in temporary files in `folder`,
 /// about 50 bytes a vertex and 80 a tet. ERRORS: kInternal when a tet names a vertex that never
 /// came; see also ScratchFile.
 class DigestSink : public MeshSink {
@@ -33,6 +33,9 @@ class DigestSink : public MeshSink {
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void finish() override {}
+  [[nodiscard]] std::uint64_t buffer_bytes() const override {
+    return 2 * std::uint64_t{memory_bytes_} + (1 << 20);
+  }
 
   /// Sorts and hashes.  REQUIRES: finished; called once.
   [[nodiscard]] std::string digest();

@@ -33,6 +33,8 @@ class MeshSink {
   /// REQUIRES: tets.size() == labels.size(); the vertices of these tets have been written.
   virtual void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) = 0;
   virtual void finish() = 0;
+  /// The most that it holds in memory between begin() and finish(); 0 of one that is no file.
+  [[nodiscard]] virtual std::uint64_t buffer_bytes() const { return 0; }
 };
 
 }  // namespace mw::io

@@ -28,6 +28,9 @@ class TeeSink : public MeshSink {
     first_.finish();
     second_.finish();
   }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override {
+    return first_.buffer_bytes() + second_.buffer_bytes();
+  }
 
  private:
   MeshSink& first_;

@@ -105,8 +105,7 @@ bool DistanceGuard::place(FaceSamples samples, std::size_t from) {
   for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
     const QuarterBits bit = 1U << quarter;
     if ((quarters_of(samples) & bit) == 0) continue;
-    const auto to =
-        receiver(in_voxels(sample_position(samples, quarter)), from, placing_distance_);
+    const auto to = receiver(in_voxels(sample_position(samples, quarter)), from, placing_distance_);
     if (!to) return false;
     handovers_.push_back({*to, with_quarters(samples, bit)});
   }

@@ -70,6 +70,38 @@ class StartBuilder {
         used_(static_cast<std::size_t>(corners_.voxels()), 0) {}
 
   BlockMesh build() {
+    add_cells();
+    if (options_.with_samples) {
+      each_input_face([&](const VoxelFace& face) { add_samples(face); });
+    }
+    number_vertices();
+    std::sort(mesh_.tets.begin(), mesh_.tets.end());
+    std::sort(mesh_.samples.begin(), mesh_.samples.end());
+    return std::move(mesh_);
+  }
+
+  StartSize size() {
+    add_cells();
+    StartSize out;
+    out.vertices = static_cast<std::uint64_t>(std::count(used_.begin(), used_.end(), 1));
+    out.tets = mesh_.tets.size();
+    if (options_.with_samples) {
+      each_input_face([&](const VoxelFace& face) {
+        if (place_in_block(face)) out.samples += kSamplesPerFace;
+      });
+    }
+    return out;
+  }
+
+ private:
+  /// Position of a corner among those of the block: ascending with the id, but not yet a row.
+  std::uint32_t place(Index3 corner) {
+    const std::int64_t at = corners_.offset(corner);
+    used_[static_cast<std::size_t>(at)] = 1;
+    return static_cast<std::uint32_t>(at);
+  }
+
+  void add_cells() {
     const Box3 pairs{{block_.lo.x / 2, block_.lo.y / 2, block_.lo.z / 2},
                      {(block_.hi.x + 1) / 2, (block_.hi.y + 1) / 2, (block_.hi.z + 1) / 2}};
     each_index(pairs, [&](Index3 p) {
@@ -79,19 +111,6 @@ class StartBuilder {
       const std::int64_t mask = cell.size() - 1;
       if (((voxel.x | voxel.y | voxel.z) & mask) == 0) add_cell(cell);
     });
-    if (options_.with_samples) add_samples();
-    number_vertices();
-    std::sort(mesh_.tets.begin(), mesh_.tets.end());
-    std::sort(mesh_.samples.begin(), mesh_.samples.end());
-    return std::move(mesh_);
-  }
-
- private:
-  /// Position of a corner among those of the block: ascending with the id, but not yet a row.
-  std::uint32_t place(Index3 corner) {
-    const std::int64_t at = corners_.offset(corner);
-    used_[static_cast<std::size_t>(at)] = 1;
-    return static_cast<std::uint32_t>(at);
   }
 
   void add_tet(std::array<std::uint32_t, 4> places, Label label) {
@@ -144,8 +163,9 @@ class StartBuilder {
     }
   }
 
-  /// Goes over all input faces that this block's triangles may carry.
-  void add_samples() {
+  /// Calls visit(face) on all input faces that this block's triangles may carry.
+  template <typename Visit>
+  void each_input_face(Visit visit) const {
     const std::vector<Label>& all = labels_.original.labels;
     if (std::all_of(all.begin(), all.end(), [&](Label l) { return l == all[0]; })) return;
     const std::int64_t reach = options_.coarse ? 1 : 0;
@@ -155,24 +175,38 @@ class StartBuilder {
       if (label == kExterior) return;
       for (unsigned axis = 0; axis < 3; ++axis) {
         const Label beyond = labels_.original.at(lower + axis_vector(axis));
-        if (beyond != label && beyond != kExterior) add_samples({lower, axis});
+        if (beyond != label && beyond != kExterior) visit(VoxelFace{lower, axis});
       }
     });
   }
 
-  void add_samples(const VoxelFace& face) {
+  /// Where an input face's samples go, when that is a triangle of this block.
+  struct Place {
+    VoxelFace carrier;
+    Index3 owner;  ///< the voxel on the smaller label's side
+    Label label = 0;
+  };
+
+  [[nodiscard]] std::optional<Place> place_in_block(const VoxelFace& face) const {
     const LabelPair pair = labels_beside(labels_.original, face);
     const VoxelFace carrier = carrier_of(face, pair);
     const bool low_is_lower = labels_.shape.at(carrier.lower) == pair.low;
     const Index3 owner = low_is_lower ? carrier.lower : carrier.upper();
-    if (!block_.contains(owner)) return;
-    triangulate(owner, {carrier.axis, low_is_lower});
+    if (!block_.contains(owner)) return std::nullopt;
+    return Place{carrier, owner, pair.low};
+  }
+
+  void add_samples(const VoxelFace& face) {
+    const std::optional<Place> place = place_in_block(face);
+    if (!place) return;
+    triangulate(place->owner, {place->carrier.axis, place->owner == place->carrier.lower});
     const FaceSamples all = face_samples(face.lower, face.axis, kAllQuarters);
     const std::size_t first = mesh_.samples.size();
     for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-      const BlockSample one{triangle_below(sample_position(all, quarter), carrier), pair.low,
-                            with_quarters(all, 1U << quarter)};
-      add_to_face(one, first);
+      const Point p = sample_position(all, quarter);
+      add_to_face(
+          {triangle_below(p, place->carrier), place->label, with_quarters(all, 1U << quarter)},
+          first);
     }
   }
 
@@ -261,6 +295,11 @@ class StartBuilder {
 BlockMesh graded_start(const StartLabels& labels, const LevelMap& levels, const Box3& block,
                        Index3 volume, const StartOptions& options) {
   return StartBuilder(labels, levels, block, volume, options).build();
+}
+
+StartSize graded_start_size(const StartLabels& labels, const LevelMap& levels, const Box3& block,
+                            Index3 volume, const StartOptions& options) {
+  return StartBuilder(labels, levels, block, volume, options).size();
 }
 
 }  // namespace mw

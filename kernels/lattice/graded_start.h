@@ -3,6 +3,8 @@
 // Start mesh on a graded octree: the paper's lattice where labels meet, larger cells inside them.
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/core/label_box.h"
 #include "kernels/lattice/level_map.h"
 #include "kernels/mesh/block_mesh.h"
@@ -55,5 +57,18 @@ struct StartLabels {
 ///          one block that holds the tet on the smaller label's side of its triangle.
 [[nodiscard]] BlockMesh graded_start(const StartLabels& labels, const LevelMap& levels,
                                      const Box3& block, Index3 volume, const StartOptions& options);
+
+/// How much a start mesh holds.
+struct StartSize {
+  std::uint64_t vertices = 0;
+  std::uint64_t tets = 0;
+  std::uint64_t samples = 0;
+};
+
+/// What graded_start() of the same arguments holds; samples at most.
+/// Cost: a third of graded_start(), without its quadrics, sorting and samples.
+[[nodiscard]] StartSize graded_start_size(const StartLabels& labels, const LevelMap& levels,
+                                          const Box3& block, Index3 volume,
+                                          const StartOptions& options);
 
 }  // namespace mw

@@ -42,7 +42,8 @@ struct BlockSample {
 };
 
 /// Content of one block.  Canonical: vertices ascending by id, tets and samples ascending; every
-/// vertex is referenced; a triangle names a face once.  Equal content is equal bytes, whichever window wrote it.
+/// vertex is referenced; a triangle names a face once.  Equal content is equal bytes, whichever
+/// window wrote it.
 struct BlockMesh {
   std::vector<BlockVertex> vertices;
   std::vector<BlockTet> tets;

@@ -120,11 +120,26 @@ void TetMesh::classify_labels(LocalVertex v) {
 void TetMesh::reserve(LocalVertex v, std::uint32_t capacity) {
   Star& s = stars_[v];
   if (s.capacity >= capacity) return;
+  if (pool_.capacity() - pool_.size() < capacity) compact(capacity);
   const auto begin = static_cast<std::uint32_t>(pool_.size());
   pool_.resize(pool_.size() + capacity);
   std::copy_n(pool_.begin() + s.begin, s.size, pool_.begin() + begin);
   s.begin = begin;
   s.capacity = capacity;
+}
+
+void TetMesh::compact(std::uint32_t room) {
+  std::size_t alive = 0;
+  for (const Star& s : stars_) alive += s.size;
+  std::vector<LinkTriangle> pool;
+  pool.reserve(alive + alive / 2 + room);
+  for (Star& s : stars_) {
+    const auto star = pool_.begin() + s.begin;
+    s.begin = static_cast<std::uint32_t>(pool.size());
+    pool.insert(pool.end(), star, star + s.size);
+    s.capacity = s.size;
+  }
+  pool_ = std::move(pool);
 }
 
 void TetMesh::append(LocalVertex v, LinkTriangle triangle) {

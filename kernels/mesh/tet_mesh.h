@@ -129,6 +129,8 @@ class TetMesh {
   void classify_labels(LocalVertex v);
   void append(LocalVertex v, LinkTriangle triangle);
   void reserve(LocalVertex v, std::uint32_t capacity);
+  /// Moves stars together, where most of the pool is what they left behind; `room` is free then.
+  void compact(std::uint32_t room);
   void erase(LocalVertex v, std::uint32_t index);
   void replace_in_link(LocalVertex keep, LocalVertex drop);
   void merge_stars(LocalVertex keep, LocalVertex drop);

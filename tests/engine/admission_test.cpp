@@ -36,10 +36,9 @@ class RoomFor : public BlockStore {
 constexpr Index3 kA{0, 0, 0}, kB{2, 0, 0}, kNext{1, 0, 0};
 
 TEST(Admitter, RefusesWhatIsNotNextAndHoldsUpWhatIs) {
-  const WindowGrid grid({40, 40, 40}, 8);
   for (int i = 0; i < 50; ++i) {
     RoomFor store(1);
-    Admitter admitter(grid, store);
+    Admitter admitter(store, [](Index3) { return 1; });
     ASSERT_NE(admitter.admit(kA, true), nullptr);
     EXPECT_EQ(admitter.admit(kB, false), nullptr);
     std::atomic<bool> over = false;
@@ -59,10 +58,9 @@ TEST(Admitter, RefusesWhatIsNotNextAndHoldsUpWhatIs) {
 /// A failed window keeps its memory, and so does one that was let in before and passes undone: the
 /// next one may wait for them to end, but not for their memory.
 TEST(Admitter, WaitsForNoMemoryOfWindowsThatFailedOrPassed) {
-  const WindowGrid grid({40, 40, 40}, 8);
   for (int i = 0; i < 50; ++i) {
     RoomFor store(2);
-    Admitter admitter(grid, store);
+    Admitter admitter(store, [](Index3) { return 1; });
     ASSERT_NE(admitter.admit(kA, true), nullptr);
     ASSERT_NE(admitter.admit(kB, false), nullptr);
     Admission next = std::make_shared<int>();

@@ -112,6 +112,7 @@ TEST(Layers, RuleForbids) {
       {"kernels/mesh/a.cpp", {"fstream", false}},
       {"kernels/mesh/a.cpp", {"chrono", false}},
       {"kernels/mesh/a.cpp", {"unistd.h", false}},
+      {"kernels/mesh/a.cpp", {"malloc.h", false}},
       {"kernels/mesh/a.cpp", {"kernels/audit/audit.h", true}},
       {"kernels/core/a.h", {"kernels/mesh/tet_mesh.h", true}},
       {"kernels/audit/a.cpp", {"kernels/quality/quality.h", true}},

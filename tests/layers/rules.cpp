@@ -37,9 +37,11 @@ bool is_standard(const std::string& name) {
   return name.find_first_of("./") == name.npos;
 }
 
+/// What the system offers beside C++.
 bool is_posix(const std::string& name) {
-  return name.starts_with("sys/") || is_any(name, {"errno.h", "fcntl.h", "poll.h", "pthread.h",
-                                                   "signal.h", "spawn.h", "stdlib.h", "unistd.h"});
+  return name.starts_with("sys/") ||
+         is_any(name, {"errno.h", "fcntl.h", "malloc.h", "poll.h", "pthread.h", "signal.h",
+                       "spawn.h", "stdlib.h", "unistd.h"});
 }
 
 bool touches_files_or_clocks(const std::string& name) {

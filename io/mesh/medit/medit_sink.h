@@ -24,6 +24,7 @@ class MeditSink : public MeshSink {
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void finish() override;
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return 2 << 20; }
 
  private:
   void append_tets();

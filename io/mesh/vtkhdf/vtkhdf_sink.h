@@ -64,6 +64,7 @@ class VtkhdfSink : public MeshSink {
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void finish() override;
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return 10 << 20; }
 
  private:
   void require(bool done) const;

@@ -36,6 +36,7 @@ class VtuSink : public MeshSink {
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void finish() override;
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return 3 << 20; }
 
  private:
   std::string name_;

@@ -73,6 +73,8 @@ class ProgramTest : public testing::Test {
     return names;
   }
 
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+
   /// v.npy: 20^3 voxels of convex grains.
   void make_volume(const std::string& name = "v.npy", int seed = 1) const {
     expect_done("synth voronoi --shape 20,20,20 --labels 12 --seed " + std::to_string(seed) +

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// /proc/self/statm and malloc_trim.
+#include "engine/resident_memory.h"
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace mw::engine {
+
+std::uint64_t resident_bytes() {
+  std::uint64_t size = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void return_free_memory_above(std::uint64_t most) {
+  if (resident_bytes() > most) ::malloc_trim(0);
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Promise 6: the kernel's own figure of the program's memory stays under --memory, from reading
+// labels to the digest of the finished mesh.
+#include <nlohmann/json.hpp>
+
+#include "tests/engine/cli/run_program.h"
+
+namespace mw::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t kMebibyte = 1 << 20;
+
+class MemoryProgramTest : public ProgramTest {
+ protected:
+  void make(const std::string& kind, const std::string& shape, int labels) const {
+    expect_done("synth " + kind + " --shape " + shape + " --labels " + std::to_string(labels) +
+                " --seed 1 -o v.npy");
+  }
+
+  /// The figure after "--memory " in a message; 0: none.
+  static std::uint64_t advised_mebibytes(const std::string& message) {
+    constexpr std::string_view kOption = "--memory ";
+    const std::size_t at = message.find(kOption);
+    return at == message.npos ? 0 : std::stoull(message.substr(at + kOption.size()));
+  }
+
+  /// Runs with less memory than works, then with the least that is asked for, until it is done;
+  /// the report of the last run.
+  json under_least_budget(const std::string& options) const {
+    std::string budget = "1";
+    for (int i = 0; i < 8; ++i) {
+      const ProgramRun result =
+          run("mesh v.npy -o v.vtu --report r.json --memory " + budget + "MiB " + options);
+      if (result.code == 0) return json::parse(read("r.json"));
+      EXPECT_EQ(result.code, 4) << result.err;
+      const std::uint64_t advised = advised_mebibytes(result.err);
+      EXPECT_GT(advised, std::stoull(budget)) << result.err;
+      budget = std::to_string(advised);
+      std::filesystem::remove_all(folder() / "v.vtu.work");
+    }
+    ADD_FAILURE() << "the budgets that are asked for do not suffice";
+    return {};
+  }
+
+  static void expect_within(const json& report) {
+    const std::uint64_t budget = report["engine"]["memory_budget_bytes"];
+    EXPECT_LE(report["engine"]["peak_accounted_bytes"], budget);
+    EXPECT_LE(report["performance"]["peak_rss_bytes"], budget);
+    // Windows and blocks are there as well: the figure is of the program that meshed.
+    EXPECT_GT(report["performance"]["peak_rss_bytes"], 10 * kMebibyte);
+  }
+};
+
+TEST_F(MemoryProgramTest, Promise6LeastBudgetBoundsResidentMemory) {
+  make("voronoi", "64,48,48", 20);
+  for (const char* options :
+       {"--start coarse --threads 1", "--start octree --threads 4", "--start dense --threads 2"}) {
+    SCOPED_TRACE(options);
+    const json r = under_least_budget(options);
+    ASSERT_FALSE(r.is_null());
+    expect_within(r);
+  }
+}
+
+TEST_F(MemoryProgramTest, Promise6HoldsForNoiseAndManyThreads) {
+  make("noise", "30,26,26", 1000);
+  for (const char* threads : {"2", "8"}) {
+    SCOPED_TRACE(threads);
+    const json r = under_least_budget(std::string("--window 16 --threads ") + threads);
+    ASSERT_FALSE(r.is_null());
+    expect_within(r);
+  }
+}
+
+/// Blocks have to go to disk, and the merge has to read them back.
+TEST_F(MemoryProgramTest, Promise6HoldsWhenBlocksAreSpilled) {
+  make("voronoi", "64,64,64", 33);
+  const json r = under_least_budget("--threads 2");
+  ASSERT_FALSE(r.is_null());
+  expect_within(r);
+  EXPECT_GT(r["engine"]["bytes_written"], 0);
+  expect_done("mesh v.npy -o plenty.vtu --memory 4GiB");
+  EXPECT_EQ(read("v.vtu"), read("plenty.vtu"));
+}
+
+/// getrusage's figure begins with the memory of whoever started the program; VmHWM does not.
+TEST_F(MemoryProgramTest, ReportsItsOwnMemoryAndNotItsStarters) {
+  make_volume();
+  const ProgramRun result = run("mesh v.npy -o v.vtu --report r.json",
+                                "sh -c 'held=$(head -c 150000000 /dev/zero | tr \"\\\\0\" x); "
+                                "exec \"$@\"' sh");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json r = json::parse(read("r.json"));
+  EXPECT_LT(r["performance"]["peak_rss_bytes"], 100 * kMebibyte);
+}
+
+TEST_F(MemoryProgramTest, TellsAtOnceWhenNothingCouldWork) {
+  make_volume();
+  const ProgramRun result = run("mesh v.npy -o v.vtu --memory 10MiB");
+  EXPECT_EQ(result.code, 4);
+  EXPECT_GT(advised_mebibytes(result.err), 10U) << result.err;
+  EXPECT_EQ(files(), (std::set<std::string>{"v.npy"}));
+}
+
+}  // namespace
+}  // namespace mw::cli

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// operator new on malloc, counted.
+#include "tests/engine/memory/counted_memory.h"
+
+#include <malloc.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<std::uint64_t> allocated = 0;
+std::atomic<std::uint64_t> peak = 0;
+
+std::uint64_t size_of(void* piece) {
+  return malloc_usable_size(piece) + sizeof(std::size_t);
+}
+
+void* counted(void* piece) {
+  if (piece == nullptr) throw std::bad_alloc();
+  const std::uint64_t now = allocated += size_of(piece);
+  std::uint64_t most = peak;
+  while (most < now && !peak.compare_exchange_weak(most, now)) {
+  }
+  return piece;
+}
+
+void give_back(void* piece) {
+  if (piece != nullptr) allocated -= size_of(piece);
+  std::free(piece);
+}
+
+}  // namespace
+
+// The array and nothrow forms end in these by default.
+void* operator new(std::size_t size) {
+  return counted(std::malloc(size));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  const auto multiple = static_cast<std::size_t>(alignment);
+  return counted(std::aligned_alloc(multiple, (size + multiple - 1) / multiple * multiple));
+}
+void operator delete(void* piece) noexcept {
+  give_back(piece);
+}
+void operator delete(void* piece, std::size_t) noexcept {
+  give_back(piece);
+}
+void operator delete(void* piece, std::align_val_t) noexcept {
+  give_back(piece);
+}
+void operator delete(void* piece, std::size_t, std::align_val_t) noexcept {
+  give_back(piece);
+}
+
+namespace mw::test {
+
+std::uint64_t allocated_bytes() {
+  return allocated;
+}
+
+std::uint64_t peak_allocated_bytes() {
+  return peak;
+}
+
+void start_peak() {
+  peak = allocated.load();
+}
+
+}  // namespace mw::test

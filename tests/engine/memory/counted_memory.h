@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What this program has allocated, and at most so far.
+#pragma once
+
+#include <cstdint>
+
+namespace mw::test {
+
+/// Bytes that operator new has given to all threads and not got back, the allocator's rounding
+/// and head of each piece among them.  Linking this file in replaces operator new.
+[[nodiscard]] std::uint64_t allocated_bytes();
+
+/// The most of allocated_bytes() since the last start_peak().
+[[nodiscard]] std::uint64_t peak_allocated_bytes();
+void start_peak();
+
+}  // namespace mw::test
