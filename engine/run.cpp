@@ -4,10 +4,10 @@
 #include "engine/run.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <mutex>
 
-#include "engine/admission.h"
 #include "engine/march/timed_visit.h"
 #include "engine/prepared_labels.h"
 #include "engine/resident_memory.h"
@@ -46,20 +46,28 @@ class Marches {
            const WindowVisitor& visitor) {
     const StartSizeOf start_size = [&](Index3 block) { return visitor.start_size(block); };
     const std::uint64_t budget = hooks_.store.memory;
-    Admitter admitter(store, [&](Index3 window) {
+    const AdmitWindow admit = [&](Index3 window) -> Admission {
       const std::uint64_t bytes = window_bytes(order.grid(), window, store, start_size);
       if (bytes < budget) return_free_memory_above(budget - bytes);
-      return bytes;
-    });
-    const VisitWindow work = [&](Index3 window) {
-      if (hooks_.before_visit) hooks_.before_visit(window);
-      add(visitor.visit(window));
+      if (!store.admit(window, bytes)) return nullptr;
+      return std::make_shared<Index3>(window);
     };
-    const VisitWindow visit = [&](Index3 window) { admitter.visit(window, work); };
+    // Once a window has failed nobody will ask for the results of others.
+    std::atomic<bool> failed = false;
+    const VisitWindow visit = [&](Index3 window) {
+      if (failed) return;
+      try {
+        if (hooks_.before_visit) hooks_.before_visit(window);
+        add(visitor.visit(window));
+      } catch (...) {
+        failed = true;
+        throw;
+      }
+    };
     const OnVisited tell = [&](const Visited& v) { note(march_number, v); };
     if (hooks_.pick) {
       const VisitWindow visit_and_tell = [&](Index3 w) {
-        const Admission admission = admitter.admit(w, true);
+        const Admission admission = admit(w);
         tell(timed_visit(visit, w, 0));
       };
       march_by_choice(order, visit_and_tell, hooks_.pick);
@@ -67,7 +75,7 @@ class Marches {
     }
     march(order, visit,
           {.threads = hooks_.threads,
-           .admit = [&](Index3 w, bool first) { return admitter.admit(w, first); },
+           .admit = admit,
            .visited = tell,
            .finished_before = [&](Index3 w) { return store.is_done(w); }});
   }

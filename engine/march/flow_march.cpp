@@ -85,15 +85,15 @@ class Dispatcher {
 
   /// False when the window was refused or the hook threw.
   bool try_start(std::uint64_t rank) {
-    const bool first = rank == wavefront_.first_unfinished();
     Admission admission;
     try {
-      if (options_.admit) admission = options_.admit(order_.window(rank), first);
+      if (options_.admit) admission = options_.admit(order_.window(rank));
     } catch (...) {
       note(rank, std::current_exception());
       return false;
     }
-    if (options_.admit && !admission && !first) return false;
+    const bool must_start = running_.empty() && rank == wavefront_.first_unfinished();
+    if (options_.admit && !admission && !must_start) return false;
     wavefront_.start(rank);
     running_.push_back({rank, std::move(admission)});
     return true;

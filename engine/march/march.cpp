@@ -20,7 +20,7 @@ void march_in_sequence(const WindowOrder& order, const VisitWindow& visit,
     const Index3 window = order.window(rank);
     if (options.finished_before && options.finished_before(window)) continue;
     Admission admission;
-    if (options.admit) admission = options.admit(window, true);
+    if (options.admit) admission = options.admit(window);
     const Visited visited = timed_visit(visit, window, 0);
     admission.reset();
     if (options.visited) options.visited(visited);

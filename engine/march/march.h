@@ -21,11 +21,12 @@ using PickReady = std::function<std::size_t(std::span<const Index3> ready)>;
 /// Whatever a window holds while it runs, for instance a reservation of memory.
 using Admission = std::shared_ptr<void>;
 
-/// Asked before a window starts; null: not now, and it is asked again when another window has
-/// finished.  `first`: this is the sequence's first unfinished window, which starts whatever the
-/// answer, so a march cannot lock up; keep room for one window in reserve, or throw.
+/// Asked before a window starts, never by two threads at a time; null: not now, and it is asked
+/// again when another window has finished.  When no other runs, the sequence's first unfinished
+/// window starts whatever the answer, so a march cannot lock up: keep room for one, or throw.
+/// Must not wait for visits to end: the march may not have begun those that it asked for.
 /// The admission is let go as soon as the visit is over.
-using AdmitWindow = std::function<Admission(Index3 window, bool first)>;
+using AdmitWindow = std::function<Admission(Index3 window)>;
 
 /// A visit that is over.
 struct Visited {

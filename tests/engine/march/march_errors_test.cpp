@@ -92,7 +92,7 @@ TEST(MarchErrors, StopsWhenAdmissionThrows) {
       watch.begin(w);
       watch.end(w);
     };
-    const AdmitWindow admit = [&](Index3 w, bool) -> Admission {
+    const AdmitWindow admit = [&](Index3 w) -> Admission {
       if (order.rank(w) == 7) throw Failure{7};
       return std::make_shared<int>(0);
     };
