@@ -20,4 +20,9 @@ void return_free_memory_above(std::uint64_t most) {
   if (resident_bytes() > most) ::malloc_trim(0);
 }
 
+void return_large_pieces_at_once() {
+  (void)::mallopt(M_MMAP_THRESHOLD, 512 << 10);
+  (void)::mallopt(M_TRIM_THRESHOLD, 1 << 20);
+}
+
 }  // namespace mw::engine

@@ -16,4 +16,9 @@ namespace mw::engine {
 /// Cost: 10 us; milliseconds when there is much to return.  Thread safety: yes.
 void return_free_memory_above(std::uint64_t most);
 
+/// From now on large pieces of memory go back to the kernel when they are freed, so that they never
+/// count twice against a budget.  (glibc would keep larger and larger ones as they come and go,
+/// which saves the time of getting them anew.)
+void return_large_pieces_at_once();
+
 }  // namespace mw::engine

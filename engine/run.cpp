@@ -44,11 +44,15 @@ class Marches {
 
   void run(int march_number, const WindowOrder& order, BlockStore& store,
            const WindowVisitor& visitor) {
-    const StartSizeOf start_size = [&](Index3 block) { return visitor.start_size(block); };
     const std::uint64_t budget = hooks_.store.memory;
+    const bool roomy = is_roomy(budget, order.grid(), thread_count(hooks_.threads));
+    if (!roomy) return_large_pieces_at_once();
+    const StartSizeOf start_size = [&](Index3 block) {
+      return roomy ? most_start_size(order.grid(), block) : visitor.start_size(block);
+    };
     const AdmitWindow admit = [&](Index3 window) -> Admission {
       const std::uint64_t bytes = window_bytes(order.grid(), window, store, start_size);
-      if (bytes < budget) return_free_memory_above(budget - bytes);
+      if (!roomy && bytes < budget) return_free_memory_above(budget - bytes);
       if (!store.admit(window, bytes)) return nullptr;
       return std::make_shared<Index3>(window);
     };

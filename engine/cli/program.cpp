@@ -3,8 +3,6 @@
 // The whole command line: subcommands, messages, exit codes.
 #include "engine/cli/program.h"
 
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <iostream>
@@ -51,19 +49,11 @@ int parse_and_run(int argc, char** argv) {
   return code;
 }
 
-/// Large pieces of memory go back to the system when they are freed, so that they never count twice
-/// against --memory.  glibc would raise the threshold as such pieces come and go.
-void tune_allocator() {
-  (void)::mallopt(M_MMAP_THRESHOLD, 512 << 10);
-  (void)::mallopt(M_TRIM_THRESHOLD, 1 << 20);
-}
-
 }  // namespace
 
 int run_program(int argc, char** argv) noexcept {
   // A file size limit is then a failed write with a message instead of a silent death.
   (void)std::signal(SIGXFSZ, SIG_IGN);
-  tune_allocator();
   return guarded([&] { return parse_and_run(argc, argv); });
 }
 
