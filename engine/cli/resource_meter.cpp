@@ -11,9 +11,10 @@
 namespace mw::cli {
 namespace {
 
-rusage usage() {
+/// who: RUSAGE_SELF or RUSAGE_CHILDREN, those that have ended and been waited for.
+rusage usage(int who) {
   rusage out{};
-  getrusage(RUSAGE_SELF, &out);
+  getrusage(who, &out);
   return out;
 }
 
@@ -29,14 +30,18 @@ std::uint64_t high_water_kib() {
   for (std::string line; std::getline(status, line);) {
     if (line.starts_with(kName)) return std::stoull(line.substr(kName.size()));
   }
-  return static_cast<std::uint64_t>(usage().ru_maxrss);
+  return static_cast<std::uint64_t>(usage(RUSAGE_SELF).ru_maxrss);
 }
 
 }  // namespace
 
 double ResourceMeter::process_cpu_seconds() {
-  const rusage used = usage();
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
+  double sum = 0.0;
+  for (int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    const rusage used = usage(who);
+    sum += seconds(used.ru_utime) + seconds(used.ru_stime);
+  }
+  return sum;
 }
 
 Resources ResourceMeter::read() const {

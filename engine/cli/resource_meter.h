@@ -10,7 +10,7 @@ namespace mw::cli {
 
 struct Resources {
   double wall_seconds = 0;
-  double cpu_seconds = 0;            ///< user and system, all threads
+  double cpu_seconds = 0;            ///< user and system; all threads, and workers that have ended
   std::uint64_t peak_rss_bytes = 0;  ///< VmHWM
 };
 
