@@ -36,17 +36,13 @@ bool may_be_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, Point x
   return true;
 }
 
-double worst_at(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
-  StarBatch star;
-  star.collect(mesh, metric, v);
-  return star.shape_at(Vec3::Zero()).worst;
-}
-
-bool move_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor) {
+/// star: scratch.
+bool move_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor,
+                 StarBatch& star) {
   const Point start = mesh.position(v);
   const Vec3 way = way_to_optimum(mesh, metric, v);
-  const double least =
-      quality_floor > 0.0 ? std::min(quality_floor, worst_at(mesh, metric, v)) : 0.0;
+  star.collect(mesh, metric, v);
+  const double least = std::min(quality_floor, star.shape_at(Vec3::Zero()).worst);
   for (double step = 1.0; step > kLeastStep; step *= 0.5) {
     const Point x = metric.moved(start, step * way);
     if (x == start) return false;
@@ -61,10 +57,11 @@ bool move_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double qual
 
 std::uint64_t odt_sweep(TetMesh& mesh, const Metric& metric, double quality_floor) {
   std::uint64_t moves = 0;
+  StarBatch star;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     const bool inner =
         mesh.is_alive(v) && mesh.is_free(v) && mesh.planes(v) == 0 && !mesh.on_interface(v);
-    if (inner) moves += move_vertex(mesh, metric, v, quality_floor) ? 1U : 0U;
+    if (inner) moves += move_vertex(mesh, metric, v, quality_floor, star) ? 1U : 0U;
   }
   return moves;
 }

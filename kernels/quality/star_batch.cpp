@@ -3,7 +3,7 @@
 // Formulas of kernels/quality/quality.h on four tets at a time.
 #include "kernels/quality/star_batch.h"
 
-#include <algorithm>
+#include <limits>
 
 namespace mw {
 namespace {

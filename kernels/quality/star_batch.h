@@ -3,8 +3,8 @@
 // Shapes of all tets at a vertex, wherever the vertex is put: gathered once, evaluated often.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "kernels/mesh/tet_mesh.h"

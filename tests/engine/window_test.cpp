@@ -16,6 +16,7 @@ using mw::test::add_global;
 using mw::test::below;
 using mw::test::dense_block;
 using mw::test::GlobalTets;
+using mw::test::random_volume_of;
 using mw::test::SmallVolume;
 using mw::test::VolumeKind;
 
@@ -70,6 +71,11 @@ void expect_canonical(const BlockMesh& block) {
   EXPECT_EQ(used.size(), block.vertices.size());
   EXPECT_TRUE(std::is_sorted(block.tets.begin(), block.tets.end()));
   EXPECT_TRUE(std::is_sorted(block.samples.begin(), block.samples.end()));
+  for (std::size_t i = 1; i < block.samples.size(); ++i) {
+    const BlockSample &a = block.samples[i - 1], &b = block.samples[i];
+    EXPECT_FALSE(a.triangle == b.triangle && a.side == b.side &&
+                 on_same_face(a.samples, b.samples));
+  }
   for (std::size_t i = 1; i < block.vertices.size(); ++i) {
     EXPECT_LT(block.vertices[i - 1].id, block.vertices[i].id);
   }
@@ -168,6 +174,30 @@ TEST(Sec41FreeVertices, OfWindowsThatShareNoBlockAreDifferent) {
     }
   }
   EXPECT_EQ(shared, 25);
+}
+
+/// Changes of the mesh hand samples of a face over one by one; blocks hold them together again.
+TEST(Promise5SameBytes, ScatterJoinsTheSamplesOfAFaceOnATriangle) {
+  std::mt19937 random(209);
+  std::size_t joined = 0;
+  for (int i = 0; i < 20 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, {8, 8, 8}, 3);
+    const WindowGrid grid(volume.shape, 8);
+    const std::vector<BlockMesh> blocks = start_blocks(volume, grid, {0, 0, 0});
+    WindowContent content = gather(blocks, volume.shape);
+    const std::vector<BlockMesh> expected = scatter(content, grid, {0, 0, 0});
+    content.samples = {};
+    for (const BlockSample& s : merge(blocks).samples) {
+      for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+        const QuarterBits bit = quarters_of(s.samples) & 1U << quarter;
+        if (bit == 0) continue;
+        content.samples.add(s.triangle, s.side, with_quarters(s.samples, bit));
+        joined += bit != quarters_of(s.samples) ? 1U : 0U;
+      }
+    }
+    EXPECT_EQ(scatter(content, grid, {0, 0, 0}), expected);
+  }
+  EXPECT_GT(joined, 1000U);
 }
 
 }  // namespace

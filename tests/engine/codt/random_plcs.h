@@ -8,7 +8,7 @@
 #include "engine/codt/worker_pool.h"
 #include "kernels/odt/window_plc.h"
 #include "kernels/simplify/simplify.h"
-#include "tests/kernels/mesh/dense_mesh.h"
+#include "tests/kernels/odt/window_meshes.h"
 
 namespace mw::engine::codt::test {
 
@@ -24,17 +24,7 @@ using mw::test::below;
   const bool whole = below(random, 2) == 0;
   TetMesh mesh = whole ? dense_mesh(volume) : dense_cutout(volume, {{1, 0, 1}, {edge, edge, edge}});
   simplify(mesh, Metric(), {.quality_floor = below(random, 2) == 0 ? 0.0 : 0.1});
-  std::vector<BlockVertex> vertices;
-  std::vector<std::uint32_t> row(mesh.vertex_count());
-  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
-    row[v] = static_cast<std::uint32_t>(vertices.size());
-    if (mesh.is_alive(v)) vertices.push_back(mesh.vertex(v));
-  }
-  std::vector<BlockTet> tets = mesh.sorted_tets();
-  for (BlockTet& t : tets) {
-    for (std::uint32_t& v : t.vertices) v = row[v];
-  }
-  return {vertices, tets, far_corner(volume.shape)};
+  return without_dead_vertices(mesh, far_corner(volume.shape));
 }
 
 [[nodiscard]] inline Plc random_plc(std::mt19937& random) {

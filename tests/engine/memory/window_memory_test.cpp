@@ -157,6 +157,10 @@ TEST(WindowMemory, KnowsTheSizeOfStartMeshesBeforeTheyAreMade) {
       EXPECT_EQ(size.vertices, mesh.vertices.size());
       EXPECT_EQ(size.tets, mesh.tets.size());
       EXPECT_GE(size.samples, mesh.samples.size());
+      const StartSize most = most_start_size(grid, b);
+      EXPECT_GE(most.vertices, size.vertices);
+      EXPECT_GE(most.tets, size.tets);
+      EXPECT_GE(most.samples, size.samples);
     });
   }
 }
