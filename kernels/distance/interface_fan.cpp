@@ -4,31 +4,43 @@
 #include "kernels/distance/interface_fan.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace mw {
+namespace {
+
+/// Hashed labels that may lie on the other side of a triangle at v from `label`.
+std::uint64_t others_at(const TetMesh& mesh, LocalVertex v, Label label) {
+  const std::uint64_t all = mesh.label_signature(v);
+  const bool one_bit_each = std::popcount(all) == mesh.order(v);
+  return one_bit_each ? all & ~TetMesh::label_bit(label) : all;
+}
+
+}  // namespace
 
 void InterfaceFan::collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out) {
   sides_.clear();
   out.clear();
-  // A fixed vertex may have labels that are not loaded, the exterior among them.
-  const auto may_be_on_interface = [&](LocalVertex w) {
-    return !mesh.is_free(w) || mesh.on_interface(w);
-  };
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior) continue;
-    for (const auto& [a, b] :
-         {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)}) {
-      if (!may_be_on_interface(a) || !may_be_on_interface(b)) continue;
-      sides_.push_back({a, b, t.label});
-    }
+    // Both labels of an interface triangle lie at each of its corners.
+    const std::uint64_t others = others_at(mesh, v, t.label);
+    const auto add = [&](LocalVertex a, LocalVertex b) {
+      if ((others & mesh.label_signature(a) & mesh.label_signature(b)) == 0) return;
+      sides_.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), t.label});
+    };
+    add(t.a, t.b);
+    add(t.b, t.c);
+    add(t.c, t.a);
   }
   std::sort(sides_.begin(), sides_.end());
   for (std::size_t i = 0; i + 1 < sides_.size(); ++i) {
     const Side& s = sides_[i];
     const Side& t = sides_[i + 1];
-    if (s.a == t.a && s.b == t.b && s.label != t.label) {
-      out.push_back({s.a, s.b, s.label, t.label});
+    if (s.edge == t.edge && s.label != t.label) {
+      out.push_back({static_cast<LocalVertex>(s.edge >> 32), static_cast<LocalVertex>(s.edge),
+                     s.label, t.label});
     }
   }
 }

@@ -3,6 +3,7 @@
 // The interface triangles at a vertex.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernels/mesh/tet_mesh.h"
@@ -25,8 +26,7 @@ class InterfaceFan {
 
  private:
   struct Side {
-    LocalVertex a = 0;
-    LocalVertex b = 0;
+    std::uint64_t edge = 0;  ///< its smaller vertex in the upper half
     Label label = 0;
     friend auto operator<=>(const Side&, const Side&) = default;
   };

@@ -99,6 +99,7 @@ void TetMesh::classify_vertices() {
     }
     free_[v] = 2 * link_vertices == stars_[v].size + 4 ? 1 : 0;
     classify_labels(v);
+    if (!is_free(v)) signatures_[v] = ~std::uint64_t{0};
   }
 }
 

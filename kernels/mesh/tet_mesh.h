@@ -90,7 +90,7 @@ class TetMesh {
   /// Number of distinct labels at v, exterior included (the paper's order, Sec 5.3.1).
   /// REQUIRES: v free (a fixed vertex may have labels that are not loaded).
   [[nodiscard]] int order(LocalVertex v) const { return orders_[v]; }
-  /// One bit a label (hashed) at v.
+  /// One bit a label (hashed) at v; all bits at a fixed vertex, whose labels may not all be loaded.
   [[nodiscard]] std::uint64_t label_signature(LocalVertex v) const { return signatures_[v]; }
   [[nodiscard]] static std::uint64_t label_bit(Label label) {
     return std::uint64_t{1} << (label * 0x9E3779B1U >> 26);
