@@ -20,6 +20,15 @@ int max_level(int window) {
   return level;
 }
 
+/// Without a floor nothing is asked of the shapes around inner vertices either, as in the paper.
+SimplifyOptions simplify_options(const MeshSettings& settings) {
+  SimplifyOptions options{.quality_floor = settings.quality_floor,
+                          .edge_variance = settings.edge_variance,
+                          .topology = settings.topology};
+  if (settings.quality_floor == 0.0) options.inner_quality = 0.0;
+  return options;
+}
+
 }  // namespace
 
 WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
@@ -35,9 +44,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
              .max_distance = settings.max_distance.value_or(kMostCoarseDistance),
              .weights = {},
              .metric = metric},
-      simplify_{.quality_floor = settings.quality_floor,
-                .edge_variance = settings.edge_variance,
-                .topology = settings.topology},
+      simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor},
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},

@@ -241,5 +241,19 @@ TEST(Promise3Quality, FloorIsWhatKeepsTheWorstTetUp) {
   EXPECT_GE(worst(), 0.3 - kRounding);
 }
 
+/// The paper has no floor; then inner vertices, too, go whatever shapes that leaves.
+TEST(Promise3Quality, WithoutAFloorNothingIsAskedOfShapes) {
+  std::mt19937 random(111);
+  Trial trial{.volume = random_volume_of(random, VolumeKind::kBlobs, {16, 16, 16}, 2),
+              .settings = {.window = 8,
+                           .start = StartMesh::kDense,
+                           .quality_floor = 0.0,
+                           .optimizer = Optimizer::kNone},
+              .frame = {}};
+  const std::size_t without = run_in_memory(trial).vertices.size();
+  trial.settings.quality_floor = 1e-9;
+  EXPECT_LT(2 * without, run_in_memory(trial).vertices.size());
+}
+
 }  // namespace
 }  // namespace mw::engine
