@@ -21,7 +21,7 @@ CGALS = [
 ]
 OPTIMISERS = ("none", "local", "tetgen")
 # Eq (3) is at most 1 and 0.03 for the start mesh: the paper's 3, 5 and 10 are not its values.
-# Over these, vertices fall and quality falls as in the paper; above 0.2 the bound hardly binds.
+# Over these, vertices fall and quality falls as in the paper.
 EDGE_VARIANCES = ("0.06", "0.08", "0.1", "0.15", "0.3")
 WINDOWS = (20, 40, 60, 80, 100)
 
