@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "engine/tbb_for.h"
+#include "kernels/coarsen/carrier_faces.h"
+#include "kernels/coarsen/coarsen.h"
 #include "kernels/core/each_index.h"
 
 namespace mw::engine {
@@ -54,15 +57,15 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
 }  // namespace
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
-                               const std::filesystem::path& folder)
+                               int threads, const std::filesystem::path& folder)
     : original_(volume.info().shape, volume.table().size(), folder) {
   read_bricks(volume);
   // Coarsening keeps the topology of labels, not that of interfaces.
   if (settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder);
-    coarsen_tiles(settings.max_distance.value_or(kMostCoarseDistance));
+    coarsen_tiles(settings.max_distance.value_or(kMostCoarseDistance), threads);
   }
-  if (settings.start != StartMesh::kDense) find_levels();
+  if (settings.start != StartMesh::kDense) find_levels(threads);
 }
 
 LabelBox PreparedLabels::original(const Box3& box) const {
@@ -92,14 +95,14 @@ void PreparedLabels::read_bricks(const io::DenseVolume& volume) {
       });
 }
 
-void PreparedLabels::coarsen_tiles(double max_distance) {
+void PreparedLabels::coarsen_tiles(double max_distance, int threads) {
   const Index3 bricks = original_.bricks();
   const auto tiles_along = [](std::int64_t n) { return (n + kBricksPerTile - 1) / kBricksPerTile; };
-  each_index(
-      Index3{tiles_along(bricks.x), tiles_along(bricks.y), tiles_along(bricks.z)}, [&](Index3 t) {
-        const Index3 lo = scaled(t, kBricksPerTile);
-        coarsen_tile(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
-      });
+  const Index3 tiles{tiles_along(bricks.x), tiles_along(bricks.y), tiles_along(bricks.z)};
+  tbb_each_index(threads, tiles, [&](Index3 t) {
+    const Index3 lo = scaled(t, kBricksPerTile);
+    coarsen_tile(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
+  });
 }
 
 void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
@@ -116,20 +119,20 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
       clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
   const LabelBox before = read(original_, grown(tile, kCoarsenHalo));
   LabelBox after = before;
-  stats_ += coarsen(before, after, tile, original_.shape(), max_distance);
+  coarsen(before, after, tile, original_.shape(), max_distance);
   each_index(bricks, [&](Index3 brick) {
     cut_brick(after, original_.box_of(brick), one);
     coarse_->write(brick, one);
   });
 }
 
-void PreparedLabels::find_levels() {
+void PreparedLabels::find_levels(int threads) {
   const Index3 volume = original_.shape();
   levels_ = LevelMap(volume);
   const auto is_whole = [&](Index3 cube) {
     return shapes().box_of(cube).voxels() == kBrick * kBrick * kBrick;
   };
-  each_index(levels_.cubes(), [&](Index3 cube) {
+  tbb_each_index(threads, levels_.cubes(), [&](Index3 cube) {
     const Box3 around = clipped(grown({cube, cube + Index3{1, 1, 1}}, 1), levels_.cubes());
     if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) &&
         all_uniform(shapes(), around)) {

@@ -6,8 +6,6 @@
 #include "engine/settings.h"
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
-#include "kernels/coarsen/carrier_faces.h"
-#include "kernels/coarsen/coarsen.h"
 #include "kernels/core/label_box.h"
 #include "kernels/lattice/level_map.h"
 
@@ -19,9 +17,10 @@ namespace mw::engine {
 class PreparedLabels {
  public:
   /// Reads the volume once, and coarsens it when the start mesh asks for that.
-  /// folder: where temporary files go.
+  /// folder: where temporary files go.  threads: of all but the reading; they change nothing.
   /// ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
-  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
+  /// Memory while it works: preparation_bytes() a thread.
+  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
                  const std::filesystem::path& folder = io::scratch_folder());
 
   /// Boxes may reach outside the volume; voxels there are kExterior.
@@ -29,19 +28,17 @@ class PreparedLabels {
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
-  [[nodiscard]] const CoarsenStats& coarsen_stats() const { return stats_; }
 
  private:
   void read_bricks(const io::DenseVolume& volume);
-  void coarsen_tiles(double max_distance);
+  void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
-  void find_levels();
+  void find_levels(int threads);
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
 
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;
   LevelMap levels_;
-  CoarsenStats stats_;
 };
 
 }  // namespace mw::engine

@@ -157,13 +157,19 @@ void require_least(const RunLayout& layout, const io::DenseVolume& volume,
   if (least > budget.limit()) budget.fail(least);
 }
 
-/// Reads and coarsens the labels; their memory is `room`, and more while they are made.
-PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settings,
-                       const std::filesystem::path& folder, RunStore& store,
+/// Reads and coarsens the labels; their memory is `room`, and more while they are made: on so many
+/// threads that this stays below a quarter of the budget.
+PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settings, int threads,
+                       const StoreOptions& options, RunStore& store,
                        MemoryBudget::Reservation& room) {
   room = store.reserve(Purpose::kLabels, prepared_label_bytes(volume.info().shape));
-  const auto scratch = store.reserve(Purpose::kLabels, preparation_bytes(settings));
-  return {volume, settings, folder.empty() ? io::scratch_folder() : folder};
+  const std::uint64_t each = preparation_bytes(settings);
+  const std::uint64_t at_once =
+      std::clamp<std::uint64_t>(options.memory / 4 / each, 1, static_cast<std::uint64_t>(threads));
+  const auto scratch = store.reserve(Purpose::kLabels, at_once * each);
+  const std::filesystem::path& folder = options.workdir;
+  return {volume, settings, static_cast<int>(at_once),
+          folder.empty() ? io::scratch_folder() : folder};
 }
 
 /// Writes what the last march left; memory for that comes first, blocks are spilled to make room.
@@ -193,7 +199,7 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
                      const RunHooks& hooks, codt::WorkerPool* workers, RunReport& report) {
   Stopwatch watch;
   MemoryBudget::Reservation room;
-  const PreparedLabels labels = prepare(volume, settings, hooks.store.workdir, store, room);
+  const PreparedLabels labels = prepare(volume, settings, report.threads, hooks.store, store, room);
   watch.lap(report.prepare_seconds);
   const Metric metric(volume.info().spacing);
   Marches marches(hooks, store.facts().resumed_windows, layout.windows());

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// oneTBB behind the loops that kernels lend out.
+// Ranges of a given size, and rows of an array, as tasks.
 #include "engine/tbb_for.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+
+#include "kernels/core/each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -27,6 +30,22 @@ void tbb_for(std::size_t n, const RangeBody& body) {
         tbb::blocked_range<std::size_t>(0, n, grain),
         [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); },
         tbb::simple_partitioner());
+  });
+}
+
+void tbb_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit) {
+  if (threads == 1) {
+    each_index(shape, visit);
+    return;
+  }
+  using Rows = tbb::blocked_range2d<std::int64_t>;
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(Rows(0, shape.z, 0, shape.y), [&](const Rows& rows) {
+      each_index(Box3{{0, rows.cols().begin(), rows.rows().begin()},
+                      {shape.x, rows.cols().end(), rows.rows().end()}},
+                 visit);
+    });
   });
 }
 

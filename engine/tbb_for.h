@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// oneTBB behind the loops that kernels lend out.
+// Loops on the threads of oneTBB.
 #pragma once
 
+#include "kernels/core/index.h"
 #include "kernels/core/parallel_for.h"
 
 namespace mw::engine {
@@ -12,5 +13,10 @@ namespace mw::engine {
 /// tasks of the arena meanwhile, so a window does not start inside another one.
 /// ERRORS: what a body throws; the others may then not have run.
 void tbb_for(std::size_t n, const RangeBody& body);
+
+/// Calls visit for every index of an array of the given shape, once, on that many threads; with one
+/// in order, x fastest, otherwise in any order.  REQUIRES: threads > 0.
+/// ERRORS: what a visit throws; the others may then not have happened.
+void tbb_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit);
 
 }  // namespace mw::engine

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/stopwatch.h"
+#include "kernels/coarsen/carrier_faces.h"
 
 namespace mw::engine {
 namespace {

@@ -38,6 +38,23 @@ TEST_P(TbbFor, CoversEveryIndexOnce) {
   }
 }
 
+TEST_P(TbbFor, CoversEveryIndexOfAnArrayOnce) {
+  for (const Index3 shape : {Index3{3, 5, 7}, Index3{1, 1, 40}, Index3{6, 1, 1}, Index3{4, 0, 4}}) {
+    std::vector<std::atomic<int>> times(static_cast<std::size_t>(shape.product()));
+    engine::tbb_each_index(GetParam(), shape, [&](Index3 i) {
+      ++times.at(static_cast<std::size_t>((i.z * shape.y + i.y) * shape.x + i.x));
+    });
+    for (const auto& t : times) ASSERT_EQ(t, 1);
+  }
+}
+
+TEST_P(TbbFor, PassesOnWhatAVisitThrows) {
+  const auto fail = [](Index3 i) {
+    if (i == Index3{1, 2, 3}) throw std::runtime_error("in the middle");
+  };
+  EXPECT_THROW(engine::tbb_each_index(GetParam(), {4, 4, 4}, fail), std::runtime_error);
+}
+
 TEST_P(TbbFor, PassesOnWhatABodyThrows) {
   const auto fail = [](std::size_t, std::size_t last) {
     if (last == 100'000) throw std::runtime_error("at the end");
