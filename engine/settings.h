@@ -37,8 +37,9 @@ struct MeshSettings {
   int marches = 2;  ///< each over the whole volume, with windows twice as large
   Order order = Order::kRaster;
   StartMesh start = StartMesh::kCoarse;
-  std::optional<double> edge_variance;       ///< bound on Eq (3), none: unbounded
-  double quality_floor = 0.2;                ///< no tet below this radius ratio
+  std::optional<double> edge_variance;  ///< bound on Eq (3), none: unbounded
+  /// No tet below this radius ratio; 0: nothing is asked of shapes, as in the paper.
+  double quality_floor = 0.2;
   std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
   /// Each window stops collapsing at this many vertices a voxel; none: only the bounds stop it.
   std::optional<double> target_reduction;

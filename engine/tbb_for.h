@@ -3,6 +3,8 @@
 // Loops on the threads of oneTBB.
 #pragma once
 
+#include <functional>
+
 #include "kernels/core/index.h"
 #include "kernels/core/parallel_for.h"
 

@@ -3,6 +3,8 @@
 // Bounds by measured factors.
 #include "engine/window_memory.h"
 
+#include "io/labels/brick_volume.h"
+
 namespace mw::engine {
 namespace {
 
@@ -24,7 +26,6 @@ constexpr std::uint64_t kBytesPerLabel = 64;
 
 // Places of a brick of the input and of a coarsened one, and its large cells.
 constexpr std::uint64_t kBytesPerBrick = 20;
-constexpr std::int64_t kBrickEdge = 16;
 // A tile and its halo before and after coarsening, or a row of bricks as raw labels.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
@@ -38,7 +39,8 @@ std::uint64_t content_bytes(const StartSize& size) {
 }
 
 std::uint64_t bricks_of(Index3 shape) {
-  const auto along = [](std::int64_t n) { return (n + kBrickEdge - 1) / kBrickEdge; };
+  constexpr std::int64_t kEdge = io::BrickVolume::kEdge;
+  const auto along = [](std::int64_t n) { return (n + kEdge - 1) / kEdge; };
   return static_cast<std::uint64_t>(along(shape.x) * along(shape.y) * along(shape.z));
 }
 

@@ -8,7 +8,6 @@
 
 #include "engine/block_store.h"
 #include "engine/settings.h"
-#include "io/labels/label_table.h"
 #include "kernels/lattice/graded_start.h"
 
 namespace mw::engine {

@@ -21,7 +21,7 @@ int max_level(int window) {
   return level;
 }
 
-/// Without a floor nothing is asked of the shapes around inner vertices either, as in the paper.
+/// Without a floor nothing is asked of shapes, not around inner vertices either.
 SimplifyOptions simplify_options(const MeshSettings& settings) {
   SimplifyOptions options{.quality_floor = settings.quality_floor,
                           .edge_variance = settings.edge_variance,

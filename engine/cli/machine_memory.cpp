@@ -10,6 +10,8 @@
 #include <fstream>
 #include <limits>
 
+#include "engine/cli/proc_file.h"
+
 namespace mw::cli {
 namespace {
 
@@ -37,14 +39,6 @@ std::uint64_t least_of_path(fs::path group, const fs::path& below, const char* f
 
 }  // namespace
 
-std::uint64_t available_memory(std::istream& meminfo) {
-  constexpr std::string_view kName = "MemAvailable:";
-  for (std::string line; std::getline(meminfo, line);) {
-    if (line.starts_with(kName)) return std::stoull(line.substr(kName.size())) * 1024;
-  }
-  return kNone;
-}
-
 std::uint64_t cgroup_limit(const fs::path& root, std::istream& own_groups) {
   const fs::path version_1 = root / "memory";
   std::uint64_t least =
@@ -66,7 +60,8 @@ std::uint64_t default_memory_budget() {
   std::ifstream groups("/proc/self/cgroup");
   const auto machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                        static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  return std::min({machine, available_memory(meminfo), cgroup_limit("/sys/fs/cgroup", groups)}) / 2;
+  const std::uint64_t available = proc_bytes(meminfo, "MemAvailable").value_or(kNone);
+  return std::min({machine, available, cgroup_limit("/sys/fs/cgroup", groups)}) / 2;
 }
 
 }  // namespace mw::cli

@@ -13,9 +13,6 @@ namespace mw::cli {
 /// limit if that is less.  It may differ from run to run; no result depends on it.
 [[nodiscard]] std::uint64_t default_memory_budget();
 
-/// MemAvailable of /proc/meminfo, in bytes; a number too large when it is not there.
-[[nodiscard]] std::uint64_t available_memory(std::istream& meminfo);
-
 /// The least limit of the control groups that a process is in, version 2 or 1; none is a number too
 /// large.  `own_groups` as /proc/self/cgroup, `root` as /sys/fs/cgroup.
 [[nodiscard]] std::uint64_t cgroup_limit(const std::filesystem::path& root,

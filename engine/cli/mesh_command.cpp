@@ -12,7 +12,6 @@
 #include "engine/cli/fingerprint.h"
 #include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
-#include "engine/cli/machine_memory.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/run_report.h"
@@ -33,10 +32,6 @@ struct MeshJob {
   bool print_config = false;
 };
 
-std::uint64_t memory_of(const MeshRequest& request) {
-  return request.memory.value_or(default_memory_budget());
-}
-
 /// What the digest may sort in: a small part of the budget.
 std::size_t digest_memory(std::uint64_t budget) {
   constexpr std::uint64_t kLeast = 1 << 18;
@@ -49,7 +44,7 @@ struct MeshFiles {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (request.report.empty()) return;
     report.emplace(request.report);
-    digest.emplace(request.output.parent_path(), digest_memory(memory_of(request)));
+    digest.emplace(request.output.parent_path(), digest_memory(*request.memory));
     both.emplace(*sink, *digest);
   }
 
@@ -102,7 +97,7 @@ engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume
                                MeshFiles& files, const std::string& fingerprint) {
   std::string work;
   const engine::StoreOptions store{
-      .memory = memory_of(request),
+      .memory = *request.memory,
       .workdir = request.workdir,
       .resume = request.resume,
       .identity = "version = " MW_VERSION "\nlabel fingerprint = " + fingerprint + "\n",

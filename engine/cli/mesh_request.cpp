@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/cli/machine_memory.h"
 #include "engine/cli/values.h"
 #include "engine/codt/worker_pool.h"
 #include "kernels/core/error.h"
@@ -109,7 +110,7 @@ void add_bound_options(OptionSet& options, MeshRequest& request) {
       options, request,
       {.name = "quality-floor",
        .value = "R",
-       .help = "no tet below this radius ratio",
+       .help = "no tet below this radius ratio; 0: no demand on shapes, as in the paper",
        .kind = ValueKind::kNumber,
        .fallback = format_number(defaults.quality_floor)},
       [](engine::MeshSettings& s, const std::string& t) { s.quality_floor = parse_number(t); });
@@ -303,6 +304,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
 void check_mesh_request(MeshRequest& request) {
   require_path(request.output, "-o OUTPUT");
   if (request.workdir.empty()) request.workdir = request.output.string() + ".work";
+  if (!request.memory) request.memory = default_memory_budget();
   (void)open_options(request.volume);
   if (request.labels && request.background) {
     throw Error(ErrorKind::kUsage, "--labels and --background: give one of them, not both");

@@ -18,7 +18,7 @@ struct MeshRequest {
   std::filesystem::path trace;   ///< empty: none
   engine::MeshSettings settings;
   int threads = 0;                      ///< 0: all cores
-  std::optional<std::uint64_t> memory;  ///< bytes; none: default_memory_budget()
+  std::optional<std::uint64_t> memory;  ///< bytes; after check_mesh_request() never empty
   std::filesystem::path workdir;        ///< after check_mesh_request() never empty
   bool resume = false;
   std::chrono::milliseconds save_every{10'000};

@@ -6,7 +6,8 @@
 #include <sys/resource.h>
 
 #include <fstream>
-#include <string>
+
+#include "engine/cli/proc_file.h"
 
 namespace mw::cli {
 namespace {
@@ -22,15 +23,12 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-/// The kernel's high-water mark of this program's resident memory, in KiB.  Not getrusage's, which
-/// begins with that of the program that started this one.
-std::uint64_t high_water_kib() {
-  constexpr std::string_view kName = "VmHWM:";
+/// The kernel's high-water mark of this program's resident memory.  Not getrusage's, which begins
+/// with that of the program that started this one.
+std::uint64_t high_water_bytes() {
   std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with(kName)) return std::stoull(line.substr(kName.size()));
-  }
-  return static_cast<std::uint64_t>(usage(RUSAGE_SELF).ru_maxrss);
+  const auto bytes = proc_bytes(status, "VmHWM");
+  return bytes ? *bytes : static_cast<std::uint64_t>(usage(RUSAGE_SELF).ru_maxrss) * 1024;
 }
 
 }  // namespace
@@ -48,7 +46,7 @@ Resources ResourceMeter::read() const {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
   return {.wall_seconds = wall.count(),
           .cpu_seconds = process_cpu_seconds() - start_cpu_,
-          .peak_rss_bytes = high_water_kib() * 1024};
+          .peak_rss_bytes = high_water_bytes()};
 }
 
 }  // namespace mw::cli

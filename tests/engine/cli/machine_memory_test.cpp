@@ -16,13 +16,6 @@ namespace {
 
 constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 
-TEST(MachineMemory, ReadsWhatIsAvailable) {
-  std::istringstream meminfo("MemTotal: 9000 kB\nMemFree: 10 kB\nMemAvailable:    700 kB\n");
-  EXPECT_EQ(available_memory(meminfo), 700U * 1024);
-  std::istringstream old("MemTotal: 9000 kB\n");
-  EXPECT_EQ(available_memory(old), kNone);
-}
-
 TEST(MachineMemory, TakesTheLeastLimitOfNestedGroups) {
   const test::TempFolder folder;
   const auto limit = [&](const std::string& group, const std::string& text) {
