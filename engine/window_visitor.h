@@ -41,8 +41,11 @@ class WindowVisitor {
   WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
                 const WindowGrid& grid, BlockStore& store);
 
-  /// Optimises longer: for the last march, when shape is all that is left to gain.
-  void polish() { optimise_.sweeps *= kPolishSweeps; }
+  /// Optimises longer and flips more: for the last march, when shape is all that is left to gain.
+  void polish() {
+    optimise_.sweeps *= kPolishSweeps;
+    optimise_.flip_below = kPolishFlipBelow;
+  }
   /// Adds constrained ODT with this triangulation, which many threads may ask at once.  Local
   /// optimisation stays around it when there is a quality floor: tets of a Delaunay triangulation
   /// are often below one, so patches that are good already come through, and one sweep more lifts
@@ -60,6 +63,7 @@ class WindowVisitor {
 
  private:
   static constexpr int kPolishSweeps = 3;
+  static constexpr double kPolishFlipBelow = 0.7;
 
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;

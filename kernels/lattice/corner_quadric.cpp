@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kernels/core/each_index.h"
-#include "kernels/lattice/cell_faces.h"
+#include "kernels/lattice/cell.h"
 
 namespace mw {
 namespace {

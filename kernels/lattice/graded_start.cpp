@@ -10,11 +10,19 @@
 #include "kernels/coarsen/carrier_faces.h"
 #include "kernels/core/each_index.h"
 #include "kernels/core/error.h"
-#include "kernels/lattice/cell_faces.h"
+#include "kernels/lattice/cell_template.h"
 #include "kernels/lattice/corner_quadric.h"
+#include "kernels/lattice/surface_nodes.h"
 
 namespace mw {
 namespace {
+
+/// A triangle by voxel corners.
+using CornerTriangle = std::array<Index3, 3>;
+
+CornerTriangle placed(const Cell& cell, const NodeTriangle& t) {
+  return {place_of(cell, t[0]), place_of(cell, t[1]), place_of(cell, t[2])};
+}
 
 Point lattice_point(Index3 corner) {
   return {static_cast<std::int32_t>(corner.x * kUnitsPerVoxel),
@@ -66,7 +74,8 @@ class StartBuilder {
         carriers_(options.max_distance),
         levels_(labels.shape, volume, {block.lo - Index3{1, 1, 1}, block.hi + Index3{1, 1, 1}},
                 options.max_level, large),
-        faces_(levels_, volume),
+        surface_(levels_, labels.shape, volume),
+        templates_(options.metric),
         used_(static_cast<std::size_t>(corners_.voxels()), 0) {}
 
   BlockMesh build() {
@@ -107,13 +116,26 @@ class StartBuilder {
     each_index(pairs, [&](Index3 p) {
       const Index3 voxel{2 * p.x, 2 * p.y, 2 * p.z};
       const Cell cell{voxel, levels_.level_at(voxel)};
-      if (cell.level == 0) return add_voxels(voxel);
+      if (is_single(cell)) return add_voxels(voxel);
+      if (cell.level == 0) return add_mixed({voxel, 1});
       const std::int64_t mask = cell.size() - 1;
       if (((voxel.x | voxel.y | voxel.z) & mask) == 0) add_cell(cell);
     });
   }
 
-  void add_tet(std::array<std::uint32_t, 4> places, Label label) {
+  /// True for leaves of one voxel that make tets of their own: all of the paper's start mesh, and
+  /// those without partners.
+  [[nodiscard]] bool is_single(const Cell& leaf) const {
+    return leaf.level == 0 && (options_.max_level == 0 || surface_.is_clipped(leaf.lo));
+  }
+
+  const CellTemplate& template_of(const Cell& cell) {
+    return templates_.of(surface_.of(cell), is_odd(cell));
+  }
+
+  void add_tet(const Cell& cell, const NodeTet& t, Label label) {
+    std::array<std::uint32_t, 4> places{};
+    for (std::size_t i = 0; i < 4; ++i) places[i] = place(place_of(cell, t[i]));
     std::sort(places.begin(), places.end());
     mesh_.tets.push_back({places, label});
   }
@@ -127,40 +149,24 @@ class StartBuilder {
 
   void add_cell(const Cell& cell) {
     const Label label = labels_.shape.at(cell.lo);
-    if (faces_.has_hanging_nodes(cell)) {
-      add_cone(cell, label);
-    } else {
-      add_five(cell, label);
+    for (const NodeTet& t : template_of(cell).tets) add_tet(cell, t, label);
+  }
+
+  /// Eight voxels of several labels: each is the union of the cones from the centre to its outer
+  /// faces.
+  void add_mixed(const Cell& cell) {
+    for (const NodeTriangle& t : template_of(cell).surface) {
+      add_tet(cell, {kCellCentre, t[0], t[1], t[2]}, labels_.shape.at(voxel_behind(cell, t)));
     }
   }
 
-  void add_five(const Cell& cell, Label label) {
-    std::array<std::uint32_t, 4> centre{};
-    std::size_t found = 0;
-    for (unsigned i = 0; i < 8; ++i) {
-      const Index3 corner = cell_corner(cell, i);
-      if (!is_odd(corner, cell.level)) {
-        centre[found++] = place(corner);
-        continue;
-      }
-      add_tet({place(corner), place(cell_corner(cell, i ^ 1U)), place(cell_corner(cell, i ^ 2U)),
-               place(cell_corner(cell, i ^ 4U))},
-              label);
-    }
-    add_tet(centre, label);
-  }
-
-  void add_cone(const Cell& cell, Label label) {
-    const std::int64_t half = cell.size() / 2;
-    const std::uint32_t centre = place(cell.lo + Index3{half, half, half});
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      for (bool high : {false, true}) {
-        faces_.triangles(cell, {axis, high}, triangles_);
-        for (const CornerTriangle& t : triangles_) {
-          add_tet({centre, place(t[0]), place(t[1]), place(t[2])}, label);
-        }
-      }
-    }
+  /// The voxel of a mixed cell that is behind a triangle of its surface; any, where it is behind
+  /// several, as these have the same label.
+  static Index3 voxel_behind(const Cell& cell, const NodeTriangle& t) {
+    const auto upper = [&t](unsigned axis) {
+      return node_along(t[0], axis) + node_along(t[1], axis) + node_along(t[2], axis) > 3 ? 1 : 0;
+    };
+    return cell.lo + Index3{upper(0), upper(1), upper(2)};
   }
 
   /// Calls visit(face) on all input faces that this block's triangles may carry.
@@ -210,14 +216,38 @@ class StartBuilder {
     }
   }
 
-  /// Puts the triangles of the cell face at a voxel into triangles_, unless they are there already.
+  /// Puts the triangles of the start mesh around a face of a voxel into triangles_: those of the
+  /// face of its cell, or those in the middle of its mixed cell.
   void triangulate(Index3 voxel, CellFace face) {
-    const int level = levels_.level_at(voxel);
+    const Cell cell = cell_at(voxel);
+    triangles_.clear();
+    const auto along = [&face](Index3 v) {
+      return face.axis == 0 ? v.x : face.axis == 1 ? v.y : v.z;
+    };
+    const bool outer = along(voxel) == along(cell.lo) + (face.high ? cell.size() - 1 : 0);
+    if (!outer) return triangulate_middle(cell, face.axis);
+    for (const NodeTriangle& t : face_triangles(surface_.of(cell), is_odd(cell), face)) {
+      triangles_.push_back(placed(cell, t));
+    }
+  }
+
+  /// The leaf at a voxel, or the mixed cell.
+  [[nodiscard]] Cell cell_at(Index3 voxel) const {
+    const int leaf = levels_.level_at(voxel);
+    const int level = leaf == 0 && !is_single({voxel, 0}) ? 1 : leaf;
     const auto floor = [level](std::int64_t v) { return v >> level << level; };
-    const Cell cell{{floor(voxel.x), floor(voxel.y), floor(voxel.z)}, level};
-    if (triangulated_ && cell == triangulated_->first && face == triangulated_->second) return;
-    triangulated_ = {cell, face};
-    faces_.triangles(cell, face, triangles_);
+    return {{floor(voxel.x), floor(voxel.y), floor(voxel.z)}, level};
+  }
+
+  /// Triangles across an axis between the centre of a mixed cell and the edges on its surface.
+  void triangulate_middle(const Cell& cell, unsigned axis) {
+    for (const NodeTriangle& t : template_of(cell).surface) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const CellNode a = t[i], b = t[(i + 1) % 3];
+        if (node_along(a, axis) != 1 || node_along(b, axis) != 1) continue;
+        triangles_.push_back(placed(cell, {kCellCentre, a, b}));
+      }
+    }
   }
 
   [[nodiscard]] VoxelFace carrier_of(const VoxelFace& face, LabelPair pair) const {
@@ -283,10 +313,10 @@ class StartBuilder {
   StartOptions options_;
   CarrierFaces carriers_;
   CellLevels levels_;
-  CellFaces faces_;
+  SurfaceNodes surface_;
+  CellTemplates templates_;
   std::vector<std::uint8_t> used_;
   std::vector<CornerTriangle> triangles_;
-  std::optional<std::pair<Cell, CellFace>> triangulated_;  ///< what triangles_ belong to
   BlockMesh mesh_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Start mesh on a graded octree: the paper's lattice where labels meet, larger cells inside them.
+// Start mesh on a graded octree: cells of one or two voxels where labels meet, larger ones inside.
 #pragma once
 
 #include <cstdint>
@@ -38,11 +38,12 @@ struct StartLabels {
 
 /// Start mesh of a block.
 ///
-/// Each leaf of CellLevels without hanging nodes becomes five tets, in the two mirrored patterns of
-/// Sec 5.1 at its own scale: diagonals join corners of even coordinate sum, counted in cells.  Any
-/// other leaf gets a centre vertex joined to the triangles of its faces; a face beside smaller
-/// cells takes their triangles, a face with hanging nodes on its edges only is a fan from the one
-/// of smallest id.  Both sides of a face find the same triangles, so cells and blocks conform.
+/// Leaves of CellLevels larger than a voxel are cut by cut_cell(): without hanging nodes, into the
+/// five tets of Sec 5.1 at their own scale.  With max_level 0 the voxels are cut so as well, which
+/// is the paper's start mesh; else eight of them that are partners become a mixed cell, the cone
+/// from its centre over its surface, whose tets take the labels of the voxels that they are in.
+/// SurfaceNodes says which middles of edges and faces are vertices, face_triangles() how a face is
+/// cut; both sides find the same, so cells and blocks conform.
 /// Eq (1) sums over interface triangles; here over interface voxel faces at the vertex, which is
 /// the same sum freed from the accident of the pattern.
 ///

@@ -79,7 +79,7 @@ TEST_F(MemoryProgramTest, Promise6HoldsForNoiseAndManyThreads) {
 
 /// Blocks have to go to disk, and the merge has to read them back.
 TEST_F(MemoryProgramTest, Promise6HoldsWhenBlocksAreSpilled) {
-  make("voronoi", "64,64,64", 33);
+  make("voronoi", "112,64,64", 60);
   const json r = under_least_budget("--threads 2");
   ASSERT_FALSE(r.is_null());
   expect_within(r);

@@ -61,6 +61,47 @@ TEST(Sec51GradedStart, FillsTheBoxExactlyWithConformingGoodTets) {
   EXPECT_GE(worst, 0.2) << "the default quality floor could not be promised";
 }
 
+/// In cubes of 2 voxels, middles of edges and faces are vertices where labels change across them.
+TEST(Sec51GradedStart, HasOnlyTheVerticesThatLabelsNeed) {
+  std::mt19937 random(518);
+  std::int64_t left_out = 0;
+  for (int i = 0; i < 30 && !HasFailure(); ++i) {
+    const Index3 shape{2 + 2 * below(random, 3), 4, 6};
+    const SmallVolume volume =
+        random_volume_of(random, VolumeKind::kBlobs, shape, 2 + below(random, 3));
+    const BlockMesh mesh = graded_whole(volume, 1);
+    std::set<VertexId> found;
+    for (const BlockVertex& v : mesh.vertices) found.insert(v.id);
+    const LabelBox labels = labels_in(volume, {{-1, -1, -1}, shape + Index3{1, 1, 1}});
+    VertexId id = 0;
+    each_index(shape + Index3{1, 1, 1}, [&](Index3 corner) {
+      const std::array<bool, 3> odd{corner.x % 2 != 0, corner.y % 2 != 0, corner.z % 2 != 0};
+      // Voxels around the corner, bit by bit on the upper side along x, y and z.
+      std::array<Label, 8> around{};
+      for (std::int64_t k = 0; k < 8; ++k) {
+        around[static_cast<std::size_t>(k)] =
+            labels.at(corner + Index3{(k & 1) - 1, (k >> 1 & 1) - 1, (k >> 2) - 1});
+      }
+      bool changes = !odd[0] && !odd[1] && !odd[2];
+      for (std::size_t k = 0; k < 8; ++k) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          changes = changes || (odd[axis] && around[k] != around[k ^ (1U << axis)]);
+        }
+      }
+      const bool centre = odd[0] && odd[1] && odd[2];
+      if (!centre) {
+        EXPECT_EQ(found.contains(id), changes) << id;
+      }
+      if (centre && changes) {
+        EXPECT_TRUE(found.contains(id));
+      }
+      left_out += found.contains(id) ? 0 : 1;
+      ++id;
+    });
+  }
+  EXPECT_GT(left_out, 500);
+}
+
 TEST(Promise1Topology, HoldsInGradedStartMeshes) {
   std::mt19937 random(512);
   for (int i = 0; i < 30 && !HasFailure(); ++i) {

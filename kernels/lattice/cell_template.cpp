@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Fans of faces, and cones over them.
+#include "kernels/lattice/cell_template.h"
+
+#include <algorithm>
+
+#include "kernels/quality/quality.h"
+
+namespace mw {
+namespace {
+
+constexpr std::array<CellFace, 6> kFaces{
+    {{0, false}, {0, true}, {1, false}, {1, true}, {2, false}, {2, true}}};
+
+/// Start meshes must keep above the default quality floor, with something to spare.
+constexpr double kLeastShape = 0.25;
+
+bool is_odd_corner(CellNode node, bool odd) {
+  const unsigned sum = (node_along(node, 0) + node_along(node, 1) + node_along(node, 2)) / 2;
+  return (sum % 2 != 0) != odd;
+}
+
+/// Nodes around a face, a corner first.
+std::vector<CellNode> rim_of(CellNodes nodes, CellFace face) {
+  const CellNode u = node_step(face.axis == 0 ? 1 : 0), v = node_step(face.axis == 2 ? 1 : 2);
+  const CellNode lowest = face.high ? 2 * node_step(face.axis) : 0;
+  std::vector<CellNode> rim;
+  for (const CellNode step : {0 * u, u, 2 * u, 2 * u + v, 2 * u + 2 * v, u + 2 * v, 2 * v, v}) {
+    if (has_node(nodes, lowest + step)) rim.push_back(lowest + step);
+  }
+  return rim;
+}
+
+CellNode middle_of(CellFace face) {
+  return kCellCentre + (face.high ? 1 : 0) * 2 * node_step(face.axis) - node_step(face.axis);
+}
+
+/// Where the triangles of a face meet.
+CellNode hub_of(CellNodes nodes, bool odd, CellFace face, const std::vector<CellNode>& rim) {
+  if (has_node(nodes, middle_of(face))) return middle_of(face);
+  const auto is_middle = [](CellNode n) { return !has_node(kCellCorners, n); };
+  const auto is_even = [odd](CellNode n) { return !is_odd_corner(n, odd); };
+  CellNode hub = 27;
+  for (CellNode n : rim) {
+    if (is_middle(n)) hub = std::min(hub, n);
+  }
+  return hub < 27 ? hub : *std::find_if(rim.begin(), rim.end(), is_even);
+}
+
+std::vector<NodeTet> five_tets(bool odd) {
+  std::vector<NodeTet> tets;
+  NodeTet even{};
+  std::size_t found = 0;
+  for (CellNode n = 0; n <= 26; ++n) {
+    if (!has_node(kCellCorners, n)) continue;
+    if (!is_odd_corner(n, odd)) {
+      even[found++] = n;
+      continue;
+    }
+    const auto across = [n](unsigned axis) {
+      return node_along(n, axis) == 0 ? n + 2 * node_step(axis) : n - 2 * node_step(axis);
+    };
+    tets.push_back({n, across(0), across(1), across(2)});
+  }
+  tets.push_back(even);
+  return tets;
+}
+
+/// Tets between an apex and the triangles of the faces that it is not on.  None when a triangle of
+/// its own faces does not have it for a corner.
+std::vector<NodeTet> cone(CellNode apex, const std::vector<NodeTriangle>& surface) {
+  std::vector<NodeTet> tets;
+  for (const NodeTriangle& t : surface) {
+    const bool beside = std::any_of(kFaces.begin(), kFaces.end(), [&](CellFace f) {
+      return is_on(apex, f) && is_on(t[0], f) && is_on(t[1], f) && is_on(t[2], f);
+    });
+    if (!beside) {
+      tets.push_back({apex, t[0], t[1], t[2]});
+    } else if (std::find(t.begin(), t.end(), apex) == t.end()) {
+      return {};
+    }
+  }
+  return tets;
+}
+
+double worst_ratio(const std::vector<NodeTet>& tets, const Metric& metric) {
+  const auto at = [](CellNode n) {
+    constexpr std::int32_t kHalf = kUnitsPerVoxel;
+    return Point{static_cast<std::int32_t>(node_along(n, 0)) * kHalf,
+                 static_cast<std::int32_t>(node_along(n, 1)) * kHalf,
+                 static_cast<std::int32_t>(node_along(n, 2)) * kHalf};
+  };
+  double worst = tets.empty() ? 0.0 : 1.0;
+  for (const NodeTet& t : tets) {
+    const Vec3 a = metric.vector(at(t[0]), at(t[1])), b = metric.vector(at(t[0]), at(t[2])),
+               c = metric.vector(at(t[0]), at(t[3]));
+    worst = std::min(worst, std::max(radius_ratio({a, b, c}), radius_ratio({b, a, c})));
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<NodeTriangle> face_triangles(CellNodes nodes, bool odd, CellFace face) {
+  const std::vector<CellNode> rim = rim_of(nodes, face);
+  const CellNode hub = hub_of(nodes, odd, face, rim);
+  std::vector<NodeTriangle> triangles;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const CellNode a = rim[i], b = rim[(i + 1) % rim.size()];
+    if (a != hub && b != hub) triangles.push_back({hub, a, b});
+  }
+  return triangles;
+}
+
+CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric) {
+  CellTemplate out;
+  for (const CellFace face : kFaces) {
+    const std::vector<NodeTriangle> triangles = face_triangles(nodes, odd, face);
+    out.surface.insert(out.surface.end(), triangles.begin(), triangles.end());
+  }
+  if (nodes == kCellCorners) {
+    out.tets = five_tets(odd);
+    return out;
+  }
+  std::vector<NodeTet> from_centre = cone(kCellCentre, out.surface);
+  double best = std::min(kLeastShape, worst_ratio(from_centre, metric));
+  for (CellNode apex = 0; apex <= 26; ++apex) {
+    if (!has_node(nodes, apex)) continue;
+    std::vector<NodeTet> tets = cone(apex, out.surface);
+    const double worst = worst_ratio(tets, metric);
+    if (worst < best || (worst == best && !out.tets.empty())) continue;
+    best = worst;
+    out.tets = std::move(tets);
+  }
+  if (out.tets.empty()) out.tets = std::move(from_centre);
+  return out;
+}
+
+const CellTemplate& CellTemplates::of(CellNodes nodes, bool odd) {
+  constexpr CellNodes kOdd = 1U << 31;
+  const auto [entry, fresh] = known_.try_emplace(nodes | (odd ? kOdd : 0));
+  if (fresh) entry->second = cut_cell(nodes, odd, metric_);
+  return entry->second;
+}
+
+}  // namespace mw

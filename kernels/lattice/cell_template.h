@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How a cell is cut into tets, which follows from the nodes on its surface.
+#pragma once
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+#include "kernels/core/metric.h"
+#include "kernels/lattice/cell.h"
+
+namespace mw {
+
+using NodeTriangle = std::array<CellNode, 3>;
+using NodeTet = std::array<CellNode, 4>;
+
+/// Triangles of a face with the given nodes; their turning is not defined.
+///
+/// A face with a node in its middle is a fan from there.  Without, it is a fan from the lowest of
+/// its edge middles, or, if it has none, two triangles joined along the diagonal of its even
+/// corners: those of even coordinate sum, counted in cells (Sec 5.1).
+/// odd: is_odd() of the cell.
+/// ENSURES: the cell on the other side of the face finds the same triangles.
+[[nodiscard]] std::vector<NodeTriangle> face_triangles(CellNodes nodes, bool odd, CellFace face);
+
+struct CellTemplate {
+  /// face_triangles() of all faces.
+  std::vector<NodeTriangle> surface;
+  /// The tets of a cell of one label; their turning is not defined.
+  std::vector<NodeTet> tets;
+};
+
+/// Cuts a cell of one label.
+///
+/// Without hanging nodes: the five tets of Sec 5.1.  With them, all triangles of the surface are
+/// joined to an apex.  That is the node of the surface for which the worst radius ratio is best
+/// (the lowest of equals), if all triangles of its own faces meet there, and if that worst is at
+/// least 0.25 or what the centre gives; else the centre.  An apex on the surface spares a vertex,
+/// and with it a contraction, in 98 of 100 such cells of dense EM.
+[[nodiscard]] CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric);
+
+/// Templates, each made once.
+class CellTemplates {
+ public:
+  explicit CellTemplates(const Metric& metric) : metric_(metric) {}
+
+  [[nodiscard]] const CellTemplate& of(CellNodes nodes, bool odd);
+
+ private:
+  Metric metric_;
+  std::unordered_map<CellNodes, CellTemplate> known_;
+};
+
+}  // namespace mw
