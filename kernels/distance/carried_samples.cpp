@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::size_t kFirstSlots = 64;
 
+/// As ==, which is a call to memcmp.
+bool is_same(const TriangleKey& a, const TriangleKey& b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 }  // namespace
 
 std::size_t CarriedSamples::home(const TriangleKey& key) const {
@@ -21,7 +26,9 @@ std::size_t CarriedSamples::home(const TriangleKey& key) const {
 
 std::size_t CarriedSamples::find(const TriangleKey& key) const {
   std::size_t at = home(key);
-  while (slots_[at].head != kNone && slots_[at].key != key) at = (at + 1) & (slots_.size() - 1);
+  while (slots_[at].head != kNone && !is_same(slots_[at].key, key)) {
+    at = (at + 1) & (slots_.size() - 1);
+  }
   return at;
 }
 

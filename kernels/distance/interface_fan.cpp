@@ -7,31 +7,26 @@
 #include <bit>
 
 namespace mw {
-namespace {
-
-/// Hashed labels that may lie on the other side of a triangle at v from `label`.
-std::uint64_t others_at(const TetMesh& mesh, LocalVertex v, Label label) {
-  const std::uint64_t all = mesh.label_signature(v);
-  const bool one_bit_each = std::popcount(all) == mesh.order(v);
-  return one_bit_each ? all & ~TetMesh::label_bit(label) : all;
-}
-
-}  // namespace
 
 void InterfaceFan::collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out) {
   sides_.clear();
   out.clear();
+  const std::uint64_t all = mesh.label_signature(v);
+  const bool one_bit_each = std::popcount(all) == mesh.order(v);
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior) continue;
     // Both labels of an interface triangle lie at each of its corners.
-    const std::uint64_t others = others_at(mesh, v, t.label);
-    const auto add = [&](LocalVertex a, LocalVertex b) {
-      if ((others & mesh.label_signature(a) & mesh.label_signature(b)) == 0) return;
+    const std::uint64_t others = one_bit_each ? all & ~TetMesh::label_bit(t.label) : all;
+    const std::uint64_t at_a = others & mesh.label_signature(t.a),
+                        at_b = others & mesh.label_signature(t.b),
+                        at_c = others & mesh.label_signature(t.c);
+    const auto add = [&](LocalVertex a, LocalVertex b, std::uint64_t shared) {
+      if (shared == 0) return;
       sides_.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), t.label});
     };
-    add(t.a, t.b);
-    add(t.b, t.c);
-    add(t.c, t.a);
+    add(t.a, t.b, at_a & at_b);
+    add(t.b, t.c, at_b & at_c);
+    add(t.c, t.a, at_c & at_a);
   }
   std::sort(sides_.begin(), sides_.end());
   for (std::size_t i = 0; i + 1 < sides_.size(); ++i) {

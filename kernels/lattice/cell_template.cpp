@@ -67,14 +67,23 @@ std::vector<NodeTet> five_tets(bool odd) {
   return tets;
 }
 
+/// The faces that a node is on, as bits in the order of kFaces.
+constexpr std::array<unsigned, 27> faces_by_node() {
+  std::array<unsigned, 27> out{};
+  for (CellNode n = 0; n < out.size(); ++n) {
+    for (unsigned f = 0; f < kFaces.size(); ++f) out[n] |= (is_on(n, kFaces[f]) ? 1U : 0U) << f;
+  }
+  return out;
+}
+constexpr std::array<unsigned, 27> kFacesAt = faces_by_node();
+
 /// Tets between an apex and the triangles of the faces that it is not on.  None when a triangle of
 /// its own faces does not have it for a corner.
 std::vector<NodeTet> cone(CellNode apex, const std::vector<NodeTriangle>& surface) {
   std::vector<NodeTet> tets;
+  tets.reserve(surface.size());
   for (const NodeTriangle& t : surface) {
-    const bool beside = std::any_of(kFaces.begin(), kFaces.end(), [&](CellFace f) {
-      return is_on(apex, f) && is_on(t[0], f) && is_on(t[1], f) && is_on(t[2], f);
-    });
+    const bool beside = (kFacesAt[apex] & kFacesAt[t[0]] & kFacesAt[t[1]] & kFacesAt[t[2]]) != 0;
     if (!beside) {
       tets.push_back({apex, t[0], t[1], t[2]});
     } else if (std::find(t.begin(), t.end(), apex) == t.end()) {
@@ -84,18 +93,21 @@ std::vector<NodeTet> cone(CellNode apex, const std::vector<NodeTriangle>& surfac
   return tets;
 }
 
-double worst_ratio(const std::vector<NodeTet>& tets, const Metric& metric) {
+/// The worst radius ratio of the tets, or any lower one than `enough`.
+double worst_ratio(const std::vector<NodeTet>& tets, const Metric& metric, double enough) {
   const auto at = [](CellNode n) {
-    constexpr std::int32_t kHalf = kUnitsPerVoxel;
-    return Point{static_cast<std::int32_t>(node_along(n, 0)) * kHalf,
-                 static_cast<std::int32_t>(node_along(n, 1)) * kHalf,
-                 static_cast<std::int32_t>(node_along(n, 2)) * kHalf};
+    const auto along = [n](unsigned axis) {
+      return static_cast<std::int32_t>(node_along(n, axis)) * kUnitsPerVoxel;
+    };
+    return Point{along(0), along(1), along(2)};
   };
   double worst = tets.empty() ? 0.0 : 1.0;
   for (const NodeTet& t : tets) {
     const Vec3 a = metric.vector(at(t[0]), at(t[1])), b = metric.vector(at(t[0]), at(t[2])),
                c = metric.vector(at(t[0]), at(t[3]));
-    worst = std::min(worst, std::max(radius_ratio({a, b, c}), radius_ratio({b, a, c})));
+    const bool positive = a.cross(b).dot(c) > 0.0;
+    worst = std::min(worst, positive ? radius_ratio({a, b, c}) : radius_ratio({b, a, c}));
+    if (worst < enough) break;
   }
   return worst;
 }
@@ -115,26 +127,33 @@ std::vector<NodeTriangle> face_triangles(CellNodes nodes, bool odd, CellFace fac
 
 CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric) {
   CellTemplate out;
-  for (const CellFace face : kFaces) {
-    const std::vector<NodeTriangle> triangles = face_triangles(nodes, odd, face);
+  for (std::size_t f = 0; f < kFaces.size(); ++f) {
+    const std::vector<NodeTriangle> triangles = face_triangles(nodes, odd, kFaces[f]);
     out.surface.insert(out.surface.end(), triangles.begin(), triangles.end());
+    out.ends[f] = out.surface.size();
   }
   if (nodes == kCellCorners) {
     out.tets = five_tets(odd);
     return out;
   }
   std::vector<NodeTet> from_centre = cone(kCellCentre, out.surface);
-  double best = std::min(kLeastShape, worst_ratio(from_centre, metric));
+  double best = std::min(kLeastShape, worst_ratio(from_centre, metric, 0.0));
   for (CellNode apex = 0; apex <= 26; ++apex) {
     if (!has_node(nodes, apex)) continue;
     std::vector<NodeTet> tets = cone(apex, out.surface);
-    const double worst = worst_ratio(tets, metric);
+    const double worst = worst_ratio(tets, metric, best);
     if (worst < best || (worst == best && !out.tets.empty())) continue;
     best = worst;
     out.tets = std::move(tets);
   }
   if (out.tets.empty()) out.tets = std::move(from_centre);
   return out;
+}
+
+std::span<const NodeTriangle> CellTemplate::on(CellFace face) const {
+  const std::size_t f = 2 * face.axis + (face.high ? 1 : 0);
+  const std::size_t begin = f == 0 ? 0 : ends[f - 1];
+  return std::span(surface).subspan(begin, ends[f] - begin);
 }
 
 const CellTemplate& CellTemplates::of(CellNodes nodes, bool odd) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -25,10 +26,14 @@ using NodeTet = std::array<CellNode, 4>;
 [[nodiscard]] std::vector<NodeTriangle> face_triangles(CellNodes nodes, bool odd, CellFace face);
 
 struct CellTemplate {
-  /// face_triangles() of all faces.
+  /// face_triangles() of all faces, one face after the other.
   std::vector<NodeTriangle> surface;
+  std::array<std::size_t, 6> ends{};  ///< where each face's triangles end
   /// The tets of a cell of one label; their turning is not defined.
   std::vector<NodeTet> tets;
+
+  /// Triangles of one face.
+  [[nodiscard]] std::span<const NodeTriangle> on(CellFace face) const;
 };
 
 /// Cuts a cell of one label.

@@ -76,7 +76,8 @@ class StartBuilder {
                 options.max_level, large),
         surface_(levels_, labels.shape, volume),
         templates_(options.metric),
-        used_(static_cast<std::size_t>(corners_.voxels()), 0) {}
+        used_(static_cast<std::size_t>(corners_.voxels()), 0),
+        known_(static_cast<std::size_t>(block.voxels()), nullptr) {}
 
   BlockMesh build() {
     add_cells();
@@ -129,8 +130,11 @@ class StartBuilder {
     return leaf.level == 0 && (options_.max_level == 0 || surface_.is_clipped(leaf.lo));
   }
 
+  /// REQUIRES: the cell is of the block.
   const CellTemplate& template_of(const Cell& cell) {
-    return templates_.of(surface_.of(cell), is_odd(cell));
+    const CellTemplate*& known = known_[static_cast<std::size_t>(block_.offset(cell.lo))];
+    if (known == nullptr) known = &templates_.of(surface_.of(cell), is_odd(cell));
+    return *known;
   }
 
   void add_tet(const Cell& cell, const NodeTet& t, Label label) {
@@ -226,7 +230,7 @@ class StartBuilder {
     };
     const bool outer = along(voxel) == along(cell.lo) + (face.high ? cell.size() - 1 : 0);
     if (!outer) return triangulate_middle(cell, face.axis);
-    for (const NodeTriangle& t : face_triangles(surface_.of(cell), is_odd(cell), face)) {
+    for (const NodeTriangle& t : template_of(cell).on(face)) {
       triangles_.push_back(placed(cell, t));
     }
   }
@@ -316,6 +320,7 @@ class StartBuilder {
   SurfaceNodes surface_;
   CellTemplates templates_;
   std::vector<std::uint8_t> used_;
+  std::vector<const CellTemplate*> known_;  ///< by the lowest voxel of a cell; null: not asked yet
   std::vector<CornerTriangle> triangles_;
   BlockMesh mesh_;
 };

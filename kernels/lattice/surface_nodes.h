@@ -3,6 +3,8 @@
 // Which nodes the surface of a cell has, seen the same from all cells around.
 #pragma once
 
+#include <array>
+
 #include "kernels/core/label_box.h"
 #include "kernels/lattice/cell.h"
 #include "kernels/lattice/cell_levels.h"
@@ -11,12 +13,12 @@ namespace mw {
 
 /// Finds hanging nodes: middles of a cell's edges and faces that are vertices of the start mesh.
 ///
-/// Beside a smaller cell, all middles that it touches are vertices.  Where labels meet, the leaves
-/// are single voxels; eight of them that are partners, filling a cube of 2 voxels at an even place,
-/// make one mixed cell of level 1.  Around mixed cells a middle is a vertex only if the labels need
-/// it: that of an edge if one of the cubes there has two labels along the edge, that of a face if
-/// one of the two cubes has two labels along it.  Voxels whose partners would lie outside the
-/// volume stay single, and all middles that such a cube touches are vertices.
+/// Those that touch a smaller cell are vertices.  Where labels meet, the leaves are single voxels;
+/// eight of them that are partners, filling a cube of 2 voxels at an even place, make one mixed
+/// cell of level 1.  Around mixed cells a middle is a vertex only if the labels need it: if two
+/// voxels that touch it, neighbours along an axis that it is in the middle of, have different
+/// labels.  Voxels whose partners would lie outside the volume stay single, and the middles that
+/// they touch are vertices.
 class SurfaceNodes {
  public:
   /// labels: those the levels are of.
@@ -33,10 +35,15 @@ class SurfaceNodes {
   }
 
  private:
-  [[nodiscard]] bool is_finer(Index3 voxel, int level) const;
-  [[nodiscard]] bool layer_is_split(Index3 lowest, unsigned axis) const;
-  [[nodiscard]] bool face_is_split(const Cell& cell, CellFace face) const;
-  [[nodiscard]] bool edge_is_split(Index3 start, unsigned along, int level) const;
+  /// The voxels in and around a cube of 2 voxels, x fastest.
+  struct Around {
+    std::array<Label, 64> labels;
+    std::array<bool, 64> single;
+  };
+
+  [[nodiscard]] CellNodes beside_smaller(const Cell& cell) const;
+  [[nodiscard]] CellNodes between_labels(const Cell& cell) const;
+  [[nodiscard]] Around around(Index3 lo) const;
 
   const CellLevels& levels_;
   const LabelBox& labels_;

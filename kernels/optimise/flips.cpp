@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "kernels/quality/mesh_quality.h"
 
@@ -33,7 +34,7 @@ double Flipper::energy_of_old_tets() {
 }
 
 double Flipper::least_energy_of_new_tets() const {
-  constexpr double kBestMean = 1.2;
+  constexpr double kBestMean = 1.3;
   std::size_t tets = 0;
   for (const Polygon& polygon : polygons_) {
     if (polygon.label != kExterior) tets += 2 * (polygon.last - polygon.first - 1);
@@ -41,21 +42,25 @@ double Flipper::least_energy_of_new_tets() const {
   return kBestMean * static_cast<double>(tets);
 }
 
-double Flipper::best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon) {
+double Flipper::best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon,
+                                   double limit) {
+  constexpr double kLeastOfTriangle = 2.0;  // two regular tets
   const auto [first, last, label] = polygon;
   for (std::size_t i = first; i < last; ++i) energy_[i][i + 1] = 0.0;
   for (std::size_t gap = 2; gap <= last - first; ++gap) {
+    const double elsewhere = kLeastOfTriangle * static_cast<double>(last - first - gap);
     for (std::size_t i = first; i + gap <= last; ++i) {
       const std::size_t k = i + gap;
+      double most = limit - (label == kExterior ? 0.0 : elsewhere);
       energy_[i][k] = std::numeric_limits<double>::infinity();
       for (std::size_t j = i + 1; j < k; ++j) {
         double sum = energy_[i][j] + energy_[j][k];
-        if (sum >= energy_[i][k]) continue;
+        if (sum >= most) continue;
         const LocalVertex a = ring_vertex(i), b = ring_vertex(j), c = ring_vertex(k);
         sum += energy_of({{a, b, c, q}, label});
-        if (sum < energy_[i][k]) sum += energy_of({{a, c, b, p}, label});
-        if (sum < energy_[i][k]) {
-          energy_[i][k] = sum;
+        if (sum < most) sum += energy_of({{a, c, b, p}, label});
+        if (sum < most) {
+          energy_[i][k] = most = sum;
           apex_[i][k] = j;
         }
       }
@@ -120,6 +125,7 @@ bool Flipper::surface_allows(LocalVertex p, LocalVertex q) {
 }
 
 bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
+  if (mesh_.star(q).size() < mesh_.star(p).size()) std::swap(p, q);
   if (!collect_ring(mesh_, p, q, ring_) || ring_.size() > kMaxRing) return false;
   if (!cut_into_polygons()) return false;
   old_tets_.clear();
@@ -130,7 +136,7 @@ bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
   if (!(gain - least_energy_of_new_tets() > kLeastGain)) return false;
   new_tets_.clear();
   for (const Polygon& polygon : polygons_) {
-    gain -= best_triangulation(p, q, polygon);
+    gain -= best_triangulation(p, q, polygon, gain - kLeastGain);
     if (!(gain > kLeastGain) || !collect_triangles(p, q, polygon)) return false;
   }
   if (!surface_allows(p, q)) return false;

@@ -12,7 +12,7 @@ namespace mw {
 
 struct OptimiseOptions {
   int sweeps = 1;
-  double flip_below = 0.6;     ///< flips are tried on tets with a smaller radius ratio
+  double flip_below = 0.4;     ///< flips are tried on tets with a smaller radius ratio
   double smooth_below = 0.8;   ///< smoothing, at vertices whose worst tet is below
   double quality_floor = 0.1;  ///< no step creates a tet below, unless it replaces a worse one
 };

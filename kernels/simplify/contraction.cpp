@@ -19,6 +19,11 @@ Quadric sum_at(const TetMesh& mesh, const Metric& metric, LocalVertex p, LocalVe
   return mesh.quadric(p) + mesh.quadric(q).shifted(from_q_to_p);
 }
 
+/// The lattice point in the middle, towards zero.
+Point between(Point a, Point b) {
+  return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+}
+
 /// Ranks the ends by what must survive: box planes first, then order.  Positive: p, negative: q,
 /// zero: neither.  Empty when the two demands contradict each other.
 std::optional<int> survivor(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
@@ -56,6 +61,22 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
     c.cost += mesh.quadric(c.keep).c;
   }
   return c;
+}
+
+std::array<Contraction, 4> other_places(const TetMesh& mesh, const Metric& metric,
+                                        const Contraction& contraction) {
+  const Point keep = mesh.position(contraction.keep), drop = mesh.position(contraction.drop);
+  const Point middle = between(keep, drop);
+  const std::array<Point, 4> places{between(middle, contraction.position), middle, keep, drop};
+  const Quadric sum = sum_at(mesh, metric, contraction.keep, contraction.drop);
+  std::array<Contraction, 4> out;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    out[i] = contraction;
+    out[i].position = places[i];
+    out[i].cost = sum.value(metric.vector(keep, places[i]));
+    out[i].moves = places[i] != keep;
+  }
+  return out;
 }
 
 Quadric contracted_quadric(const TetMesh& mesh, const Metric& metric,

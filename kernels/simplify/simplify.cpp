@@ -4,7 +4,6 @@
 #include "kernels/simplify/simplify.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/mesh/vertex_marks.h"
@@ -71,7 +70,8 @@ class CandidateFinder {
   [[nodiscard]] bool labels_allow(LocalVertex v, LocalVertex w) const {
     const std::uint64_t edge = edge_labels_[w];
     if ((mesh_.label_signature(v) & mesh_.label_signature(w) & ~edge) != 0) return false;
-    return std::popcount(edge) > 1 || mesh_.order(v) == 1 || mesh_.order(w) == 1;
+    const bool several = (edge & (edge - 1)) != 0;
+    return several || mesh_.order(v) == 1 || mesh_.order(w) == 1;
   }
 
   const TetMesh& mesh_;
@@ -138,9 +138,23 @@ class Simplifier {
     }
   }
 
-  bool try_contraction(const Contraction& c) {
+  /// The verdict on the planned place.  When that is refused, c becomes the first of its other
+  /// places that is good, and as cheap as this round demands.
+  StarVerdict judge(Contraction& c) {
+    const StarVerdict verdict = shape_.judge(c);
+    if (verdict == StarVerdict::kGood || !c.moves) return verdict;
+    for (const Contraction& other : other_places(mesh_, metric_, c)) {
+      if (other.cost > queue_.current_bound()) continue;
+      if (shape_.judge(other) != StarVerdict::kGood) continue;
+      c = other;
+      return StarVerdict::kGood;
+    }
+    return verdict;
+  }
+
+  bool try_contraction(Contraction c) {
     ++stats_.tried;
-    switch (shape_.judge(c)) {
+    switch (judge(c)) {
       case StarVerdict::kInverted:
         ++stats_.inverted;
         return false;
