@@ -79,16 +79,15 @@ bool DistanceGuard::allows_flip(const TetMesh& mesh, const std::array<LocalVerte
   return keeps_bound();
 }
 
+/// Samples first: they refuse far more often, and sooner.
 bool DistanceGuard::keeps_bound() {
-  for (const Changed& t : changed_) {
-    const bool fresh = !t.stays && !t.vanishes;
-    if (fresh && !reach_.within(t.shape.corners(), t.low, t.high)) return false;
-  }
   handovers_.clear();
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     if (!changed_[i].stays && !place_samples(i)) return false;
   }
-  return true;
+  return std::all_of(changed_.begin(), changed_.end(), [this](const Changed& t) {
+    return t.stays || t.vanishes || reach_.within(t.shape.corners(), t.low, t.high);
+  });
 }
 
 bool DistanceGuard::place_samples(std::size_t from) {
