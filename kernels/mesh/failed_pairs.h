@@ -13,7 +13,8 @@
 namespace mw {
 
 /// Direct-mapped, of a size that follows from the mesh's and stays in the cache: a lost entry costs
-/// one more try, and the same one in every run.
+/// one more try, and the same one in every run.  An entry is a hash of the edge and the versions of
+/// its ends; one look in two thousand million finds another edge's and spares a try that was due.
 class FailedPairs {
  public:
   explicit FailedPairs(std::size_t vertices)
@@ -30,22 +31,23 @@ class FailedPairs {
  private:
   static constexpr std::size_t kLeast = std::size_t{1} << 6;
   static constexpr std::size_t kMost = std::size_t{1} << 14;
-  struct Entry {
-    LocalVertex p = 0, q = 0;
-    std::uint32_t version_p = 0, version_q = 0;
-    friend bool operator==(const Entry&, const Entry&) = default;
-  };
+  static constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;
 
+  static std::uint64_t key(std::uint32_t low, std::uint32_t high) {
+    return (std::uint64_t{low} << 32 | high) * kOdd;
+  }
   [[nodiscard]] std::size_t slot(LocalVertex p, LocalVertex q) const {
-    const std::uint64_t key = std::uint64_t{std::min(p, q)} << 32 | std::max(p, q);
-    return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> shift_);
+    return static_cast<std::size_t>(key(std::min(p, q), std::max(p, q)) >> shift_);
   }
-  static Entry entry(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
+  /// Never 0, which stands for none.
+  static std::uint32_t entry(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
     if (p > q) std::swap(p, q);
-    return {p, q, mesh.version(p), mesh.version(q)};
+    std::uint64_t hash = key(p, q) ^ (key(mesh.version(p), mesh.version(q)) >> 1);
+    hash = (hash ^ hash >> 29) * kOdd;
+    return static_cast<std::uint32_t>(hash >> 32) | 1U;
   }
 
-  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> entries_;
   int shift_;
 };
 
