@@ -127,6 +127,7 @@ void StarBatch::collect(const TetMesh& mesh, const Metric& metric, LocalVertex v
   next_ = 0;
   groups_.clear();
   size_ = 0;
+  suspect_ = 0;
 }
 
 bool StarBatch::gather_group() {
@@ -205,8 +206,20 @@ StarTerms StarBatch::terms_at(const Vec3& x) {
 
 StarVerdict StarBatch::judge_at(const Vec3& x, LocalVertex without, double floor) {
   const auto other = static_cast<std::int32_t>(without);
-  for (std::size_t i = 0; i < groups_.size() || gather_group(); ++i) {
+  const auto judge_group = [&](std::size_t i) {
     const StarVerdict verdict = judge(groups_[i], unit_, x, other, floor);
+    if (verdict != StarVerdict::kGood) suspect_ = i;
+    return verdict;
+  };
+  const std::size_t first = suspect_;
+  const bool first_is_here = first < groups_.size();
+  if (first_is_here) {
+    const StarVerdict verdict = judge_group(first);
+    if (verdict != StarVerdict::kGood) return verdict;
+  }
+  for (std::size_t i = 0; i < groups_.size() || gather_group(); ++i) {
+    if (first_is_here && i == first) continue;
+    const StarVerdict verdict = judge_group(i);
     if (verdict != StarVerdict::kGood) return verdict;
   }
   return StarVerdict::kGood;

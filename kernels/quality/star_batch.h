@@ -51,11 +51,13 @@ class StarBatch {
   [[nodiscard]] StarTerms terms_at(const Vec3& x);
 
   /// Whether all tets without the vertex `without` reach radius ratio `floor`, up to rounding in
-  /// the last digits; inverted ones are found only up to rounding.
+  /// the last digits; inverted ones are found only up to rounding.  Of several faults, that of the
+  /// tets which failed last is told: they are likely to fail again, and are looked at first.
   [[nodiscard]] StarVerdict judge_at(const Vec3& x, LocalVertex without, double floor);
 
   /// Four tets; what is beyond the last one repeats it.
   struct Group {
+    Group() {}                          // filled at once, so not with zeros before
     std::array<StoredInts, 9> corners;  ///< x, y, z of a, b, c from v, in lattice units
     std::array<StoredInts, 3> rows;     ///< of a, b, c; (v, a, b, c) is positive
   };
@@ -72,7 +74,8 @@ class StarBatch {
   LocalVertex vertex_ = 0;
   std::size_t next_ = 0;  ///< triangle of the star to be gathered
   std::vector<Group> groups_;
-  std::size_t size_ = 0;  ///< tets gathered
+  std::size_t size_ = 0;     ///< tets gathered
+  std::size_t suspect_ = 0;  ///< the group that failed last
 };
 
 }  // namespace mw
