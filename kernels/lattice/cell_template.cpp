@@ -4,6 +4,7 @@
 #include "kernels/lattice/cell_template.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/quality/quality.h"
 
@@ -77,20 +78,20 @@ constexpr std::array<unsigned, 27> faces_by_node() {
 }
 constexpr std::array<unsigned, 27> kFacesAt = faces_by_node();
 
-/// Tets between an apex and the triangles of the faces that it is not on.  None when a triangle of
-/// its own faces does not have it for a corner.
-std::vector<NodeTet> cone(CellNode apex, const std::vector<NodeTriangle>& surface) {
-  std::vector<NodeTet> tets;
-  tets.reserve(surface.size());
+/// Finds the tets between an apex and the triangles of the faces that it is not on.  False when a
+/// triangle of its own faces does not have it for a corner.
+bool find_cone(CellNode apex, const std::vector<NodeTriangle>& surface,
+               std::vector<NodeTet>& tets) {
+  tets.clear();
   for (const NodeTriangle& t : surface) {
     const bool beside = (kFacesAt[apex] & kFacesAt[t[0]] & kFacesAt[t[1]] & kFacesAt[t[2]]) != 0;
     if (!beside) {
       tets.push_back({apex, t[0], t[1], t[2]});
     } else if (std::find(t.begin(), t.end(), apex) == t.end()) {
-      return {};
+      return false;
     }
   }
-  return tets;
+  return true;
 }
 
 /// The worst radius ratio of the tets, or any lower one than `enough`.
@@ -101,7 +102,7 @@ double worst_ratio(const std::vector<NodeTet>& tets, const Metric& metric, doubl
     };
     return Point{along(0), along(1), along(2)};
   };
-  double worst = tets.empty() ? 0.0 : 1.0;
+  double worst = 1.0;
   for (const NodeTet& t : tets) {
     const Vec3 a = metric.vector(at(t[0]), at(t[1])), b = metric.vector(at(t[0]), at(t[2])),
                c = metric.vector(at(t[0]), at(t[3]));
@@ -136,17 +137,18 @@ CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric) {
     out.tets = five_tets(odd);
     return out;
   }
-  std::vector<NodeTet> from_centre = cone(kCellCentre, out.surface);
-  double best = std::min(kLeastShape, worst_ratio(from_centre, metric, 0.0));
+  find_cone(kCellCentre, out.surface, out.tets);
+  double best = std::min(kLeastShape, worst_ratio(out.tets, metric, 0.0));
+  bool at_centre = true;
+  std::vector<NodeTet> tets;
   for (CellNode apex = 0; apex <= 26; ++apex) {
-    if (!has_node(nodes, apex)) continue;
-    std::vector<NodeTet> tets = cone(apex, out.surface);
+    if (!has_node(nodes, apex) || !find_cone(apex, out.surface, tets)) continue;
     const double worst = worst_ratio(tets, metric, best);
-    if (worst < best || (worst == best && !out.tets.empty())) continue;
+    if (worst < best || (worst == best && !at_centre)) continue;
     best = worst;
-    out.tets = std::move(tets);
+    at_centre = false;
+    std::swap(out.tets, tets);
   }
-  if (out.tets.empty()) out.tets = std::move(from_centre);
   return out;
 }
 
