@@ -139,10 +139,11 @@ class Simplifier {
   }
 
   /// The verdict on the planned place.  When that is refused, c becomes the first of its other
-  /// places that is good, and as cheap as this round demands.
+  /// places that is good, and as cheap as this round demands; not with the paper's filter, which
+  /// goes with the paper's place.
   StarVerdict judge(Contraction& c) {
     const StarVerdict verdict = shape_.judge(c);
-    if (verdict == StarVerdict::kGood || !c.moves) return verdict;
+    if (verdict == StarVerdict::kGood || !c.moves || options_.edge_variance) return verdict;
     for (const Contraction& other : other_places(mesh_, metric_, c)) {
       if (other.cost > queue_.current_bound()) continue;
       if (shape_.judge(other) != StarVerdict::kGood) continue;

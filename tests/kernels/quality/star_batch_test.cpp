@@ -110,6 +110,10 @@ TEST(StarBatch, JudgesLikeEachTetByItself) {
     EXPECT_FALSE(positive && verdict == StarVerdict::kInverted);
     EXPECT_EQ(gathered.judge_at(trial.offset, without, floor), verdict);
     EXPECT_EQ(fresh.judge_at(trial.offset, without, floor), verdict);
+    // Whatever it was asked before, and however much of it is gathered.
+    (void)fresh.judge_at(Vec3::Zero(), without, 0.01 * below(random, 100));
+    (void)fresh.judge_at(-trial.offset, without, floor);
+    EXPECT_EQ(fresh.judge_at(trial.offset, without, floor) == StarVerdict::kGood, good);
     ++seen[verdict];
   });
   EXPECT_GT(seen[StarVerdict::kGood], 100);
