@@ -15,15 +15,12 @@ struct Cell {
   int level = 0;
 
   [[nodiscard]] std::int64_t size() const { return std::int64_t{1} << level; }
-  friend bool operator==(const Cell&, const Cell&) = default;
 };
 
 /// Face of a cell: axis 0..2, on the low or high side.
 struct CellFace {
   unsigned axis = 0;
   bool high = false;
-
-  friend bool operator==(const CellFace&, const CellFace&) = default;
 };
 
 [[nodiscard]] inline Index3 axis_vector(unsigned axis, std::int64_t length = 1) {

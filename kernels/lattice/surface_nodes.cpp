@@ -3,8 +3,6 @@
 // Hanging nodes from the levels of the cells around, or from labels around mixed cells.
 #include "kernels/lattice/surface_nodes.h"
 
-#include <algorithm>
-
 #include "kernels/core/each_index.h"
 
 namespace mw {

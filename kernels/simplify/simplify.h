@@ -43,7 +43,8 @@ struct SimplifyStats {
 };
 
 /// Contracts edges with both ends free until none that passes the filters costs less than the last
-/// bound of VertexQueue.
+/// bound of VertexQueue.  Where shapes refuse the optimum, other_places() are tried; not with
+/// options.edge_variance, the paper's filter, which goes with the paper's place.
 /// guard: keeps the distance bound; null: no bound.
 /// ENSURES: all tets strictly positive (exactly), options.topology kept, box kept, fixed vertices
 ///          untouched; the result depends on the mesh's content only.
