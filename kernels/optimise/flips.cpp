@@ -33,13 +33,13 @@ double Flipper::energy_of_old_tets() {
   return sum;
 }
 
-double Flipper::least_energy_of_new_tets() const {
-  constexpr double kBestMean = 1.3;
+double Flipper::least_energy_worth_trying() const {
+  constexpr double kForEachNewTet = 1.3;
   std::size_t tets = 0;
   for (const Polygon& polygon : polygons_) {
     if (polygon.label != kExterior) tets += 2 * (polygon.last - polygon.first - 1);
   }
-  return kBestMean * static_cast<double>(tets);
+  return kForEachNewTet * static_cast<double>(tets);
 }
 
 double Flipper::best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon,
@@ -133,7 +133,7 @@ bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
     old_tets_.push_back({{p, q, ring_.vertices[i], ring_.ends[i]}, ring_.labels[i]});
   }
   double gain = energy_of_old_tets();
-  if (!(gain - least_energy_of_new_tets() > kLeastGain)) return false;
+  if (!(gain - least_energy_worth_trying() > kLeastGain)) return false;
   new_tets_.clear();
   for (const Polygon& polygon : polygons_) {
     gain -= best_triangulation(p, q, polygon, gain - kLeastGain);

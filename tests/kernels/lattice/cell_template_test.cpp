@@ -126,10 +126,7 @@ TEST(Sec51CellTemplate, ApexIsOnTheSurfaceWhereShapesAllowIt) {
       worst = std::min(worst, std::max(radius_ratio({edge(1), edge(2), edge(3)}),
                                        radius_ratio({edge(2), edge(1), edge(3)})));
     }
-    EXPECT_GE(worst, 0.2) << nodes << ", the default quality floor could not be promised";
-    if (!centre) {
-      EXPECT_GE(worst, 0.23) << nodes;
-    }
+    EXPECT_GE(worst, 0.25) << nodes << ", the default quality floor could not be promised";
   }
   EXPECT_LT(centres, 300);
   EXPECT_GT(centres, 0);
