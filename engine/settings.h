@@ -25,6 +25,12 @@ enum class Order {
   kColour,  ///< eight colours by parity of the window's position: far wider on small volumes
 };
 
+/// What interfaces are made to follow.
+enum class Surface {
+  kSmooth,  ///< smooth surfaces that keep the labels' volumes
+  kVoxel,   ///< the quadrics of the paper alone (Sec 5.2)
+};
+
 /// What improves tets after each simplification.
 enum class Optimizer {
   kLocal,   ///< flips and smoothing
@@ -44,6 +50,7 @@ struct MeshSettings {
   /// Each window stops collapsing at this many vertices a voxel; none: only the bounds stop it.
   std::optional<double> target_reduction;
   KeptTopology topology = KeptTopology::kLabels;
+  Surface surface = Surface::kSmooth;
   Optimizer optimizer = Optimizer::kLocal;
   int odt_iterations = 10;  ///< at most, in each window, by kTetgen; the paper's number (Sec 6)
 };

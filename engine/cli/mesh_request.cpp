@@ -48,6 +48,9 @@ constexpr std::array<std::pair<const char*, engine::Optimizer>, 3> kOptimizers{
      {"tetgen", engine::Optimizer::kTetgen},
      {kNone, engine::Optimizer::kNone}}};
 
+constexpr std::array<std::pair<const char*, engine::Surface>, 2> kSurfaces{
+    {{"smooth", engine::Surface::kSmooth}, {"voxel", engine::Surface::kVoxel}}};
+
 /// REQUIRES: one of the names.
 template <typename Names>
 auto parse_name(const Names& names, const std::string& text) {
@@ -144,6 +147,15 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
                 s.topology =
                     t == kInterfacesKept ? KeptTopology::kInterfaces : KeptTopology::kLabels;
               });
+  add_setting(
+      options, request,
+      {.name = "surface",
+       .value = "SHAPE",
+       .help = "what interfaces are: smooth, with the labels' volumes kept; voxel, as the paper's "
+               "quadrics leave them",
+       .fallback = text_of(kSurfaces, defaults.surface),
+       .choices = {"smooth", "voxel"}},
+      [](engine::MeshSettings& s, const std::string& t) { s.surface = parse_name(kSurfaces, t); });
   add_setting(options, request,
               {.name = "optimizer",
                .value = "WHICH",

@@ -50,12 +50,13 @@ std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& s) {
                   "order = ", s.order == Order::kColour ? "colour" : "raster", "\n",  //
                   "start = ", start_name(s.start), "\n",                              //
                   "topology = ", s.topology == KeptTopology::kInterfaces ? "interfaces" : "labels",
-                  "\n",                                                     //
-                  "edge-variance = ", number(s.edge_variance), "\n",        //
-                  "quality-floor = ", number(s.quality_floor), "\n",        //
-                  "max-distance = ", number(s.max_distance), "\n",          //
-                  "target-reduction = ", number(s.target_reduction), "\n",  //
-                  "optimizer = ", optimizer_name(s.optimizer), "\n",        //
+                  "\n",                                                                    //
+                  "edge-variance = ", number(s.edge_variance), "\n",                       //
+                  "quality-floor = ", number(s.quality_floor), "\n",                       //
+                  "max-distance = ", number(s.max_distance), "\n",                         //
+                  "target-reduction = ", number(s.target_reduction), "\n",                 //
+                  "surface = ", s.surface == Surface::kSmooth ? "smooth" : "voxel", "\n",  //
+                  "optimizer = ", optimizer_name(s.optimizer), "\n",                       //
                   "odt-iterations = ", s.odt_iterations, "\n");
 }
 
