@@ -25,9 +25,20 @@ int max_level(int window) {
 SimplifyOptions simplify_options(const MeshSettings& settings) {
   SimplifyOptions options{.quality_floor = settings.quality_floor,
                           .edge_variance = settings.edge_variance,
-                          .topology = settings.topology};
+                          .topology = settings.topology,
+                          .keep_smooth = settings.surface == Surface::kSmooth};
   if (settings.quality_floor == 0.0) options.inner_quality = 0.0;
   return options;
+}
+
+std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings) {
+  if (settings.surface == Surface::kVoxel) return std::nullopt;
+  SurfaceWeights w;
+  if (const char* e = getenv("MWS_BEND")) w.bend = atof(e);
+  if (const char* e = getenv("MWS_FIT")) w.fit = atof(e);
+  if (const char* e = getenv("MWS_JA")) w.junction_area = atof(e);
+  if (const char* e = getenv("MWS_A")) w.area = atof(e);
+  return w;
 }
 
 }  // namespace
@@ -47,7 +58,8 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
              .metric = metric},
       simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
-                .quality_floor = settings.quality_floor},
+                .quality_floor = settings.quality_floor,
+                .surface = surface_weights(settings)},
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance),
       target_reduction_(settings.target_reduction) {}
@@ -104,6 +116,10 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
     const auto voxels = static_cast<double>(grid_.window_box(window).voxels());
     options.enough_vertices = static_cast<std::size_t>(*target_reduction_ * voxels);
   }
+  if (optimise_.sweeps > 0) {
+    stats.optimise.moves += fit_interfaces(content.mesh, metric_, optimise_, keep_distance);
+  }
+  watch.lap(stats.optimise_seconds);
   stats.simplify += simplify(content.mesh, metric_, options, keep_distance);
   watch.lap(stats.simplify_seconds);
   stats.optimise += optimise(content.mesh, metric_, optimise_, keep_distance);

@@ -27,6 +27,16 @@ struct VoxelFace {
   return label_pair(labels.at(face.lower), labels.at(face.upper()));
 }
 
+/// True when `carrier`, a face of the coarsened labels, may carry the samples of `face`, one of the
+/// input's: the same labels are on its sides, and in the same order where both have one axis
+/// (samples of one side of a thin sheet that hang on the other would pin both).
+[[nodiscard]] inline bool may_carry(const LabelBox& coarsened, const VoxelFace& carrier,
+                                    const LabelBox& original, const VoxelFace& face) {
+  const LabelPair pair = labels_beside(original, face);
+  if (labels_beside(coarsened, carrier) != pair) return false;
+  return carrier.axis != face.axis || coarsened.at(carrier.lower) == original.at(face.lower);
+}
+
 /// The largest bound that coarsening makes use of, in voxels.
 inline constexpr double kMostCoarseDistance = 1.5;
 

@@ -141,19 +141,19 @@ class Coarsener {
     for (const VoxelFace& f : carriers_.carried_by(lost.axis)) {
       const VoxelFace face{lost.lower + f.lower, f.axis};
       if (labels_beside(original_, face) != labels) continue;
-      if (!has_carrier(face, labels, cube)) return false;
+      if (!has_carrier(face, cube)) return false;
     }
     return true;
   }
 
   /// Faces farther from the cube than its colour may see do not count.
-  [[nodiscard]] bool has_carrier(const VoxelFace& face, LabelPair labels, Index3 cube) const {
+  [[nodiscard]] bool has_carrier(const VoxelFace& face, Index3 cube) const {
     const Box3 seen{cube - Index3{kReachPerColour, kReachPerColour, kReachPerColour},
                     cube + Index3{2 + kReachPerColour, 2 + kReachPerColour, 2 + kReachPerColour}};
     for (const VoxelFace& c : carriers_.of(face.axis)) {
       const VoxelFace carrier{face.lower + c.lower, c.axis};
       if (seen.contains(carrier.lower) && seen.contains(carrier.upper()) &&
-          labels_beside(labels_, carrier) == labels) {
+          may_carry(labels_, carrier, original_, face)) {
         return true;
       }
     }

@@ -43,6 +43,15 @@ inline constexpr QuarterBits kAllQuarters = 15;
   return static_cast<unsigned>(samples >> 4 & 3U);
 }
 
+/// The voxel on the face's lower side.
+[[nodiscard]] inline Index3 lower_voxel(FaceSamples samples) {
+  constexpr FaceSamples kCoordinate = kMaxSampledVoxels - 1;
+  const auto along = [samples](unsigned shift) {
+    return static_cast<std::int64_t>(samples >> shift & kCoordinate);
+  };
+  return {along(6), along(25), along(44)};
+}
+
 [[nodiscard]] inline bool on_same_face(FaceSamples a, FaceSamples b) {
   return ((a ^ b) & ~FaceSamples{kAllQuarters}) == 0;
 }

@@ -19,7 +19,10 @@ namespace mw {
 /// Input to output: every voxel face between two labels has samples; each is carried by one output
 /// triangle between the same labels at a distance of at most D less the covering radius, which
 /// proves all of the face.  A change hands the samples of the triangles that it replaces to the
-/// nearest new ones between the same labels, and is refused when one ends too far.
+/// nearest new ones between the same labels, and is refused when one ends too far.  Where it can, a
+/// triangle takes samples of faces only that look its own way, from the smaller label to the
+/// larger: samples of one side of a thin sheet that hang on the other would pin both.  What no
+/// changed triangle takes, unchanged ones next to them may.
 ///
 /// Contractions of an inner vertex and flips inside a label change no interface triangle;
 /// everything else comes here.
@@ -31,16 +34,34 @@ class DistanceGuard {
   /// Smallest bound that the samples can prove anything for.
   [[nodiscard]] static constexpr double least_distance() { return 2.0 * kSampleCoveringRadius; }
 
+  /// The quarters of one voxel face that a triangle carries.
+  struct Piece {
+    Vec3 middle;            ///< mean of the quarters' samples, in voxels
+    double quarters = 0.0;  ///< how many
+    unsigned axis = 0;      ///< of the face
+    double sign = 1.0;      ///< of the way along the axis from the smaller label to the larger
+  };
+  /// Calls visit(piece) for what a triangle carries whose smaller label is `low`; in an order that
+  /// depends on the window's content only.
+  template <typename Visit>
+  void each_piece(const TriangleKey& key, Label low, Visit visit) const {
+    samples_.each(key, [&](FaceSamples s) {
+      visit(piece(s, low));
+      return true;
+    });
+  }
+
   /// Would contracting (keep, drop) to `target` keep the bound?  Remembers where the samples go.
   /// REQUIRES: both ends free; not yet contracted.
   [[nodiscard]] bool allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
                                         Point target);
   /// The same for a move of v.
   [[nodiscard]] bool allows_move(const TetMesh& mesh, LocalVertex v, Point target);
-  /// The same for a flip that replaces interface triangles (p, q, a) and (p, q, b) between labels
-  /// low < high by (a, b, p) and (a, b, q).
+  /// The same for a flip that replaces interface triangles (p, q, a) and (p, q, b) by (a, b, p) and
+  /// (a, b, q).  The normals of (a, b, q) and (b, a, p) point to label `towards`, away from
+  /// `other`.
   [[nodiscard]] bool allows_flip(const TetMesh& mesh, const std::array<LocalVertex, 2>& pq,
-                                 const std::array<LocalVertex, 2>& ab, Label low, Label high);
+                                 const std::array<LocalVertex, 2>& ab, Label towards, Label other);
   /// Hands the samples over, after the change that was last allowed has been made.
   void commit();
 
@@ -49,7 +70,7 @@ class DistanceGuard {
   struct Changed {
     TriangleKey before;
     TriangleKey after;
-    DistanceTriangle shape;  ///< after the change, in voxels
+    DistanceTriangle shape;  ///< after the change, in voxels; its normal points to high
     Label low = 0;
     Label high = 0;
     bool vanishes = false;
@@ -60,20 +81,40 @@ class DistanceGuard {
     FaceSamples samples = 0;
   };
 
+  /// A sample, or several, that look for a triangle.
+  struct Wanderer {
+    Vec3 point;        ///< in voxels
+    std::size_t from;  ///< row of the triangle that carries it
+    unsigned axis;     ///< of its face
+    double sign;       ///< as in Piece
+    double limit;      ///< of the distance
+  };
+
+  [[nodiscard]] Piece piece(FaceSamples samples, Label low) const;
+  [[nodiscard]] double sign_of(FaceSamples samples, Label low) const;
   void add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other, LocalVertex survivor,
                    Point target);
+  void add_neighbours();
+  void add_neighbours_at(LocalVertex w);
   [[nodiscard]] bool keeps_bound();
   [[nodiscard]] bool place_samples(std::size_t from);
   [[nodiscard]] bool place(FaceSamples samples, std::size_t from);
-  [[nodiscard]] std::optional<std::size_t> receiver(const Vec3& p, std::size_t from,
-                                                    double limit) const;
+  [[nodiscard]] std::optional<std::size_t> receiver(const Wanderer& w) const;
+  [[nodiscard]] std::optional<std::size_t> receiver_nearby(const Wanderer& w);
+  [[nodiscard]] std::optional<std::size_t> nearest(const Wanderer& w, std::size_t first,
+                                                   double least_cosine) const;
 
+  const LabelBox& labels_;
   LabelReach reach_;
   double placing_distance_;
   CarriedSamples& samples_;
   InterfaceFan fan_;
   std::vector<FanTriangle> triangles_;
-  std::vector<Changed> changed_;
+  const TetMesh* mesh_ = nullptr;      ///< of the change in question; null: a flip
+  std::array<LocalVertex, 2> ends_{};  ///< what changes: both ends of an edge, or twice a vertex
+  std::vector<LocalVertex> ring_;      ///< the other vertices of the changed triangles
+  std::vector<Changed> changed_;       ///< and behind them neighbours that stay
+  std::size_t neighbours_ = 0;         ///< row of the first of those; 0: not looked for
   std::vector<Handover> handovers_;
 };
 

@@ -22,7 +22,7 @@ void InterfaceFan::collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTr
                         at_c = others & mesh.label_signature(t.c);
     const auto add = [&](LocalVertex a, LocalVertex b, std::uint64_t shared) {
       if (shared == 0) return;
-      sides_.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), t.label});
+      sides_.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), t.label, a < b});
     };
     add(t.a, t.b, at_a & at_b);
     add(t.b, t.c, at_b & at_c);
@@ -34,7 +34,7 @@ void InterfaceFan::collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTr
     const Side& t = sides_[i + 1];
     if (s.edge == t.edge && s.label != t.label) {
       out.push_back({static_cast<LocalVertex>(s.edge >> 32), static_cast<LocalVertex>(s.edge),
-                     s.label, t.label});
+                     s.label, t.label, t.ascends});
     }
   }
 }

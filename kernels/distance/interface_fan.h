@@ -16,10 +16,11 @@ struct FanTriangle {
   LocalVertex b = 0;
   Label low = 0;
   Label high = 0;
+  bool faces_high = false;  ///< the normal (a - v) x (b - v) points to the side of high
 };
 
 /// Collects the triangles at v that have different labels of the volume on their two sides (the
-/// box is no interface), ascending.  REQUIRES: v free.
+/// box is no interface), ascending.  At a vertex that is not free: those with both tets loaded.
 class InterfaceFan {
  public:
   void collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out);
@@ -28,6 +29,7 @@ class InterfaceFan {
   struct Side {
     std::uint64_t edge = 0;  ///< its smaller vertex in the upper half
     Label label = 0;
+    bool ascends = false;  ///< the normal of (v, smaller, larger) points into the tet
     friend auto operator<=>(const Side&, const Side&) = default;
   };
   std::vector<Side> sides_;

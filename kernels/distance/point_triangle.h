@@ -15,6 +15,8 @@ class DistanceTriangle {
   explicit DistanceTriangle(const std::array<Vec3, 3>& corners);
 
   [[nodiscard]] const std::array<Vec3, 3>& corners() const { return corners_; }
+  /// By the right-hand rule; zero where the triangle is too narrow to have one.
+  [[nodiscard]] const Vec3& unit_normal() const { return unit_normal_; }
   /// Squared distance from p to the nearest point of the triangle.
   [[nodiscard]] double squared_distance(const Vec3& p) const;
 

@@ -199,7 +199,7 @@ class StartBuilder {
 
   [[nodiscard]] std::optional<Place> place_in_block(const VoxelFace& face) const {
     const LabelPair pair = labels_beside(labels_.original, face);
-    const VoxelFace carrier = carrier_of(face, pair);
+    const VoxelFace carrier = carrier_of(face);
     const bool low_is_lower = labels_.shape.at(carrier.lower) == pair.low;
     const Index3 owner = low_is_lower ? carrier.lower : carrier.upper();
     if (!block_.contains(owner)) return std::nullopt;
@@ -254,10 +254,10 @@ class StartBuilder {
     }
   }
 
-  [[nodiscard]] VoxelFace carrier_of(const VoxelFace& face, LabelPair pair) const {
+  [[nodiscard]] VoxelFace carrier_of(const VoxelFace& face) const {
     for (const VoxelFace& c : carriers_.of(face.axis)) {
       const VoxelFace carrier{face.lower + c.lower, c.axis};
-      if (labels_beside(labels_.shape, carrier) == pair) return carrier;
+      if (may_carry(labels_.shape, carrier, labels_.original, face)) return carrier;
     }
     throw Error(ErrorKind::kInternal, "coarsening left an interface face without a carrier");
   }

@@ -20,8 +20,8 @@ double Flipper::energy_of(const LocalTet& tet) const {
   return tet.label == kExterior ? 0.0 : shape_energy(radius_ratio(mesh_, metric_, tet), least_);
 }
 
-/// Also decides what new tets must reach.
-double Flipper::energy_of_old_tets() {
+/// Also decides what new tets must reach: the worst present one, or `decent`.
+double Flipper::energy_of_old_tets(double decent) {
   double worst = 1.0, sum = 0.0;
   for (const LocalTet& t : old_tets_) {
     if (t.label == kExterior) continue;
@@ -29,7 +29,7 @@ double Flipper::energy_of_old_tets() {
     worst = std::min(worst, r);
     sum += shape_energy(r, 0.0);
   }
-  least_ = least_allowed(worst, quality_floor_);
+  least_ = least_allowed(worst, decent, quality_floor_);
   return sum;
 }
 
@@ -117,34 +117,52 @@ bool Flipper::cut_into_polygons() {
 bool Flipper::surface_allows(LocalVertex p, LocalVertex q) {
   if (polygons_.size() == 1) return true;
   const std::array<LocalVertex, 2> ab{ring_vertex(0), ring_vertex(polygons_[1].first)};
-  const auto [low, high] = std::minmax(polygons_[0].label, polygons_[1].label);
-  if (high == kExterior) {
+  const Label first = polygons_[0].label, second = polygons_[1].label;
+  if (first == kExterior || second == kExterior) {
     return (mesh_.planes(p) & mesh_.planes(q) & mesh_.planes(ab[0]) & mesh_.planes(ab[1])) != 0;
   }
-  return guard_ == nullptr || guard_->allows_flip(mesh_, {p, q}, ab, low, high);
+  // The new tets of the first polygon are (a, ., b, q) and (a, b, ., p).
+  return guard_ == nullptr || guard_->allows_flip(mesh_, {p, q}, ab, first, second);
 }
 
-bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
-  if (mesh_.star(q).size() < mesh_.star(p).size()) std::swap(p, q);
-  if (!collect_ring(mesh_, p, q, ring_) || ring_.size() > kMaxRing) return false;
+bool Flipper::is_between_labels() const {
+  return polygons_.size() == 2 && polygons_[0].label != kExterior &&
+         polygons_[1].label != kExterior;
+}
+
+bool Flipper::collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring) {
+  if (!collect_ring(mesh_, p, q, ring_) || ring_.size() > max_ring) return false;
   if (!cut_into_polygons()) return false;
   old_tets_.clear();
   for (std::size_t i = 0; i < ring_.size(); ++i) {
     old_tets_.push_back({{p, q, ring_.vertices[i], ring_.ends[i]}, ring_.labels[i]});
   }
-  double gain = energy_of_old_tets();
-  if (!(gain - least_energy_worth_trying() > kLeastGain)) return false;
+  return true;
+}
+
+bool Flipper::replace_within(LocalVertex p, LocalVertex q, double budget) {
   new_tets_.clear();
   for (const Polygon& polygon : polygons_) {
-    gain -= best_triangulation(p, q, polygon, gain - kLeastGain);
-    if (!(gain > kLeastGain) || !collect_triangles(p, q, polygon)) return false;
+    budget -= best_triangulation(p, q, polygon, budget - kLeastGain);
+    if (!(budget > kLeastGain) || !collect_triangles(p, q, polygon)) return false;
   }
   if (!surface_allows(p, q)) return false;
   replace();
-  const bool on_guarded_surface =
-      polygons_.size() == 2 && polygons_[0].label != kExterior && polygons_[1].label != kExterior;
-  if (guard_ != nullptr && on_guarded_surface) guard_->commit();
+  if (guard_ != nullptr && is_between_labels()) guard_->commit();
   return true;
+}
+
+bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
+  if (mesh_.star(q).size() < mesh_.star(p).size()) std::swap(p, q);
+  if (!collect_polygons(p, q, kMaxRing)) return false;
+  const double energy = energy_of_old_tets(kDecentRatio);
+  return energy - least_energy_worth_trying() > kLeastGain && replace_within(p, q, energy);
+}
+
+bool Flipper::flip_surface(LocalVertex p, LocalVertex q, double surface_gain) {
+  if (mesh_.star(q).size() < mesh_.star(p).size()) std::swap(p, q);
+  if (!collect_polygons(p, q, kMaxSurfaceRing) || !is_between_labels()) return false;
+  return replace_within(p, q, energy_of_old_tets(kFloorOnSurface) + surface_gain);
 }
 
 }  // namespace mw

@@ -48,8 +48,13 @@ class Flipper {
   /// cut in two by the new edge (a, b).
   bool remove_edge(LocalVertex p, LocalVertex q);
 
+  /// The same for an edge between two labels of the volume, when shapes and surface together gain:
+  /// the surface alone gains `surface_gain`, in units of the shape energy.  REQUIRES: a guard.
+  bool flip_surface(LocalVertex p, LocalVertex q, double surface_gain);
+
  private:
   static constexpr std::size_t kMaxRing = 5;
+  static constexpr std::size_t kMaxSurfaceRing = 8;
   static constexpr double kLeastGain = 1e-2;
 
   /// Ring vertices first .. last, a polygon of one label; last may be ring size, which is vertex 0.
@@ -59,12 +64,13 @@ class Flipper {
     Label label = 0;
   };
 
+  [[nodiscard]] bool collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring);
   [[nodiscard]] bool cut_into_polygons();
   [[nodiscard]] bool surface_allows(LocalVertex p, LocalVertex q);
   [[nodiscard]] LocalVertex ring_vertex(std::size_t i) const {
     return ring_.vertices[i % ring_.size()];
   }
-  [[nodiscard]] double energy_of_old_tets();
+  [[nodiscard]] double energy_of_old_tets(double decent);
   /// Rings of less energy are not worth a search: of 5,900 that were replaced on EM 40^3, none had
   /// less than 1.32 for each new tet.
   [[nodiscard]] double least_energy_worth_trying() const;
@@ -73,6 +79,9 @@ class Flipper {
   [[nodiscard]] double best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon,
                                           double limit);
   bool collect_triangles(LocalVertex p, LocalVertex q, const Polygon& polygon);
+  [[nodiscard]] bool is_between_labels() const;
+  /// Looks for new tets that cost less than `budget`, and puts them in.
+  bool replace_within(LocalVertex p, LocalVertex q, double budget);
   void replace();
 
   TetMesh& mesh_;
@@ -82,8 +91,8 @@ class Flipper {
   double least_ = 0.0;  ///< what the new tets must reach
   EdgeRing ring_;
   std::vector<Polygon> polygons_;
-  std::array<std::array<double, kMaxRing + 1>, kMaxRing + 1> energy_{};
-  std::array<std::array<std::size_t, kMaxRing + 1>, kMaxRing + 1> apex_{};
+  std::array<std::array<double, kMaxSurfaceRing + 1>, kMaxSurfaceRing + 1> energy_{};
+  std::array<std::array<std::size_t, kMaxSurfaceRing + 1>, kMaxSurfaceRing + 1> apex_{};
   std::vector<LocalTet> old_tets_;
   std::vector<LocalTet> new_tets_;
 };

@@ -6,6 +6,7 @@
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/optimise/smooth.h"
+#include "kernels/optimise/unfold.h"
 #include "kernels/quality/mesh_quality.h"
 
 namespace mw {
@@ -56,9 +57,21 @@ std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOpti
   return flips;
 }
 
+std::uint64_t unfold_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
+                           DistanceGuard& guard) {
+  Unfolder unfolder(mesh, metric, *options.surface, options.quality_floor, guard);
+  std::uint64_t flips = 0;
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_alive(v) || !mesh.is_free(v) || !mesh.on_interface(v)) continue;
+    flips += unfolder.unfold(v);
+  }
+  return flips;
+}
+
 std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                            DistanceGuard* guard) {
-  Smoother smoother(mesh, metric, {options.smooth_below, options.quality_floor}, guard);
+  Smoother smoother(mesh, metric, {options.smooth_below, options.quality_floor, options.surface},
+                    guard);
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
@@ -80,9 +93,26 @@ OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOption
   OptimiseStats stats;
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
     stats.flips += flip_sweep(mesh, metric, options, guard);
+    const bool unfolds = guard != nullptr && options.surface && options.surface->bend > 0.0;
+    if (unfolds) stats.flips += unfold_sweep(mesh, metric, options, *guard);
     stats.moves += smooth_sweep(mesh, metric, options, guard);
   }
   return stats;
+}
+
+std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
+                             DistanceGuard* guard) {
+  if (guard == nullptr || !options.surface) return 0;
+  // Curvature of steps says nothing, and bends of steps are no faults yet.
+  const SurfaceWeights weights{
+      .area = 0.3, .junction_area = 0.03, .bend = 0.0, .with_pressure = false};
+  Smoother smoother(mesh, metric, {options.smooth_below, options.quality_floor, weights}, guard);
+  std::uint64_t moves = 0;
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_alive(v) || !mesh.is_free(v) || !mesh.on_interface(v)) continue;
+    moves += smoother.smooth(v) ? 1U : 0U;
+  }
+  return moves;
 }
 
 }  // namespace mw

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
+#include "kernels/surface/surface_energy.h"
 
 namespace mw {
 
@@ -15,6 +17,7 @@ struct OptimiseOptions {
   double flip_below = 0.4;     ///< flips are tried on tets with a smaller radius ratio
   double smooth_below = 0.8;   ///< smoothing, at vertices whose worst tet is below
   double quality_floor = 0.1;  ///< no step creates a tet below, unless it replaces a worse one
+  std::optional<SurfaceWeights> surface;  ///< as SmoothOptions
 };
 
 struct OptimiseStats {
@@ -30,5 +33,11 @@ struct OptimiseStats {
 ///          moves, box kept, fixed vertices do not move; depends on content only.
 OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                        DistanceGuard* guard = nullptr);
+
+/// One sweep of smoothing over interface vertices alone, to be done before contraction: what is
+/// contracted then lies on the surface that the input's faces mean, not on their steps.
+/// Without `guard` or options.surface it does nothing.  Returns how many moved.
+std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
+                             DistanceGuard* guard);
 
 }  // namespace mw

@@ -5,11 +5,12 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
 #include "kernels/quality/mesh_quality.h"
-#include "kernels/quality/star_batch.h"
+#include "kernels/surface/bend.h"
 
 namespace mw {
 namespace {
@@ -24,17 +25,25 @@ constexpr double kQuadricShare = 0.1;
 /// rest.
 constexpr double kLeastGain = 0.002;
 
-/// What a move of one vertex has to respect.
+/// Steps of the search around a fold, shares of the mean edge.
+constexpr std::array<double, 4> kSearchSteps{0.4, 0.2, 0.1, 0.05};
+constexpr int kHalvings = 2;
+
+/// What a move of one vertex has to respect, and what it costs.
 class Mover {
  public:
-  Mover(const TetMesh& mesh, const Metric& metric, StarBatch& star, LocalVertex v, double least)
+  /// surface: null where none is fitted.
+  Mover(const TetMesh& mesh, const Metric& metric, StarBatch& star, SurfaceEnergy* surface,
+        LocalVertex v, const StarShape& present, double least)
       : mesh_(mesh),
         metric_(metric),
         star_(star),
+        surface_(surface),
         v_(v),
         fixed_(fixed_axes(mesh.planes(v))),
+        present_(present.energy),
         least_(least) {
-    if (mesh.on_interface(v)) {
+    if (surface == nullptr && mesh.on_interface(v)) {
       const Quadric& q = mesh.quadric(v);
       quadric_limit_ = std::max(q.c, kInterfaceSlack * q.trace());
     }
@@ -65,15 +74,20 @@ class Mover {
   }
 
   [[nodiscard]] double energy(Point x, double enough) const {
-    return star_.energy_at(from_start(x), least_, enough);
+    const Vec3 at = from_start(x);
+    const double of_surface = surface_ == nullptr ? 0.0 : present_ * surface_->value_at(at);
+    return of_surface + star_.energy_at(at, least_, enough - of_surface);
   }
 
-  /// Newton's step for StarBatch::terms_at; on interfaces the quadric is added.
+  /// Newton's step for StarBatch::terms_at and the surface energy; without one, on interfaces, the
+  /// quadric is added.
   [[nodiscard]] Vec3 newton_step(Point x) const {
-    StarTerms terms = star_.terms_at(from_start(x));
+    const Vec3 at = from_start(x);
+    StarTerms terms = star_.terms_at(at);
+    if (surface_ != nullptr) surface_->add_derivatives(at, terms.value, terms);
     if (quadric_limit_) {
       const double weight = kQuadricShare * terms.value / *quadric_limit_;
-      const Quadric q = mesh_.quadric(v_).shifted(from_start(x));
+      const Quadric q = mesh_.quadric(v_).shifted(at);
       terms.gradient += 2.0 * weight * q.linear();
       terms.hessian += 2.0 * weight * q.matrix();
     }
@@ -98,8 +112,10 @@ class Mover {
   const TetMesh& mesh_;
   const Metric& metric_;
   StarBatch& star_;
+  SurfaceEnergy* surface_;
   LocalVertex v_;
   unsigned fixed_;
+  double present_;
   double least_;
   std::optional<double> quadric_limit_;
 };
@@ -130,21 +146,90 @@ void search(const Mover& mover, Best& best) {
   }
 }
 
+/// The mean normal of a star, and two directions across it; unit vectors.
+std::array<Vec3, 3> frame_of(const SurfaceStar& star) {
+  Vec3 normal = Vec3::Zero();
+  for (const SurfaceTriangle& t : star.triangles()) normal += t.normal(Vec3::Zero());
+  const double length = normal.norm();
+  normal = length > 0.0 ? Vec3(normal / length) : Vec3::UnitX();
+  const Vec3 across = normal.unitOrthogonal();
+  return {normal, across, normal.cross(across)};
+}
+
+double mean_edge(const SurfaceStar& star) {
+  double sum = 0.0;
+  for (const SurfaceTriangle& t : star.triangles()) sum += t.to_a.norm();
+  return sum / static_cast<double>(star.triangles().size());
+}
+
+/// Takes each step along the frame that lowers the energy, long ones first.
+void search_around(const Mover& mover, const SurfaceStar& star, Best& best) {
+  const std::array<Vec3, 3> frame = frame_of(star);
+  const double edge = mean_edge(star);
+  for (const double step : kSearchSteps) {
+    for (const Vec3& way : frame) {
+      if (best.offer(mover, mover.target(best.position, step * edge * way))) continue;
+      best.offer(mover, mover.target(best.position, -step * edge * way));
+    }
+  }
+}
+
+Point between(Point a, Point b) {
+  return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2, a.z + (b.z - a.z) / 2};
+}
+
 }  // namespace
 
+Smoother::Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& options,
+                   DistanceGuard* guard)
+    : mesh_(mesh),
+      metric_(metric),
+      options_(options),
+      guard_(guard),
+      surface_energy_(options.surface.value_or(SurfaceWeights{})) {
+  if (fits_interfaces() && options_.surface->with_pressure) curvature_.measure(mesh, metric);
+}
+
+void Smoother::collect_surface(LocalVertex v) {
+  const SurfaceWeights& weights = *options_.surface;
+  surface_.collect(mesh_, metric_, v);
+  if (weights.bend > 0.0) surface_.collect_rims(mesh_, metric_);
+  surface_energy_.collect(mesh_, metric_, surface_, *guard_,
+                          weights.with_pressure ? &curvature_ : nullptr);
+}
+
 bool Smoother::smooth(LocalVertex v) {
+  const bool fitted = fits_interfaces() && mesh_.on_interface(v);
   star_.collect(mesh_, metric_, v);
   const StarShape present = star_.shape_at(Vec3::Zero());
-  if (present.worst >= options_.smooth_below) return false;
-  const Mover mover(mesh_, metric_, star_, v, least_allowed(present.worst, options_.quality_floor));
+  if (!fitted && present.worst >= options_.smooth_below) return false;
+  if (fitted) collect_surface(v);
+  const double least =
+      least_allowed(present.worst, fitted ? kFloorOnSurface : kDecentRatio, options_.quality_floor);
+  const Mover mover(mesh_, metric_, star_, fitted ? &surface_energy_ : nullptr, v, present, least);
   const Point start = mesh_.position(v);
   Best best{start, present.energy};
   search(mover, best);
-  if (best.energy > (1.0 - kLeastGain) * present.energy) return false;
+  const bool folded =
+      fitted && options_.surface->bend > 0.0 && surface_energy_.least_cosine() < kSharpCosine;
+  if (folded) search_around(mover, surface_, best);
+  const double enough = (1.0 - kLeastGain) * present.energy;
+  for (int halvings = folded ? kHalvings : 0; best.energy <= enough; --halvings) {
+    if (move_to(v, best.position)) return true;
+    if (halvings == 0) return false;
+    best.position = between(start, best.position);
+    if (best.position == start || !mover.all_positive(best.position)) return false;
+    best.energy = mover.energy(best.position, enough);
+  }
+  return false;
+}
+
+/// If the distance bound lets it.
+bool Smoother::move_to(LocalVertex v, Point target) {
   const bool guarded = guard_ != nullptr && mesh_.on_interface(v);
-  if (guarded && !guard_->allows_move(mesh_, v, best.position)) return false;
-  const Vec3 move = metric_.vector(start, best.position);
-  mesh_.move(v, best.position, mesh_.quadric(v).shifted(move));
+  if (guarded && !guard_->allows_move(mesh_, v, target)) return false;
+  const Vec3 move = metric_.vector(mesh_.position(v), target);
+  mesh_.move(v, target, mesh_.quadric(v).shifted(move));
   if (guarded) guard_->commit();
   return true;
 }

@@ -3,40 +3,57 @@
 // Vertex smoothing: moves a free vertex to where the tets of its star have better shapes.
 #pragma once
 
+#include <optional>
+
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/star_batch.h"
+#include "kernels/surface/curvature.h"
+#include "kernels/surface/surface_energy.h"
+#include "kernels/surface/surface_star.h"
 
 namespace mw {
 
 struct SmoothOptions {
   double smooth_below = 0.8;   ///< vertices whose worst tet reaches this are left alone
   double quality_floor = 0.1;  ///< no move creates a tet below, unless it replaces a worse one
+  /// With a guard: interface vertices, however good their tets, go where SurfaceEnergy and the
+  /// shape energy together are least.  None, or no guard: where shapes are best within the slack.
+  std::optional<SurfaceWeights> surface;
 };
 
 /// Moves vertices to where the shape energy of their stars (kernels/quality/star_batch.h) is
 /// clearly lower.
 ///
-/// Inner vertices move freely, box vertices within their planes, interface vertices only where
+/// Inner vertices move freely, box vertices within their planes.  Interface vertices move by
+/// SurfaceEnergy as well; those with a fold at them search along the normal and across it too,
+/// because Newton's steps end in the nearest minimum.  Without a surface energy they go only where
 /// their quadric stays below max(present value, a quarter voxel squared per accumulated plane): the
 /// slack is absolute, so it does not add up over visits.  With a guard they keep the distance bound
 /// as well.
 class Smoother {
  public:
   Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& options,
-           DistanceGuard* guard = nullptr)
-      : mesh_(mesh), metric_(metric), options_(options), guard_(guard) {}
+           DistanceGuard* guard = nullptr);
 
   /// REQUIRES: v free.  ENSURES: all tets exactly positive; connectivity unchanged, so topology is.
   /// Returns true when v moved.
   bool smooth(LocalVertex v);
 
+  [[nodiscard]] bool fits_interfaces() const { return guard_ != nullptr && options_.surface; }
+
  private:
+  void collect_surface(LocalVertex v);
+  bool move_to(LocalVertex v, Point target);
+
   TetMesh& mesh_;
   const Metric& metric_;
   SmoothOptions options_;
   DistanceGuard* guard_;
   StarBatch star_;
+  SurfaceStar surface_;
+  SurfaceEnergy surface_energy_;
+  CurvatureField curvature_;  ///< as it was before the first move
 };
 
 }  // namespace mw

@@ -41,11 +41,15 @@ namespace mw {
   return r > 0.0 && r >= least ? 1.0 / r : std::numeric_limits<double>::infinity();
 }
 
+/// What an improvement may lower tets to that were better: decent where shapes are all that
+/// counts, less where a surface gains.
+inline constexpr double kDecentRatio = 0.3;
+inline constexpr double kFloorOnSurface = 0.2;
+
 /// What an improvement may lower the radius ratio of a tet to, when the worst present one has
 /// `worst`: never below that, nor below the quality floor, unless it stays decent.
-[[nodiscard]] inline double least_allowed(double worst, double quality_floor) {
-  constexpr double kDecent = 0.3;
-  return std::min(worst, std::max(kDecent, quality_floor));
+[[nodiscard]] inline double least_allowed(double worst, double decent, double quality_floor) {
+  return std::min(worst, std::max(decent, quality_floor));
 }
 
 }  // namespace mw

@@ -7,6 +7,7 @@
 
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/mesh/vertex_marks.h"
+#include "kernels/simplify/bend_filter.h"
 #include "kernels/simplify/contraction.h"
 #include "kernels/simplify/shape_filter.h"
 #include "kernels/simplify/vertex_queue.h"
@@ -104,7 +105,8 @@ class Simplifier {
         queue_(mesh.vertex_count()),
         finder_(mesh, metric),
         shape_(mesh, metric, options),
-        topology_(mesh, options.topology) {}
+        topology_(mesh, options.topology),
+        bends_(mesh, metric) {}
 
   SimplifyStats run() {
     options_.seeding(mesh_.vertex_count(), [this](std::size_t first, std::size_t last) {
@@ -170,6 +172,10 @@ class Simplifier {
       ++stats_.topology;
       return false;
     }
+    if (both_on_boundaries && options_.keep_smooth && !bends_.stays_smooth(c)) {
+      ++stats_.folded;
+      return false;
+    }
     const bool guarded = guard_ != nullptr && both_on_boundaries;
     if (guarded && !guard_->allows_contraction(mesh_, c.keep, c.drop, c.position)) {
       ++stats_.distance;
@@ -190,6 +196,7 @@ class Simplifier {
   CandidateFinder finder_;
   ShapeFilter shape_;
   CollapseTest topology_;
+  BendFilter bends_;
   SimplifyStats stats_;
 };
 
@@ -201,6 +208,7 @@ SimplifyStats& SimplifyStats::operator+=(const SimplifyStats& other) {
   inverted += other.inverted;
   low_quality += other.low_quality;
   topology += other.topology;
+  folded += other.folded;
   distance += other.distance;
   return *this;
 }

@@ -23,6 +23,7 @@ struct SimplifyOptions {
   /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none: unbounded.
   std::optional<double> edge_variance;
   KeptTopology topology = KeptTopology::kLabels;
+  bool keep_smooth = false;  ///< contractions that fold interfaces are refused (BendFilter)
   /// Contraction ends when no more than this many vertices, fixed ones included, are left.
   std::size_t enough_vertices = 0;
   /// Runs the loop over all vertices that fills the queue (4 to 5 % of the time, bench).  The
@@ -37,6 +38,7 @@ struct SimplifyStats {
   std::uint64_t inverted = 0;
   std::uint64_t low_quality = 0;
   std::uint64_t topology = 0;
+  std::uint64_t folded = 0;
   std::uint64_t distance = 0;
 
   SimplifyStats& operator+=(const SimplifyStats& other);

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Flips of interface edges that take folds out of interfaces.
+#pragma once
+
+#include "kernels/distance/distance_guard.h"
+#include "kernels/mesh/failed_pairs.h"
+#include "kernels/mesh/tet_mesh.h"
+#include "kernels/optimise/flips.h"
+#include "kernels/surface/surface_energy.h"
+#include "kernels/surface/surface_star.h"
+
+namespace mw {
+
+/// Flips the edge between two interface triangles where the five edges of the two bend less
+/// afterwards.  What bends and the distance to the carried faces gain may be paid for by the shapes
+/// of the tets around the edge, down to the floor.
+class Unfolder {
+ public:
+  Unfolder(TetMesh& mesh, const Metric& metric, const SurfaceWeights& weights, double quality_floor,
+           DistanceGuard& guard)
+      : mesh_(mesh),
+        metric_(metric),
+        weights_(weights),
+        guard_(guard),
+        flipper_(mesh, metric, quality_floor, &guard),
+        failed_(mesh.vertex_count()) {}
+
+  /// Tries the interface edges at v; returns how many were flipped.  REQUIRES: v free.
+  std::uint64_t unfold(LocalVertex v);
+
+ private:
+  /// The two triangles at an edge (v, q), and what lies across their other edges.
+  struct Hinge;
+
+  bool unfold_one(LocalVertex v);
+  [[nodiscard]] Hinge hinge(const Spoke& spoke) const;
+  [[nodiscard]] double misfit(const SurfaceTriangle& t, const Hinge& h) const;
+
+  TetMesh& mesh_;
+  const Metric& metric_;
+  SurfaceWeights weights_;
+  DistanceGuard& guard_;
+  Flipper flipper_;
+  FailedPairs failed_;
+  SurfaceStar star_;
+};
+
+}  // namespace mw

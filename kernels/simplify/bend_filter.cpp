@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Bends before and after.
+#include "kernels/simplify/bend_filter.h"
+
+#include <cstdlib>
+
+namespace mw {
+namespace {
+
+constexpr double kShareOfPresent = 0.8;
+/// Bend energy that any contraction may leave.
+const double kFree = getenv("MWS_T") ? atof(getenv("MWS_T")) : 1.5;
+
+}  // namespace
+
+bool BendFilter::stays_smooth(const Contraction& c) {
+  for (const auto& [star, v] : {std::pair{&keep_, c.keep}, std::pair{&drop_, c.drop}}) {
+    star->collect(mesh_, metric_, v);
+    star->collect_rims(mesh_, metric_);
+  }
+  merged_.merge(keep_, metric_.vector(mesh_.position(c.keep), c.position), drop_,
+                metric_.vector(mesh_.position(c.drop), c.position));
+  const double after = merged_.bends_at(Vec3::Zero());
+  if (after <= kFree) return true;
+  const double present = keep_.bends_at(Vec3::Zero()) + drop_.bends_at(Vec3::Zero());
+  return after <= kShareOfPresent * present + kFree;
+}
+
+}  // namespace mw

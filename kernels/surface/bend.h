@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The energy of a bend between two triangles of an interface.
+#pragma once
+
+#include <algorithm>
+
+#include "kernels/core/metric.h"
+
+namespace mw {
+
+/// Bends whose 1 - cosine is below this, some 14 degrees, cost nothing: a curved surface has them.
+inline constexpr double kFreeBend = 0.03;
+/// The cosine of a sharp bend, 60 degrees.
+inline constexpr double kSharpCosine = 0.5;
+
+/// How far a bend goes beyond what is free, by the cosine of the angle between the normals.
+[[nodiscard]] inline double bend_excess(double cosine) {
+  return std::max(0.0, 1.0 - cosine - kFreeBend);
+}
+
+/// Energy of a bend: the square of the excess.  It grows from a fold of 14 degrees to one of 180
+/// by about 4, and steeply where a surface turns back on itself.
+[[nodiscard]] inline double bend_energy(double cosine) {
+  const double excess = bend_excess(cosine);
+  return excess * excess;
+}
+
+/// Cosine between two normals of any length; 1 when one of them is zero.
+[[nodiscard]] inline double cosine_between(const Vec3& m, const Vec3& n) {
+  const double squares = m.squaredNorm() * n.squaredNorm();
+  return squares > 0.0 ? m.dot(n) / std::sqrt(squares) : 1.0;
+}
+
+}  // namespace mw

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Inside by the normal equations of the plane, else the nearest of the three edges.
+#include "kernels/surface/foot.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace mw {
+namespace {
+
+/// Share of the way from `from` to `to` of the point that is nearest to p.
+double share_of_way(const Vec3& p, const Vec3& from, const Vec3& to) {
+  const Vec3 way = to - from;
+  const double square = way.squaredNorm();
+  return square > 0.0 ? std::clamp((p - from).dot(way) / square, 0.0, 1.0) : 0.0;
+}
+
+}  // namespace
+
+Foot foot_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm();
+  const double pa = p.dot(a), pb = p.dot(b);
+  const double area = aa * bb - ab * ab;  // of the parallelogram, squared
+  const double u = bb * pa - ab * pb, v = aa * pb - ab * pa;
+  if (area > 0.0 && u >= 0.0 && v >= 0.0 && u + v <= area) {
+    const double along_a = u / area, along_b = v / area;
+    return {{1.0 - along_a - along_b, along_a, along_b},
+            (p - along_a * a - along_b * b).squaredNorm()};
+  }
+  const double on_a = share_of_way(p, Vec3::Zero(), a), on_b = share_of_way(p, Vec3::Zero(), b),
+               on_ab = share_of_way(p, a, b);
+  const std::array<Foot, 3> feet{
+      {{{1.0 - on_a, on_a, 0.0}, (p - on_a * a).squaredNorm()},
+       {{1.0 - on_b, 0.0, on_b}, (p - on_b * b).squaredNorm()},
+       {{0.0, 1.0 - on_ab, on_ab}, (p - a - on_ab * (b - a)).squaredNorm()}}};
+  return *std::min_element(feet.begin(), feet.end(), [](const Foot& f, const Foot& g) {
+    return f.squared_distance < g.squared_distance;
+  });
+}
+
+}  // namespace mw

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sums over the triangles, spokes and rims of a star, in the order in which it has them.
+#include "kernels/surface/surface_energy.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "kernels/surface/bend.h"
+#include "kernels/surface/foot.h"
+
+namespace mw {
+namespace {
+
+/// Bends count by their mean over the spokes of a usual star.
+constexpr double kUsualSpokes = 6.0;
+
+Vec3 unit(const Vec3& normal) {
+  const double length = normal.norm();
+  return length > 0.0 ? Vec3(normal / length) : Vec3::Zero();
+}
+
+/// Of a voxel face across an axis.
+double face_area(const Vec3& voxel, unsigned axis) {
+  return voxel.prod() / voxel[static_cast<int>(axis)];
+}
+
+/// Gradient of the cosine between a triangle's normal and another direction, when v moves.
+/// normal: of the triangle, unit; length: before it was made so; edge: from a to b.
+Vec3 cosine_gradient(const Vec3& normal, double length, const Vec3& edge, const Vec3& other,
+                     double cosine) {
+  return (other - cosine * normal).cross(edge) / length;
+}
+
+}  // namespace
+
+void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
+                            const DistanceGuard& guard, const CurvatureField* curvature) {
+  star_ = &star;
+  square_.setZero();
+  linear_.setZero();
+  pressure_.setZero();
+  mass_ = 0.0;
+  unit_normals_.clear();
+  double area = 0.0;
+  for (const SurfaceTriangle& t : star.triangles()) {
+    const Vec3 normal = t.normal(Vec3::Zero());
+    area += 0.5 * normal.norm();
+    unit_normals_.push_back(unit(normal));
+  }
+  const LocalVertex v = star.vertex();
+  fit(metric, mesh.position(v), guard);
+  if (mass_ > 0.0) mass_ = std::max(mass_, area / 6.0);
+  const bool on_box = mesh.planes(v) != 0;
+  area_weight_ = on_box ? 0.0 : mesh.order(v) == 2 ? weights_.area : weights_.junction_area;
+  if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
+  present_ = raw_value_at(Vec3::Zero());
+}
+
+void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard& guard) {
+  const Vec3 voxel = metric.voxel();
+  const Vec3 at = metric.vector({}, origin);
+  for (const SurfaceTriangle& t : star_->triangles()) {
+    const TriangleKey key = triangle_key(star_->vertex(), t.a, t.b);
+    guard.each_piece(key, t.low, [&](const DistanceGuard::Piece& piece) {
+      const double area = piece.quarters / kSamplesPerFace * face_area(voxel, piece.axis);
+      add_piece(piece.middle.cwiseProduct(voxel) - at, area, piece, t.low, t.high);
+    });
+  }
+}
+
+/// p: middle of the piece, from v.
+void SurfaceEnergy::add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece,
+                              Label low, Label high) {
+  const std::vector<SurfaceTriangle>& triangles = star_->triangles();
+  std::size_t nearest = triangles.size();
+  Foot foot;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const SurfaceTriangle& t = triangles[i];
+    if (!t.is_between(low, high)) continue;
+    const Foot f = foot_on_triangle(p, t.to_a, t.to_b);
+    if (nearest < triangles.size() && f.squared_distance >= foot.squared_distance) continue;
+    nearest = i;
+    foot = f;
+  }
+  const Vec3& n = unit_normals_[nearest];
+  const double weight = area * piece.sign * n[static_cast<int>(piece.axis)];
+  if (!(weight > 0.0)) return;
+  const SurfaceTriangle& t = triangles[nearest];
+  const double r = n.dot(p - foot.weights[1] * t.to_a - foot.weights[2] * t.to_b);
+  const double share = foot.weights[0];
+  square_ += weight * share * share * n * n.transpose();
+  linear_ += weight * share * r * n;
+  mass_ += weight * share * share;
+}
+
+/// For each pair of labels the mean curvature of the ring times what v's move adds to the volume.
+void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
+  const std::vector<SurfaceTriangle>& triangles = star_->triangles();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const SurfaceTriangle& first = triangles[i];
+    const auto is_same = [&](const SurfaceTriangle& t) {
+      return t.is_between(first.low, first.high);
+    };
+    const auto end = triangles.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(triangles.begin(), end, is_same)) continue;
+    double sum = 0.0, count = 0.0;
+    Vec3 volume_gradient = Vec3::Zero();
+    for (const SurfaceTriangle& t : triangles) {
+      if (!is_same(t)) continue;
+      volume_gradient += t.normal(Vec3::Zero()) / 6.0;
+      for (const LocalVertex w : {t.a, t.b}) {
+        const auto known = curvature.at(w);
+        sum += known.value_or(0.0);
+        count += known ? 1.0 : 0.0;
+      }
+    }
+    if (count > 0.0) pressure_ += sum / count * volume_gradient;
+  }
+}
+
+double SurfaceEnergy::least_cosine() const {
+  double least = 1.0;
+  for (const Spoke& s : star_->spokes()) {
+    least = std::min(least, unit_normals_[s.first].dot(unit_normals_[s.second]));
+  }
+  for (const Rim& r : star_->rims()) {
+    least = std::min(least, unit_normals_[r.triangle].dot(r.normal));
+  }
+  return least;
+}
+
+double SurfaceEnergy::raw_value_at(const Vec3& x) const {
+  double value = 0.0;
+  if (mass_ > 0.0) {
+    value = x.dot(square_ * x) - 2.0 * linear_.dot(x);
+    if (area_weight_ > 0.0) {
+      double area = 0.0;
+      for (const SurfaceTriangle& t : star_->triangles()) area += 0.5 * t.normal(x).norm();
+      value += area_weight_ * (area - pressure_.dot(x));
+    }
+    value *= weights_.fit / mass_;
+  }
+  if (weights_.bend > 0.0) value += weights_.bend / kUsualSpokes * star_->bends_at(x);
+  return value;
+}
+
+void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& terms) {
+  if (mass_ > 0.0) {
+    const double factor = scale * weights_.fit / mass_;
+    terms.gradient += factor * 2.0 * (square_ * x - linear_);
+    terms.hessian += factor * 2.0 * square_;
+    if (area_weight_ > 0.0) add_area(x, factor * area_weight_, terms);
+  }
+  if (weights_.bend > 0.0) add_bends(x, scale * weights_.bend / kUsualSpokes, terms);
+}
+
+/// The Hessian leaves out the motions within a triangle's plane.
+void SurfaceEnergy::add_area(const Vec3& x, double scale, StarTerms& terms) const {
+  constexpr double kNarrow = 0.1;
+  terms.gradient -= scale * pressure_;
+  for (const SurfaceTriangle& t : star_->triangles()) {
+    const Vec3 edge = t.to_b - t.to_a;
+    const Vec3 normal = t.normal(x);
+    const double length = normal.norm(), base = edge.norm();
+    if (!(length > 0.0)) continue;
+    const Vec3 n = normal / length;
+    terms.gradient += 0.5 * scale * n.cross(edge);
+    const double height = std::max(length / base, kNarrow * base);
+    terms.hessian += 0.5 * scale * base / height * n * n.transpose();
+  }
+}
+
+void SurfaceEnergy::add_bends(const Vec3& x, double scale, StarTerms& terms) {
+  const std::vector<SurfaceTriangle>& t = star_->triangles();
+  const auto edge = [&](std::uint32_t i) { return Vec3(t[i].to_b - t[i].to_a); };
+  for (const Spoke& s : star_->spokes()) {
+    const Vec3 m = t[s.first].normal(x), n = t[s.second].normal(x);
+    const double lm = m.norm(), ln = n.norm();
+    if (!(lm > 0.0) || !(ln > 0.0)) continue;
+    const Vec3 um = m / lm, un = n / ln;
+    const double cosine = um.dot(un);
+    if (!(bend_excess(cosine) > 0.0)) continue;
+    const Vec3 gradient = cosine_gradient(um, lm, edge(s.first), un, cosine) +
+                          cosine_gradient(un, ln, edge(s.second), um, cosine);
+    add_bend(gradient, cosine, scale, terms);
+  }
+  for (const Rim& r : star_->rims()) {
+    const Vec3 m = t[r.triangle].normal(x);
+    const double length = m.norm();
+    if (!(length > 0.0)) continue;
+    const Vec3 um = m / length;
+    const double cosine = um.dot(r.normal);
+    if (!(bend_excess(cosine) > 0.0)) continue;
+    add_bend(cosine_gradient(um, length, edge(r.triangle), r.normal, cosine), cosine, scale, terms);
+  }
+}
+
+/// Of a square: the Gauss-Newton part of its Hessian.
+void SurfaceEnergy::add_bend(const Vec3& gradient, double cosine, double scale,
+                             StarTerms& terms) const {
+  terms.gradient -= 2.0 * scale * bend_excess(cosine) * gradient;
+  terms.hessian += 2.0 * scale * gradient * gradient.transpose();
+}
+
+}  // namespace mw

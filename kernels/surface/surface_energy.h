@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a good interface costs: distance to the input's faces, area at constant volume, bends.
+#pragma once
+
+#include "kernels/distance/distance_guard.h"
+#include "kernels/quality/star_batch.h"
+#include "kernels/surface/curvature.h"
+#include "kernels/surface/surface_star.h"
+
+namespace mw {
+
+/// Weights of the parts of SurfaceEnergy.
+struct SurfaceWeights {
+  double fit = 5.0;
+  double area = 1.0;            ///< beside the fit, voxels squared; between two labels, off the box
+  double junction_area = 0.03;  ///< the same where more labels meet
+  double bend = 8.0;
+  bool with_pressure = true;
+};
+
+/// An energy of the interface triangles at a vertex v, as a function of where v is put, that adds
+/// to the shape energy of its tets; 0 where v is now.
+///
+/// Fit.  The faces of the input's interfaces that the triangles carry (DistanceGuard) have area s
+/// and unit normal e; let n be the unit normal of the nearest triangle at v, r the distance along n
+/// from v's share of that triangle to the face's middle, and f the weight of v at the foot.  Then
+///   Q(x) = sum of w (f n.x - r)^2 with w = max(0, s e.n).
+/// That its gradient is zero says that the signed volume between input and output, weighted by the
+/// hat function of v, is zero; hat functions add up to 1, so labels keep their volumes.
+///
+/// Area.  A fit alone leaves what no face holds (spikes, folds) as it is.  Area pulls it straight,
+/// and a pressure P holds against the pull so much as the neighbours' curvature asks for, which
+/// makes it a diffusion of curvature: balls stay balls of the same volume.  On the box there is no
+/// area term, or surfaces would turn square to it.
+///
+/// Bends.  The energies (bend.h) of spokes and rims.
+///
+/// In all, with E the present shape energy of v's tets and M the sum of w f^2 (or, where few faces
+/// are carried, a sixth of the triangles' area):
+///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies)), less its value at 0.
+class SurfaceEnergy {
+ public:
+  explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
+
+  /// The energy at the star's vertex.  `curvature` may be null: no pressure.
+  /// Keeps references to star and mesh.  REQUIRES: rims collected, for weights.bend > 0.
+  void collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
+               const DistanceGuard& guard, const CurvatureField* curvature);
+
+  /// Without the factor E; 0 for x = 0.
+  [[nodiscard]] double value_at(const Vec3& x) const { return raw_value_at(x) - present_; }
+  /// Adds `scale` times the derivatives; the Hessian is replaced by a positive semidefinite one.
+  void add_derivatives(const Vec3& x, double scale, StarTerms& terms);
+
+  /// The least cosine of a spoke or rim at present; 1 when there is none.
+  [[nodiscard]] double least_cosine() const;
+
+ private:
+  void fit(const Metric& metric, Point origin, const DistanceGuard& guard);
+  void add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece, Label low,
+                 Label high);
+  void find_pressure(const CurvatureField& curvature);
+  [[nodiscard]] double raw_value_at(const Vec3& x) const;
+  void add_area(const Vec3& x, double scale, StarTerms& terms) const;
+  void add_bends(const Vec3& x, double scale, StarTerms& terms);
+  void add_bend(const Vec3& gradient, double cosine, double scale, StarTerms& terms) const;
+
+  SurfaceWeights weights_;
+  const SurfaceStar* star_ = nullptr;
+  std::vector<Vec3> unit_normals_;  ///< of the star's triangles at present
+  double mass_ = 0.0;               ///< M; 0: there is nothing to fit
+  double area_weight_ = 0.0;
+  Eigen::Matrix3d square_ = Eigen::Matrix3d::Zero();  ///< Q is x.square x - 2 linear.x
+  Vec3 linear_ = Vec3::Zero();
+  Vec3 pressure_ = Vec3::Zero();
+  double present_ = 0.0;
+};
+
+}  // namespace mw

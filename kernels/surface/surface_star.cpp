@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Pairs of triangles by a look at all of them: a star has a dozen at most, in general.
+#include "kernels/surface/surface_star.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "kernels/surface/bend.h"
+
+namespace mw {
+
+Vec3 SurfaceTriangle::normal(const Vec3& x) const {
+  return (to_a - x).cross(to_b - x);
+}
+
+void SurfaceStar::collect(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
+  vertex_ = v;
+  triangles_.clear();
+  rims_.clear();
+  fan_.collect(mesh, v, found_);
+  const Point origin = mesh.position(v);
+  for (const FanTriangle& t : found_) {
+    const LocalVertex a = t.faces_high ? t.a : t.b, b = t.faces_high ? t.b : t.a;
+    triangles_.push_back({a, b, t.low, t.high, metric.vector(origin, mesh.position(a)),
+                          metric.vector(origin, mesh.position(b))});
+  }
+  find_spokes();
+}
+
+/// Normals agree along an interface, so the two triangles of a spoke run through it in opposite
+/// ways: it is a of one and b of the other.
+void SurfaceStar::find_spokes() {
+  spokes_.clear();
+  const auto n = static_cast<std::uint32_t>(triangles_.size());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const SurfaceTriangle& t = triangles_[i];
+    std::uint32_t others = 0, other = 0;
+    for (std::uint32_t k = 0; k < n; ++k) {
+      if (k == i || !triangles_[k].is_between(t.low, t.high) || !triangles_[k].has(t.a)) continue;
+      ++others;
+      other = k;
+    }
+    if (others == 1 && triangles_[other].b == t.a) spokes_.push_back({i, other});
+  }
+}
+
+void SurfaceStar::merge(const SurfaceStar& star, const Vec3& move, const SurfaceStar& other,
+                        const Vec3& other_move) {
+  vertex_ = star.vertex();
+  triangles_.clear();
+  rims_.clear();
+  add_without(other.vertex(), star, move);
+  add_without(star.vertex(), other, other_move);
+  find_spokes();
+}
+
+void SurfaceStar::add_without(LocalVertex vanishing, const SurfaceStar& star, const Vec3& move) {
+  auto rim = star.rims_.begin();
+  for (std::uint32_t i = 0; i < star.triangles_.size(); ++i) {
+    const bool has_rim = rim != star.rims_.end() && rim->triangle == i;
+    SurfaceTriangle t = star.triangles_[i];
+    if (!t.has(vanishing)) {
+      if (has_rim) rims_.push_back({static_cast<std::uint32_t>(triangles_.size()), rim->normal});
+      t.to_a -= move;
+      t.to_b -= move;
+      triangles_.push_back(t);
+    }
+    if (has_rim) ++rim;
+  }
+}
+
+double SurfaceStar::bends_at(const Vec3& x) const {
+  double sum = 0.0;
+  for (const Spoke& s : spokes_) {
+    sum +=
+        bend_energy(cosine_between(triangles_[s.first].normal(x), triangles_[s.second].normal(x)));
+  }
+  for (const Rim& r : rims_) {
+    sum += bend_energy(cosine_between(triangles_[r.triangle].normal(x), r.normal));
+  }
+  return sum;
+}
+
+void SurfaceStar::collect_rims(const TetMesh& mesh, const Metric& metric) {
+  rims_.clear();
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) find_rim(mesh, metric, i);
+}
+
+void SurfaceStar::find_rim(const TetMesh& mesh, const Metric& metric, std::uint32_t row) {
+  const SurfaceTriangle& t = triangles_[row];
+  const bool a_is_smaller = mesh.star(t.a).size() <= mesh.star(t.b).size();
+  const LocalVertex p = a_is_smaller ? t.a : t.b, q = a_is_smaller ? t.b : t.a;
+  if (!collect_ring(mesh, p, q, ring_)) return;
+  LocalVertex other = mesh.infinity();
+  int others = 0;
+  for (std::size_t i = 0; i < ring_.size(); ++i) {
+    const Label before = ring_.labels[(i + ring_.size() - 1) % ring_.size()];
+    const auto [low, high] = std::minmax(before, ring_.labels[i]);
+    if (!t.is_between(low, high) || ring_.vertices[i] == vertex_) continue;
+    other = ring_.vertices[i];
+    ++others;
+  }
+  if (others != 1) return;
+  // Across the edge the normal of (b, a, other) points to high, as that of (v, a, b) does.
+  const Vec3 to_other = metric.vector(mesh.position(vertex_), mesh.position(other));
+  const Vec3 normal = (t.to_a - t.to_b).cross(to_other - t.to_b);
+  const double length = normal.norm();
+  if (length > 0.0) rims_.push_back({row, normal / length});
+}
+
+}  // namespace mw

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The interface triangles at a vertex, and how they meet each other and their neighbours.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/distance/interface_fan.h"
+#include "kernels/mesh/tet_mesh.h"
+#include "kernels/topology/edge_ring.h"
+
+namespace mw {
+
+/// Triangle (v, a, b) between labels low < high; the normal of (v, a, b) points to high.
+struct SurfaceTriangle {
+  LocalVertex a = 0;
+  LocalVertex b = 0;
+  Label low = 0;
+  Label high = 0;
+  Vec3 to_a;  ///< from v, metric units
+  Vec3 to_b;
+
+  [[nodiscard]] bool is_between(Label l, Label h) const { return low == l && high == h; }
+  [[nodiscard]] bool has(LocalVertex w) const { return a == w || b == w; }
+  /// Twice the area times the unit normal, when v moves by x.
+  [[nodiscard]] Vec3 normal(const Vec3& x) const;
+};
+
+/// Two triangles at v that share an edge at v and are the only two of their labels there.
+struct Spoke {
+  std::uint32_t first = 0;  ///< rows of triangles
+  std::uint32_t second = 0;
+};
+
+/// The edge opposite v of a triangle, where exactly two triangles of its labels meet.
+struct Rim {
+  std::uint32_t triangle = 0;  ///< row of the one at v
+  Vec3 normal;                 ///< unit normal of the other, from low to high
+};
+
+/// The interface triangles at a vertex, as they were when it was collected.
+class SurfaceStar {
+ public:
+  /// Triangles and spokes.  REQUIRES: v free.
+  void collect(const TetMesh& mesh, const Metric& metric, LocalVertex v);
+  /// Rims as well, of the star collected last: those with all tets around them loaded.
+  void collect_rims(const TetMesh& mesh, const Metric& metric);
+
+  /// What is left of the stars of two vertices when both become one at a place that is `move` from
+  /// the first and `other_move` from the other: the triangles at both vanish.
+  /// REQUIRES: rims of both were collected.
+  void merge(const SurfaceStar& star, const Vec3& move, const SurfaceStar& other,
+             const Vec3& other_move);
+
+  /// The sum of bend energies (bend.h) of spokes and rims, when v moves by x.
+  [[nodiscard]] double bends_at(const Vec3& x) const;
+
+  [[nodiscard]] LocalVertex vertex() const { return vertex_; }
+  [[nodiscard]] const std::vector<SurfaceTriangle>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::vector<Spoke>& spokes() const { return spokes_; }
+  [[nodiscard]] const std::vector<Rim>& rims() const { return rims_; }
+
+ private:
+  void add_without(LocalVertex vanishing, const SurfaceStar& star, const Vec3& move);
+  void find_spokes();
+  void find_rim(const TetMesh& mesh, const Metric& metric, std::uint32_t row);
+
+  LocalVertex vertex_ = 0;
+  InterfaceFan fan_;
+  std::vector<FanTriangle> found_;
+  std::vector<SurfaceTriangle> triangles_;
+  std::vector<Spoke> spokes_;
+  std::vector<Rim> rims_;
+  EdgeRing ring_;
+};
+
+}  // namespace mw
