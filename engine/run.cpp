@@ -206,12 +206,12 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
     if (report.threads > 1) visitor.seed_with(tbb_for);
-    if (i + 1 == layout.marches()) visitor.polish();
+    const WindowOrder order(layout.grid(i), settings.order);
+    if (i + 1 == layout.marches()) visitor.polish(order);
     if (i + 1 == layout.marches() && workers != nullptr) {
       visitor.reconnect_with([workers](const Plc& plc) { return workers->triangulate(plc); });
     }
-    marches.run(static_cast<int>(i), WindowOrder(layout.grid(i), settings.order), store.march(i),
-                visitor);
+    marches.run(static_cast<int>(i), order, store.march(i), visitor);
   }
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();

@@ -122,7 +122,9 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   watch.lap(stats.optimise_seconds);
   stats.simplify += simplify(content.mesh, metric_, options, keep_distance);
   watch.lap(stats.simplify_seconds);
-  stats.optimise += optimise(content.mesh, metric_, optimise_, keep_distance);
+  OptimiseOptions polish = optimise_;
+  polish.later = later_boxes(window);
+  stats.optimise += optimise(content.mesh, metric_, polish, keep_distance);
   watch.lap(stats.optimise_seconds);
   if (!triangulate_) return;
   reconnect(window, content, stats);
@@ -131,6 +133,17 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   light.sweeps = std::min(light.sweeps, 1);
   stats.optimise += optimise(content.mesh, metric_, light, keep_distance);
   watch.lap(stats.optimise_seconds);
+}
+
+/// Empty before the last march.
+std::vector<LatticeBox> WindowVisitor::later_boxes(Index3 window) const {
+  std::vector<LatticeBox> out;
+  if (!order_) return out;
+  for (const Index3 w : order_->later_neighbours(window)) {
+    const Box3 box = grid_.window_box(w);
+    out.push_back({lattice_corner(box.lo), lattice_corner(box.hi)});
+  }
+  return out;
 }
 
 void WindowVisitor::reconnect(Index3 window, WindowContent& content, VisitStats& stats) const {

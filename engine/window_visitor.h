@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/block_store.h"
+#include "engine/march/window_order.h"
 #include "engine/prepared_labels.h"
 #include "engine/settings.h"
 #include "engine/window.h"
@@ -42,9 +43,10 @@ class WindowVisitor {
                 const WindowGrid& grid, BlockStore& store);
 
   /// Optimises longer and flips more: for the last march, when shape is all that is left to gain.
-  void polish() {
+  void polish(const WindowOrder& order) {
     optimise_.sweeps *= kPolishSweeps;
     optimise_.flip_below = kPolishFlipBelow;
+    order_ = order;
   }
   /// Adds constrained ODT with this triangulation, which many threads may ask at once.  Local
   /// optimisation stays around it when there is a quality floor: tets of a Delaunay triangulation
@@ -62,9 +64,10 @@ class WindowVisitor {
   VisitStats visit(Index3 window) const;
 
  private:
-  static constexpr int kPolishSweeps = 3;
+  const int kPolishSweeps = getenv("MWS_S") ? atoi(getenv("MWS_S")) : 3;
   static constexpr double kPolishFlipBelow = 0.7;
 
+  [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;
   /// use(labels around the block, its box).
@@ -80,6 +83,7 @@ class WindowVisitor {
   OptimiseOptions optimise_;
   CodtOptions codt_;
   Triangulate triangulate_;
+  std::optional<WindowOrder> order_;  ///< of the last march
   std::optional<double> max_distance_;
   std::optional<double> target_reduction_;
 };

@@ -120,6 +120,15 @@ std::vector<Index3> WindowOrder::successors(Index3 window) const {
                                   : colour_successors(window, grid_.windows());
 }
 
+std::vector<Index3> WindowOrder::later_neighbours(Index3 window) const {
+  std::vector<Index3> out;
+  const Box3 around{window - Index3{1, 1, 1}, window + Index3{2, 2, 2}};
+  each_index(intersection(around, {{0, 0, 0}, grid_.windows()}), [&](Index3 w) {
+    if (rank(w) > rank(window)) out.push_back(w);
+  });
+  return out;
+}
+
 std::int64_t WindowOrder::step(Index3 window) const {
   return order_ == Order::kRaster ? raster_step(window, grid_.windows())
                                   : colour_step(window, grid_.windows());

@@ -42,6 +42,9 @@ class WindowOrder {
   [[nodiscard]] std::vector<Index3> predecessors(Index3 window) const;
   [[nodiscard]] std::vector<Index3> successors(Index3 window) const;
 
+  /// Neighbours (windows that share a block) that come after this one.
+  [[nodiscard]] std::vector<Index3> later_neighbours(Index3 window) const;
+
   /// Length of the longest path that ends at the window: the step at which it runs at the earliest
   /// when all windows take one step.  The longest path from it on has steps() - 1 - step() edges.
   [[nodiscard]] std::int64_t step(Index3 window) const;

@@ -3,6 +3,8 @@
 // Sweeps in ascending vertex order.
 #include "kernels/optimise/optimise.h"
 
+#include <algorithm>
+
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/optimise/smooth.h"
@@ -11,6 +13,43 @@
 
 namespace mw {
 namespace {
+
+/// Which vertices have a turn in a sweep: all, until those of later calls are left out.
+class Turns {
+ public:
+  void leave_out(const TetMesh& mesh, const std::vector<LatticeBox>& later) {
+    if (later.empty()) return;
+    has_.assign(mesh.vertex_count(), 1);
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      if (!mesh.is_alive(v)) continue;
+      const LatticeBox box = box_of_star(mesh, v);
+      const bool waits = std::any_of(later.begin(), later.end(),
+                                     [&](const LatticeBox& b) { return is_within(box, b); });
+      if (waits) has_[v] = 0;
+    }
+  }
+  [[nodiscard]] bool has(LocalVertex v) const { return has_.empty() || has_[v] != 0; }
+
+ private:
+  static LatticeBox box_of_star(const TetMesh& mesh, LocalVertex v) {
+    LatticeBox box{mesh.position(v), mesh.position(v)};
+    for (const LinkTriangle& t : mesh.star(v)) {
+      for (const LocalVertex w : {t.a, t.b, t.c}) {
+        if (w == mesh.infinity()) continue;
+        const Point p = mesh.position(w);
+        box.lo = {std::min(box.lo.x, p.x), std::min(box.lo.y, p.y), std::min(box.lo.z, p.z)};
+        box.hi = {std::max(box.hi.x, p.x), std::max(box.hi.y, p.y), std::max(box.hi.z, p.z)};
+      }
+    }
+    return box;
+  }
+  static bool is_within(const LatticeBox& inner, const LatticeBox& outer) {
+    return inner.lo.x >= outer.lo.x && inner.lo.y >= outer.lo.y && inner.lo.z >= outer.lo.z &&
+           inner.hi.x <= outer.hi.x && inner.hi.y <= outer.hi.y && inner.hi.z <= outer.hi.z;
+  }
+
+  std::vector<std::uint8_t> has_;
+};
 
 /// Flips edges, but not one again that failed and did not change since.
 class EdgeFlips {
@@ -38,10 +77,11 @@ class EdgeFlips {
 };
 
 std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
-                         DistanceGuard* guard) {
+                         DistanceGuard* guard, const Turns& turns) {
   EdgeFlips flipper(mesh, metric, options.quality_floor, guard);
   std::uint64_t flips = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (!turns.has(v)) continue;
     for (std::size_t i = 0; i < mesh.star(v).size();) {
       const LinkTriangle t = mesh.star(v)[i];
       const bool mine = v < t.a && v < t.b && v < t.c && t.label != kExterior;
@@ -58,23 +98,23 @@ std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOpti
 }
 
 std::uint64_t unfold_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
-                           DistanceGuard& guard) {
+                           DistanceGuard& guard, const Turns& turns) {
   Unfolder unfolder(mesh, metric, *options.surface, options.quality_floor, guard);
   std::uint64_t flips = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
-    if (!mesh.is_alive(v) || !mesh.is_free(v) || !mesh.on_interface(v)) continue;
+    if (!turns.has(v) || !mesh.is_alive(v) || !mesh.is_free(v) || !mesh.on_interface(v)) continue;
     flips += unfolder.unfold(v);
   }
   return flips;
 }
 
 std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
-                           DistanceGuard* guard) {
+                           DistanceGuard* guard, VolumeDebts& debts, const Turns& turns) {
   Smoother smoother(mesh, metric, {options.smooth_below, options.quality_floor, options.surface},
-                    guard);
+                    guard, &debts);
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
-    if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
+    if (!turns.has(v) || !mesh.is_alive(v) || !mesh.is_free(v)) continue;
     moves += smoother.smooth(v) ? 1U : 0U;
   }
   return moves;
@@ -91,11 +131,14 @@ OptimiseStats& OptimiseStats::operator+=(const OptimiseStats& other) {
 OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                        DistanceGuard* guard) {
   OptimiseStats stats;
+  VolumeDebts debts;
+  Turns turns;
+  const bool unfolds = guard != nullptr && options.surface && options.surface->bend > 0.0;
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    stats.flips += flip_sweep(mesh, metric, options, guard);
-    const bool unfolds = guard != nullptr && options.surface && options.surface->bend > 0.0;
-    if (unfolds) stats.flips += unfold_sweep(mesh, metric, options, *guard);
-    stats.moves += smooth_sweep(mesh, metric, options, guard);
+    static const int kAll = getenv("MWS_ALL") ? atoi(getenv("MWS_ALL")) : 2; if (sweep == kAll) turns.leave_out(mesh, options.later);
+    stats.flips += flip_sweep(mesh, metric, options, guard, turns);
+    if (unfolds) stats.flips += unfold_sweep(mesh, metric, options, *guard, turns);
+    stats.moves += smooth_sweep(mesh, metric, options, guard, debts, turns);
   }
   return stats;
 }

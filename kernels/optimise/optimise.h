@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
@@ -12,8 +13,17 @@
 
 namespace mw {
 
+/// A box in lattice units, closed.
+struct LatticeBox {
+  Point lo;
+  Point hi;
+};
+
 struct OptimiseOptions {
   int sweeps = 1;
+  /// What later calls will see.  Sweeps after the first leave vertices alone whose stars lie in one
+  /// of these boxes: those calls can do it, when more of what is around is as it will stay.
+  std::vector<LatticeBox> later;
   double flip_below = 0.4;     ///< flips are tried on tets with a smaller radius ratio
   double smooth_below = 0.8;   ///< smoothing, at vertices whose worst tet is below
   double quality_floor = 0.1;  ///< no step creates a tet below, unless it replaces a worse one

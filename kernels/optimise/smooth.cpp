@@ -178,14 +178,28 @@ Point between(Point a, Point b) {
   return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2, a.z + (b.z - a.z) / 2};
 }
 
+/// Moves to the best place by move(place), or where that is refused to places half as far.
+template <typename Move>
+bool take(const Mover& mover, Point start, Best best, double enough, int halvings, Move move) {
+  for (; best.energy <= enough; --halvings) {
+    if (move(best.position)) return true;
+    if (halvings == 0) return false;
+    best.position = between(start, best.position);
+    if (best.position == start || !mover.all_positive(best.position)) return false;
+    best.energy = mover.energy(best.position, enough);
+  }
+  return false;
+}
+
 }  // namespace
 
 Smoother::Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& options,
-                   DistanceGuard* guard)
+                   DistanceGuard* guard, VolumeDebts* debts)
     : mesh_(mesh),
       metric_(metric),
       options_(options),
       guard_(guard),
+      debts_(debts),
       surface_energy_(options.surface.value_or(SurfaceWeights{})) {
   if (fits_interfaces() && options_.surface->with_pressure) curvature_.measure(mesh, metric);
 }
@@ -195,7 +209,7 @@ void Smoother::collect_surface(LocalVertex v) {
   surface_.collect(mesh_, metric_, v);
   if (weights.bend > 0.0) surface_.collect_rims(mesh_, metric_);
   surface_energy_.collect(mesh_, metric_, surface_, *guard_,
-                          weights.with_pressure ? &curvature_ : nullptr);
+                          weights.with_pressure ? &curvature_ : nullptr, debts_);
 }
 
 bool Smoother::smooth(LocalVertex v) {
@@ -214,14 +228,12 @@ bool Smoother::smooth(LocalVertex v) {
       fitted && options_.surface->bend > 0.0 && surface_energy_.least_cosine() < kSharpCosine;
   if (folded) search_around(mover, surface_, best);
   const double enough = (1.0 - kLeastGain) * present.energy;
-  for (int halvings = folded ? kHalvings : 0; best.energy <= enough; --halvings) {
-    if (move_to(v, best.position)) return true;
-    if (halvings == 0) return false;
-    best.position = between(start, best.position);
-    if (best.position == start || !mover.all_positive(best.position)) return false;
-    best.energy = mover.energy(best.position, enough);
+  const bool moved = take(mover, start, best, enough, folded ? kHalvings : 0,
+                          [&](Point x) { return move_to(v, x); });
+  if (fitted && debts_ != nullptr) {
+    debts_->set(v, surface_energy_.debts_at(metric_.vector(start, mesh_.position(v))));
   }
-  return false;
+  return moved;
 }
 
 /// If the distance bound lets it.

@@ -8,7 +8,7 @@
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/star_batch.h"
-#include "kernels/surface/curvature.h"
+#include "kernels/surface/curvature_field.h"
 #include "kernels/surface/surface_energy.h"
 #include "kernels/surface/surface_star.h"
 
@@ -33,8 +33,9 @@ struct SmoothOptions {
 /// as well.
 class Smoother {
  public:
+  /// debts: those of the sweep before, which become those of this one; null: none.
   Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& options,
-           DistanceGuard* guard = nullptr);
+           DistanceGuard* guard = nullptr, VolumeDebts* debts = nullptr);
 
   /// REQUIRES: v free.  ENSURES: all tets exactly positive; connectivity unchanged, so topology is.
   /// Returns true when v moved.
@@ -50,6 +51,7 @@ class Smoother {
   const Metric& metric_;
   SmoothOptions options_;
   DistanceGuard* guard_;
+  VolumeDebts* debts_;
   StarBatch star_;
   SurfaceStar surface_;
   SurfaceEnergy surface_energy_;

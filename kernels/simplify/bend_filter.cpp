@@ -15,16 +15,24 @@ const double kFree = getenv("MWS_T") ? atof(getenv("MWS_T")) : 1.5;
 }  // namespace
 
 bool BendFilter::stays_smooth(const Contraction& c) {
-  for (const auto& [star, v] : {std::pair{&keep_, c.keep}, std::pair{&drop_, c.drop}}) {
-    star->collect(mesh_, metric_, v);
-    star->collect_rims(mesh_, metric_);
-  }
+  collect(c);
   merged_.merge(keep_, metric_.vector(mesh_.position(c.keep), c.position), drop_,
                 metric_.vector(mesh_.position(c.drop), c.position));
   const double after = merged_.bends_at(Vec3::Zero());
   if (after <= kFree) return true;
-  const double present = keep_.bends_at(Vec3::Zero()) + drop_.bends_at(Vec3::Zero());
-  return after <= kShareOfPresent * present + kFree;
+  return after <= kShareOfPresent * present_ + kFree;
+}
+
+void BendFilter::collect(const Contraction& c) {
+  const std::uint64_t now = mesh_.changes() + 1;
+  if (at_ == now && keep_.vertex() == c.keep && drop_.vertex() == c.drop) return;
+  at_ = now;
+  present_ = 0.0;
+  for (const auto& [star, v] : {std::pair{&keep_, c.keep}, std::pair{&drop_, c.drop}}) {
+    star->collect(mesh_, metric_, v);
+    star->collect_rims(mesh_, metric_);
+    present_ += star->bends_at(Vec3::Zero());
+  }
 }
 
 }  // namespace mw

@@ -21,10 +21,14 @@ class BendFilter {
   [[nodiscard]] bool stays_smooth(const Contraction& c);
 
  private:
+  void collect(const Contraction& c);
+
   const TetMesh& mesh_;
   const Metric& metric_;
   SurfaceStar keep_;
   SurfaceStar drop_;
+  double present_ = 0.0;  ///< bends of both
+  std::uint64_t at_ = 0;  ///< TetMesh::changes(), and 1, when the stars were collected; 0: never
   SurfaceStar merged_;
 };
 

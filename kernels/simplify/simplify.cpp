@@ -155,6 +155,19 @@ class Simplifier {
     return verdict;
   }
 
+  /// True when no fold is left at the place, or at another one that is good; that is then c's.
+  bool find_smooth_place(Contraction& c) {
+    if (bends_.stays_smooth(c)) return true;
+    if (!c.moves) return false;
+    for (const Contraction& other : other_places(mesh_, metric_, c)) {
+      if (other.position == c.position || other.cost > queue_.current_bound()) continue;
+      if (!bends_.stays_smooth(other) || shape_.judge(other) != StarVerdict::kGood) continue;
+      c = other;
+      return true;
+    }
+    return false;
+  }
+
   bool try_contraction(Contraction c) {
     ++stats_.tried;
     switch (judge(c)) {
@@ -172,7 +185,7 @@ class Simplifier {
       ++stats_.topology;
       return false;
     }
-    if (both_on_boundaries && options_.keep_smooth && !bends_.stays_smooth(c)) {
+    if (both_on_boundaries && options_.keep_smooth && !find_smooth_place(c)) {
       ++stats_.folded;
       return false;
     }

@@ -20,11 +20,6 @@ Vec3 unit(const Vec3& normal) {
   return length > 0.0 ? Vec3(normal / length) : Vec3::Zero();
 }
 
-/// Of a voxel face across an axis.
-double face_area(const Vec3& voxel, unsigned axis) {
-  return voxel.prod() / voxel[static_cast<int>(axis)];
-}
-
 /// Gradient of the cosine between a triangle's normal and another direction, when v moves.
 /// normal: of the triangle, unit; length: before it was made so; edge: from a to b.
 Vec3 cosine_gradient(const Vec3& normal, double length, const Vec3& edge, const Vec3& other,
@@ -35,18 +30,21 @@ Vec3 cosine_gradient(const Vec3& normal, double length, const Vec3& edge, const 
 }  // namespace
 
 void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
-                            const DistanceGuard& guard, const CurvatureField* curvature) {
+                            const DistanceGuard& guard, const CurvatureField* curvature,
+                            const VolumeDebts* debts) {
   star_ = &star;
   square_.setZero();
   linear_.setZero();
   pressure_.setZero();
   mass_ = 0.0;
   unit_normals_.clear();
+  balances_.clear();
   double area = 0.0;
   for (const SurfaceTriangle& t : star.triangles()) {
     const Vec3 normal = t.normal(Vec3::Zero());
     area += 0.5 * normal.norm();
     unit_normals_.push_back(unit(normal));
+    balance(t.low, t.high).triangles += 1.0;
   }
   const LocalVertex v = star.vertex();
   fit(metric, mesh.position(v), guard);
@@ -54,6 +52,7 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   const bool on_box = mesh.planes(v) != 0;
   area_weight_ = on_box ? 0.0 : mesh.order(v) == 2 ? weights_.area : weights_.junction_area;
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
+  if (debts != nullptr && mass_ > 0.0) take_debts(*debts);
   present_ = raw_value_at(Vec3::Zero());
 }
 
@@ -63,7 +62,7 @@ void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard&
   for (const SurfaceTriangle& t : star_->triangles()) {
     const TriangleKey key = triangle_key(star_->vertex(), t.a, t.b);
     guard.each_piece(key, t.low, [&](const DistanceGuard::Piece& piece) {
-      const double area = piece.quarters / kSamplesPerFace * face_area(voxel, piece.axis);
+      const double area = piece.quarters / kSamplesPerFace * metric.face_area(piece.axis);
       add_piece(piece.middle.cwiseProduct(voxel) - at, area, piece, t.low, t.high);
     });
   }
@@ -92,6 +91,24 @@ void SurfaceEnergy::add_piece(const Vec3& p, double area, const DistanceGuard::P
   square_ += weight * share * share * n * n.transpose();
   linear_ += weight * share * r * n;
   mass_ += weight * share * share;
+  Balance& b = balance(low, high);
+  b.volume += weight * share * r;
+  b.slope += weight * share * share * n;
+}
+
+SurfaceEnergy::Balance& SurfaceEnergy::balance(Label low, Label high) {
+  const auto found = std::find_if(balances_.begin(), balances_.end(),
+                                  [&](const Balance& b) { return b.low == low && b.high == high; });
+  if (found != balances_.end()) return *found;
+  return balances_.emplace_back(Balance{low, high});
+}
+
+std::span<const VolumeDebt> SurfaceEnergy::debts_at(const Vec3& x) {
+  debts_.clear();
+  for (const Balance& b : balances_) {
+    debts_.push_back({b.low, b.high, (b.volume - b.slope.dot(x)) / b.triangles});
+  }
+  return debts_;
 }
 
 /// For each pair of labels the mean curvature of the ring times what v's move adds to the volume.
@@ -116,6 +133,27 @@ void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
       }
     }
     if (count > 0.0) pressure_ += sum / count * volume_gradient;
+  }
+}
+
+/// The ring's debts are added to what v's own faces ask of it.
+void SurfaceEnergy::take_debts(const VolumeDebts& debts) {
+  static const double kShare = getenv("MWS_DEBT") ? atof(getenv("MWS_DEBT")) : 0.9;
+  // A vertex of the ring is at two triangles, in general.
+  constexpr double kForEachTriangle = 0.5;
+  const std::vector<SurfaceTriangle>& triangles = star_->triangles();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const SurfaceTriangle& t = triangles[i];
+    static const double kOwn = getenv("MWS_OWN") ? atof(getenv("MWS_OWN")) : 0.5;
+    for (const VolumeDebt& d : debts.of(star_->vertex())) {
+        if (t.is_between(d.low, d.high)) linear_ += kOwn * d.volume * unit_normals_[i];
+    }
+    for (const LocalVertex w : {t.a, t.b}) {
+      for (const VolumeDebt& d : debts.of(w)) {
+        if (!t.is_between(d.low, d.high)) continue;
+        linear_ += kShare * kForEachTriangle * d.volume * unit_normals_[i];
+      }
+    }
   }
 }
 

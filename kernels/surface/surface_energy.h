@@ -5,17 +5,18 @@
 
 #include "kernels/distance/distance_guard.h"
 #include "kernels/quality/star_batch.h"
-#include "kernels/surface/curvature.h"
+#include "kernels/surface/curvature_field.h"
 #include "kernels/surface/surface_star.h"
+#include "kernels/surface/volume_debts.h"
 
 namespace mw {
 
 /// Weights of the parts of SurfaceEnergy.
 struct SurfaceWeights {
-  double fit = 5.0;
+  double fit = 1.5;
   double area = 1.0;            ///< beside the fit, voxels squared; between two labels, off the box
-  double junction_area = 0.03;  ///< the same where more labels meet
-  double bend = 8.0;
+  double junction_area = 0.01;  ///< the same where more labels meet
+  double bend = 5.0;
   bool with_pressure = true;
 };
 
@@ -43,24 +44,39 @@ class SurfaceEnergy {
  public:
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
 
-  /// The energy at the star's vertex.  `curvature` may be null: no pressure.
+  /// The energy at the star's vertex.  What is null is left out: pressure, debts of the ring.
   /// Keeps references to star and mesh.  REQUIRES: rims collected, for weights.bend > 0.
   void collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
-               const DistanceGuard& guard, const CurvatureField* curvature);
+               const DistanceGuard& guard, const CurvatureField* curvature,
+               const VolumeDebts* debts);
 
   /// Without the factor E; 0 for x = 0.
   [[nodiscard]] double value_at(const Vec3& x) const { return raw_value_at(x) - present_; }
   /// Adds `scale` times the derivatives; the Hessian is replaced by a positive semidefinite one.
   void add_derivatives(const Vec3& x, double scale, StarTerms& terms);
 
+  /// What v's own faces would still ask of it at x.
+  [[nodiscard]] std::span<const VolumeDebt> debts_at(const Vec3& x);
+
   /// The least cosine of a spoke or rim at present; 1 when there is none.
   [[nodiscard]] double least_cosine() const;
 
  private:
+  /// Sums of the fit between two labels.
+  struct Balance {
+    Label low = 0;
+    Label high = 0;
+    double triangles = 0.0;
+    double volume = 0.0;        ///< sum of w f r
+    Vec3 slope = Vec3::Zero();  ///< sum of w f^2 n
+  };
+
+  [[nodiscard]] Balance& balance(Label low, Label high);
   void fit(const Metric& metric, Point origin, const DistanceGuard& guard);
   void add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece, Label low,
                  Label high);
   void find_pressure(const CurvatureField& curvature);
+  void take_debts(const VolumeDebts& debts);
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
   void add_area(const Vec3& x, double scale, StarTerms& terms) const;
   void add_bends(const Vec3& x, double scale, StarTerms& terms);
@@ -75,6 +91,8 @@ class SurfaceEnergy {
   Vec3 linear_ = Vec3::Zero();
   Vec3 pressure_ = Vec3::Zero();
   double present_ = 0.0;
+  std::vector<Balance> balances_;
+  std::vector<VolumeDebt> debts_;
 };
 
 }  // namespace mw
