@@ -18,6 +18,7 @@
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
 #include "engine/resident_memory.h"
+#include "engine/voxel_lattice.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
@@ -145,6 +146,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   MeshFiles files(request);
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
+  engine::check(opened->info(), request.settings);
   const InterruptibleVolume volume(*opened);
   const FingerprintVolume fingerprint(volume);
   const io::LabelTable table = io::collect_labels(fingerprint);
