@@ -116,14 +116,24 @@ engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume
   }
 }
 
+/// Says what bounds and windows count in, where that is not the volume's voxels.
+void print_lattice(const engine::LatticeFacts& lattice) {
+  const Index3 shape = lattice.shape, layers = lattice.layers;
+  if (layers == Index3{1, 1, 1}) return;
+  std::cout << "lattice     " << shape.x << " x " << shape.y << " x " << shape.z
+            << ", voxels cut into " << layers.x << " x " << layers.y << " x " << layers.z
+            << " layers\n";
+}
+
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
   const double seconds = run.resources.wall_seconds;
   const Index3 shape = run.volume.shape;
   const double share = 100 * vertex_fraction(run.engine.vertices, shape);
   std::cout << "vertices    " << run.engine.vertices << " (" << format_fixed(share, 2)
             << " % of the voxel corners)\n"
-            << "tets        " << run.engine.tets << "\n"
-            << "seconds     " << format_fixed(seconds, 2) << "\n"
+            << "tets        " << run.engine.tets << "\n";
+  print_lattice(run.engine.lattice);
+  std::cout << "seconds     " << format_fixed(seconds, 2) << "\n"
             << "voxels/s    " << format_fixed(static_cast<double>(shape.product()) / seconds, 0)
             << "\n"
             << "peak memory " << format_bytes(run.resources.peak_rss_bytes) << "\n"
