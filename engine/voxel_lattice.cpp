@@ -29,23 +29,38 @@ void check_shape(Index3 shape, Index3 layers) {
                        cut ? ", or set --surface voxel" : ""));
 }
 
-/// Rounded down to three decimals, so that it can be promised; 0 is always kept.
-double rounded_floor(double floor) {
-  return std::floor(1000 * floor) / 1000;
+/// The floor that the start mesh keeps.
+double kept_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const Index3 layers = layers_of(volume, settings.surface);
+  const Metric metric(layered_spacing(volume.spacing, layers));
+  return least_start_ratio(metric, largest_cell_level(settings));
+}
+
+/// Other settings under which the floor can be promised, in words.
+std::string ways_out(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  MeshSettings cut = settings, dense = settings;
+  cut.surface = Surface::kSmooth;
+  dense.start = StartMesh::kDense;
+  std::string out;
+  if (kept_floor(volume, cut) >= settings.quality_floor) {
+    out += ", or set --surface smooth, which cuts thick slices into layers";
+  }
+  if (kept_floor(volume, dense) >= settings.quality_floor) out += ", or set --start dense";
+  return out;
 }
 
 /// No step makes a tet below the floor; only the start mesh could have one.
-void check_floor(const io::VolumeInfo& volume, Index3 layers, const MeshSettings& settings) {
-  const std::array<double, 3> spacing = layered_spacing(volume.spacing, layers);
-  const double kept = least_start_ratio(Metric(spacing), largest_cell_level(settings));
+void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const double kept = kept_floor(volume, settings);
   if (kept >= settings.quality_floor) return;
-  const bool could_cut = layers != layers_of(volume, Surface::kSmooth);
-  throw Error(
-      ErrorKind::kUsage,
-      io::text("quality-floor ", settings.quality_floor, " cannot be promised for voxels of ",
-               spacing[0], " x ", spacing[1], " x ", spacing[2], "; --quality-floor ",
-               rounded_floor(kept), " can be",
-               could_cut ? ", or set --surface smooth, which cuts thick slices into layers" : ""));
+  // Rounded down, so that what is told can be promised.
+  const double told = std::floor(1000 * kept) / 1000;
+  const std::array<double, 3> voxel =
+      layered_spacing(volume.spacing, layers_of(volume, settings.surface));
+  throw Error(ErrorKind::kUsage, io::text("quality-floor ", settings.quality_floor,
+                                          " cannot be promised for voxels of ", voxel[0], " x ",
+                                          voxel[1], " x ", voxel[2], "; --quality-floor ", told,
+                                          " can be", ways_out(volume, settings)));
 }
 
 }  // namespace
@@ -62,9 +77,8 @@ VoxelLattice::VoxelLattice(const io::DenseVolume& volume, Surface surface)
 
 void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
   check(settings);
-  const Index3 layers = layers_of(volume, settings.surface);
-  check_shape(volume.shape, layers);
-  check_floor(volume, layers, settings);
+  check_shape(volume.shape, layers_of(volume, settings.surface));
+  check_floor(volume, settings);
 }
 
 }  // namespace mw::engine
