@@ -114,8 +114,7 @@ void add_bound_options(OptionSet& options, MeshRequest& request) {
       {.name = "quality-floor",
        .value = "R",
        .help = "no tet below this radius ratio, refused where spacing does not allow it; 0: no "
-               "demand on "
-               "shapes, as in the paper",
+               "demand on shapes, as in the paper",
        .kind = ValueKind::kNumber,
        .fallback = format_number(defaults.quality_floor)},
       [](engine::MeshSettings& s, const std::string& t) { s.quality_floor = parse_number(t); });
