@@ -12,19 +12,25 @@ namespace {
 constexpr std::uint64_t kBytesPerRemembered = 32;
 constexpr std::uint64_t kHoldStepBytes = 1 << 20;
 
-io::Position physical(Point p, const io::VolumeInfo& info) {
-  const std::array<double, 3> corner{static_cast<double>(p.x) / kUnitsPerVoxel,
-                                     static_cast<double>(p.y) / kUnitsPerVoxel,
-                                     static_cast<double>(p.z) / kUnitsPerVoxel};
+/// One division a coordinate, so that corners of the volume's voxels stay whole numbers.
+io::Position physical(Point p, const io::VolumeInfo& info, Index3 layers) {
+  const auto in_voxels = [](std::int32_t units, std::int64_t of_voxel) {
+    return static_cast<double>(units) / static_cast<double>(of_voxel * kUnitsPerVoxel);
+  };
+  const std::array<double, 3> corner{in_voxels(p.x, layers.x), in_voxels(p.y, layers.y),
+                                     in_voxels(p.z, layers.z)};
   io::Position out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = info.origin[i] + info.spacing[i] * corner[i];
   return out;
 }
 
-std::vector<io::Position> positions_of(const BlockMesh& block, const io::VolumeInfo& info) {
+std::vector<io::Position> positions_of(const BlockMesh& block, const io::VolumeInfo& info,
+                                       Index3 layers) {
   std::vector<io::Position> out;
   out.reserve(block.vertices.size());
-  for (const BlockVertex& v : block.vertices) out.push_back(physical(v.position, info));
+  for (const BlockVertex& v : block.vertices) {
+    out.push_back(physical(v.position, info, layers));
+  }
   return out;
 }
 
@@ -44,11 +50,16 @@ std::vector<io::TetRows> oriented_tets(const BlockMesh& block) {
 /// Second pass.
 class Writer {
  public:
-  Writer(VertexUses uses, const io::DenseVolume& volume, io::MeshSink& sink, HoldMemory hold)
-      : rows_(std::move(uses)), volume_(volume), sink_(sink), hold_(std::move(hold)) {}
+  Writer(VertexUses uses, const io::DenseVolume& volume, io::MeshSink& sink,
+         const OutputOptions& options)
+      : rows_(std::move(uses)),
+        volume_(volume),
+        layers_(options.layers),
+        sink_(sink),
+        hold_(options.hold) {}
 
   void write(Index3 where, const BlockMesh& block, audit::QualityMeter* quality) {
-    const std::vector<io::Position> positions = positions_of(block, volume_.info());
+    const std::vector<io::Position> positions = positions_of(block, volume_.info(), layers_);
     std::vector<io::TetRows> tets = oriented_tets(block);
     if (quality != nullptr) {
       for (const auto& [a, b, c, d] : tets) {
@@ -91,6 +102,7 @@ class Writer {
 
   VertexRows rows_;
   const io::DenseVolume& volume_;
+  Index3 layers_;
   io::MeshSink& sink_;
   HoldMemory hold_;
   std::uint64_t held_ = 0;
@@ -114,7 +126,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
     out.tets += block.tets.size();
   });
   sink.begin({.tets = out.tets, .labels_signed = volume.table().is_signed()});
-  Writer writer(std::move(uses), volume, sink, options.hold);
+  Writer writer(std::move(uses), volume, sink, options);
   audit::QualityMeter quality;
   each_index(grid.blocks(), [&](Index3 b) {
     writer.write(b, load(b), options.measure_quality ? &quality : nullptr);

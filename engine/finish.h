@@ -23,6 +23,7 @@ struct OutputOptions {
   WantedLabel wanted;            ///< empty: every label
   bool measure_quality = false;  ///< about 0.1 us a tet
   HoldMemory hold;               ///< optional
+  Index3 layers{1, 1, 1};        ///< that the volume's voxels were cut into; set by mesh_volume()
 };
 
 /// The finished mesh.
@@ -35,7 +36,9 @@ struct FinishedMesh {
 
 /// Reads every block twice in raster order, first for counts and uses of vertices, then to write.
 /// Vertices ascend by the first block that references them, then by id; tets by block and canonical
-/// order inside it.  Coordinates are origin + spacing * voxel corner.
+/// order inside it.  Coordinates are origin + spacing * voxel corner of the volume, and exactly
+/// that on corners, whatever the layers.
+/// grid: of the lattice, layers times the volume's shape.
 /// Memory: one block, what VertexRows remembers, and the sink's buffers.
 FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::DenseVolume& volume,
                     io::MeshSink& sink, const OutputOptions& options = {});

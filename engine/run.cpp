@@ -15,6 +15,7 @@
 #include "engine/store/run_identity.h"
 #include "engine/store/workdir.h"
 #include "engine/tbb_for.h"
+#include "engine/voxel_lattice.h"
 #include "engine/window_memory.h"
 
 namespace mw::engine {
@@ -130,15 +131,6 @@ class FinishedBlocks : public FinalBlocks {
   std::uint64_t windows_;
 };
 
-/// What ids and samples can number, and positions hold.
-void check_shape(Index3 shape) {
-  const std::int64_t longest = std::max({shape.x, shape.y, shape.z});
-  if (longest < kMaxSampledVoxels) return;
-  throw Error(ErrorKind::kInput,
-              "the volume has " + std::to_string(longest) + " voxels along an axis; fewer than " +
-                  std::to_string(kMaxSampledVoxels) + " can be meshed: cut it into parts");
-}
-
 std::unique_ptr<Workdir> open_workdir(const io::VolumeInfo& volume, const MeshSettings& settings,
                                       const StoreOptions& options) {
   if (options.workdir.empty()) return nullptr;
@@ -173,7 +165,7 @@ PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settin
 }
 
 /// Writes what the last march left; memory for that comes first, blocks are spilled to make room.
-FinishedMesh write_mesh(const RunLayout& layout, const io::DenseVolume& volume, RunStore& store,
+FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, RunStore& store,
                         io::MeshSink& sink, const RunHooks& hooks) {
   const std::uint32_t last = layout.marches() - 1;
   const WindowGrid& grid = layout.grid(last);
@@ -185,23 +177,25 @@ FinishedMesh write_mesh(const RunLayout& layout, const io::DenseVolume& volume, 
   return_free_memory_above(0);
   MemoryBudget::Reservation rows;
   OutputOptions options = hooks.output;
+  options.layers = lattice.layers();
   options.hold = [&](std::uint64_t bytes) {
     rows = {};
     rows = store.reserve(Purpose::kOutput, bytes);
   };
   FinishedBlocks blocks(stored, hooks.progress, layout.windows());
-  return finish(blocks, grid, volume, sink, options);
+  return finish(blocks, grid, lattice.volume(), sink, options);
 }
 
 /// Everything between an open store and a written mesh.  workers: null without TetGen.
-void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
+void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
                      const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
                      const RunHooks& hooks, codt::WorkerPool* workers, RunReport& report) {
   Stopwatch watch;
   MemoryBudget::Reservation room;
-  const PreparedLabels labels = prepare(volume, settings, report.threads, hooks.store, store, room);
+  const PreparedLabels labels =
+      prepare(lattice.labels(), settings, report.threads, hooks.store, store, room);
   watch.lap(report.prepare_seconds);
-  const Metric metric(volume.info().spacing);
+  const Metric metric(lattice.info().spacing);
   Marches marches(hooks, store.facts().resumed_windows, layout.windows());
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
@@ -216,7 +210,7 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();
   watch.restart();
-  const FinishedMesh finished = write_mesh(layout, volume, store, sink, hooks);
+  const FinishedMesh finished = write_mesh(layout, lattice, store, sink, hooks);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;
@@ -240,13 +234,14 @@ void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
 
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks) {
-  check(settings);
-  check_shape(volume.info().shape);
+  check(volume.info(), settings);
+  const VoxelLattice lattice(volume, settings.surface);
   RunReport report;
+  report.lattice = {lattice.info().shape, lattice.info().spacing, lattice.layers()};
   report.threads = hooks.pick ? 1 : thread_count(hooks.threads);
-  const RunLayout layout(march_grids(volume.info().shape, settings), settings.order);
+  const RunLayout layout(march_grids(lattice.info().shape, settings), settings.order);
   MemoryBudget budget(hooks.store.memory);
-  require_least(layout, volume, settings, sink, report.threads, budget);
+  require_least(layout, lattice.labels(), settings, sink, report.threads, budget);
   const auto program =
       budget.reserve(Purpose::kProgram, program_bytes(volume.table().size(), report.threads));
   std::optional<codt::WorkerPool> workers;
@@ -254,7 +249,7 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   const auto workdir = open_workdir(volume.info(), settings, hooks.store);
   RunStore store(layout, budget, workdir.get(), hooks.store.group);
   try {
-    march_and_write(layout, volume, settings, store, sink, hooks, workers ? &*workers : nullptr,
+    march_and_write(layout, lattice, settings, store, sink, hooks, workers ? &*workers : nullptr,
                     report);
   } catch (...) {
     keep_work(store, workdir.get(), hooks.store);

@@ -17,9 +17,17 @@
 
 namespace mw::engine {
 
+/// The lattice that a volume was meshed on.
+struct LatticeFacts {
+  Index3 shape;
+  std::array<double, 3> spacing{1, 1, 1};
+  Index3 layers{1, 1, 1};  ///< of each voxel of the volume
+};
+
 /// What a run did; windows without those done before a resume.  Times of windows are summed over
 /// threads, that of the output is wall seconds.
 struct RunReport : VisitStats {
+  LatticeFacts lattice;
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
   int threads = 1;
@@ -61,10 +69,12 @@ struct RunHooks {
 };
 
 /// Meshes the whole box of the volume into `sink`.
+/// On its VoxelLattice, which the windows and bounds of settings are counted in.
 /// ENSURES: promises P1 to P3 and P5 of the README.
 ///          A run that ends early, by an error or because progress throws, leaves what it has done
 ///          in the work folder, if there is one and anything was done; otherwise the folder goes.
-/// ERRORS: whatever volume and sink throw; kUsage for bad settings; those of Workdir and RunStore.
+/// ERRORS: whatever volume and sink throw; those of check(volume, settings) (voxel_lattice.h),
+///         Workdir and RunStore.
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks = {});
 

@@ -20,6 +20,15 @@ constexpr int kMaxOdtIterations = 1000;
 
 }  // namespace
 
+int largest_cell_level(const MeshSettings& s) {
+  constexpr int kMaxLevel = 4;
+  if (s.start == StartMesh::kDense) return 0;
+  const int block = s.window / 2;
+  int level = 0;
+  while (level < kMaxLevel && block % (2 << level) == 0) ++level;
+  return level;
+}
+
 void check(const MeshSettings& s) {
   if (s.window < 4 || s.window > kMaxWindow || s.window % 2 != 0) {
     refuse("window", "an even number from 4 to " + std::to_string(kMaxWindow));

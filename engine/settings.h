@@ -25,10 +25,10 @@ enum class Order {
   kColour,  ///< eight colours by parity of the window's position: far wider on small volumes
 };
 
-/// What interfaces are made to follow.
+/// What interfaces are made to follow, and on which lattice (voxel_lattice.h).
 enum class Surface {
-  kSmooth,  ///< smooth surfaces that keep the labels' volumes
-  kVoxel,   ///< the quadrics of the paper alone (Sec 5.2)
+  kSmooth,  ///< smooth surfaces that keep the labels' volumes; thick slices are cut into layers
+  kVoxel,   ///< the quadrics of the paper alone (Sec 5.2), on the voxels as they are
 };
 
 /// What improves tets after each simplification.
@@ -38,6 +38,7 @@ enum class Optimizer {
   kNone,
 };
 
+/// Voxels are those of the lattice that the volume is meshed on.
 struct MeshSettings {
   int window = 32;  ///< window edge in voxels, even
   int marches = 2;  ///< each over the whole volume, with windows twice as large
@@ -54,6 +55,9 @@ struct MeshSettings {
   Optimizer optimizer = Optimizer::kLocal;
   int odt_iterations = 10;  ///< at most, in each window, by kTetgen; the paper's number (Sec 6)
 };
+
+/// Cells of the start mesh have at most 2^this voxels an axis: blocks begin at multiples of that.
+[[nodiscard]] int largest_cell_level(const MeshSettings& settings);
 
 /// ERRORS: mw::Error(kUsage) naming the setting, its value and what is allowed.
 void check(const MeshSettings& settings);

@@ -11,16 +11,6 @@
 namespace mw::engine {
 namespace {
 
-constexpr int kMaxLevel = 4;
-
-/// The largest cells of the octree: blocks must start at multiples of their size.
-int max_level(int window) {
-  const int block = window / 2;
-  int level = 0;
-  while (level < kMaxLevel && block % (2 << level) == 0) ++level;
-  return level;
-}
-
 /// Without a floor nothing is asked of shapes, not around inner vertices either.
 SimplifyOptions simplify_options(const MeshSettings& settings) {
   SimplifyOptions options{.quality_floor = settings.quality_floor,
@@ -50,12 +40,13 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       grid_(grid),
       store_(store),
       metric_(metric),
-      start_{.max_level = settings.start == StartMesh::kDense ? 0 : max_level(settings.window),
+      start_{.max_level = largest_cell_level(settings),
              .coarse = labels.is_coarse(),
              .with_samples = settings.max_distance.has_value(),
              .max_distance = settings.max_distance.value_or(kMostCoarseDistance),
              .weights = {},
-             .metric = metric},
+             .metric = metric,
+             .quality_floor = settings.quality_floor},
       simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor,

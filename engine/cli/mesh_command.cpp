@@ -18,6 +18,7 @@
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
 #include "engine/resident_memory.h"
+#include "engine/voxel_lattice.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
@@ -115,14 +116,24 @@ engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume
   }
 }
 
+/// Says what bounds and windows count in, where that is not the volume's voxels.
+void print_lattice(const engine::LatticeFacts& lattice) {
+  const Index3 shape = lattice.shape, layers = lattice.layers;
+  if (layers == Index3{1, 1, 1}) return;
+  std::cout << "lattice     " << shape.x << " x " << shape.y << " x " << shape.z
+            << ", voxels cut into " << layers.x << " x " << layers.y << " x " << layers.z
+            << " layers\n";
+}
+
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
   const double seconds = run.resources.wall_seconds;
   const Index3 shape = run.volume.shape;
   const double share = 100 * vertex_fraction(run.engine.vertices, shape);
   std::cout << "vertices    " << run.engine.vertices << " (" << format_fixed(share, 2)
             << " % of the voxel corners)\n"
-            << "tets        " << run.engine.tets << "\n"
-            << "seconds     " << format_fixed(seconds, 2) << "\n"
+            << "tets        " << run.engine.tets << "\n";
+  print_lattice(run.engine.lattice);
+  std::cout << "seconds     " << format_fixed(seconds, 2) << "\n"
             << "voxels/s    " << format_fixed(static_cast<double>(shape.product()) / seconds, 0)
             << "\n"
             << "peak memory " << format_bytes(run.resources.peak_rss_bytes) << "\n"
@@ -145,6 +156,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   MeshFiles files(request);
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
+  engine::check(opened->info(), request.settings);
   const InterruptibleVolume volume(*opened);
   const FingerprintVolume fingerprint(volume);
   const io::LabelTable table = io::collect_labels(fingerprint);

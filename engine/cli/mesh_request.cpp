@@ -86,7 +86,7 @@ void add_march_options(OptionSet& options, MeshRequest& request) {
   add_setting(options, request,
               {.name = "window",
                .value = "N",
-               .help = "window edge in voxels, even",
+               .help = "window edge in voxels of the lattice (see --surface), even",
                .kind = ValueKind::kInteger,
                .fallback = std::to_string(engine::MeshSettings{}.window)},
               [](engine::MeshSettings& s, const std::string& t) { s.window = parse_count(t); });
@@ -113,7 +113,8 @@ void add_bound_options(OptionSet& options, MeshRequest& request) {
       options, request,
       {.name = "quality-floor",
        .value = "R",
-       .help = "no tet below this radius ratio; 0: no demand on shapes, as in the paper",
+       .help = "no tet below this radius ratio, refused where spacing does not allow it; 0: no "
+               "demand on shapes, as in the paper",
        .kind = ValueKind::kNumber,
        .fallback = format_number(defaults.quality_floor)},
       [](engine::MeshSettings& s, const std::string& t) { s.quality_floor = parse_number(t); });
@@ -121,7 +122,7 @@ void add_bound_options(OptionSet& options, MeshRequest& request) {
       options, request,
       {.name = "max-distance",
        .value = "D|none",
-       .help = "bound in voxels, two-sided, between input and output interfaces",
+       .help = "bound in voxels of the lattice, two-sided, between input and output interfaces",
        .kind = ValueKind::kNumberOrNone,
        .fallback = bound_text(defaults.max_distance)},
       [](engine::MeshSettings& s, const std::string& t) { s.max_distance = parse_bound(t); });
@@ -133,7 +134,7 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
       options, request,
       {.name = "target-reduction",
        .value = "F|none",
-       .help = "each window stops collapsing at this fraction of its voxel corners",
+       .help = "each window stops collapsing at this fraction of the lattice's voxel corners",
        .kind = ValueKind::kNumberOrNone,
        .fallback = bound_text(defaults.target_reduction)},
       [](engine::MeshSettings& s, const std::string& t) { s.target_reduction = parse_bound(t); });
@@ -151,8 +152,10 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
       options, request,
       {.name = "surface",
        .value = "SHAPE",
-       .help = "what interfaces are: smooth, with the labels' volumes kept; voxel, as the paper's "
-               "quadrics leave them",
+       .help =
+           "what interfaces are: smooth, with the labels' volumes kept, on a lattice where slices "
+           "much thicker than the smallest spacing are cut into layers; voxel, as the paper's "
+           "quadrics leave them, on the voxels as they are",
        .fallback = text_of(kSurfaces, defaults.surface),
        .choices = {"smooth", "voxel"}},
       [](engine::MeshSettings& s, const std::string& t) { s.surface = parse_name(kSurfaces, t); });

@@ -23,6 +23,17 @@ ordered_json input_json(const FinishedRun& run) {
           {"voxels", info.shape.product()}};
 }
 
+ordered_json index_json(Index3 v) {
+  return {v.x, v.y, v.z};
+}
+
+/// What --window, --max-distance and --target-reduction count in.
+ordered_json lattice_json(const engine::LatticeFacts& lattice) {
+  return {{"shape_xyz", index_json(lattice.shape)},
+          {"spacing_xyz", lattice.spacing},
+          {"layers_xyz", index_json(lattice.layers)}};
+}
+
 ordered_json output_json(const FinishedRun& run, const std::filesystem::path& path) {
   return {{"file", path.string()},
           {"vertices", run.engine.vertices},
@@ -95,6 +106,7 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
   return {{"version", MW_VERSION},
           {"settings", std::move(settings)},
           {"input", input_json(run)},
+          {"lattice", lattice_json(run.engine.lattice)},
           {"output", output_json(run, mesh)},
           {"quality", quality_json(run.engine.quality.value())},
           {"distance", {{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}}},

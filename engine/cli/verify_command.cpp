@@ -16,6 +16,7 @@
 #include "io/mesh/open_mesh.h"
 #include "kernels/audit/audit.h"
 #include "kernels/core/error.h"
+#include "kernels/core/layers.h"
 
 namespace mw::cli {
 namespace {
@@ -24,6 +25,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kNone = "none";
 constexpr const char* kInterfaces = "interfaces";
+constexpr const char* kVoxel = "voxel";
 
 struct VerifyJob {
   OptionSet options;
@@ -31,12 +33,14 @@ struct VerifyJob {
   std::filesystem::path mesh;
   std::filesystem::path report;
   audit::AuditOptions audit;
+  bool in_layers = true;  ///< distances in voxels of the lattice of smooth surfaces
 };
 
 struct Verdict {
   audit::AuditReport audit;
   std::vector<std::string> labels_changed;  ///< as the input has them, or "exterior"
   io::LabelTable table;
+  Index3 layers;
 
   /// The first check asks whether the file holds a mesh at all.
   [[nodiscard]] bool looked_at() const { return audit.checks.front().passed; }
@@ -76,10 +80,17 @@ void add_verify_options(VerifyJob& job) {
   options.add(
       {.name = "max-distance",
        .value = "D",
-       .help = "P4 fails above this many voxels between label boundaries, or none",
+       .help = "P4 fails above this many voxels (see --surface) between label boundaries, or none",
        .kind = ValueKind::kNumberOrNone,
        .fallback = kNone,
        .assign = [&](const std::string& text) { job.audit.max_distance = parse_distance(text); }});
+  options.add({.name = "surface",
+               .value = "SHAPE",
+               .help = "how the mesh was made, hence what distances count in: smooth, voxels of "
+                       "the lattice where thick slices are cut into layers; voxel, the input's",
+               .fallback = "smooth",
+               .choices = {"smooth", kVoxel},
+               .assign = [&](const std::string& text) { job.in_layers = text != kVoxel; }});
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes the result as JSON",
@@ -105,12 +116,22 @@ Verdict judge(const VerifyJob& job) {
   const io::MeshData mesh = io::read_mesh(job.mesh);
   const std::vector<Label> labels = dense_labels(mesh, table);
   Verdict verdict;
+  audit::AuditOptions options = job.audit;
+  if (job.in_layers) options.layers = layers_of(info.spacing);
+  verdict.layers = options.layers;
   verdict.audit =
       audit::audit({.shape = info.shape, .labels = voxels}, table.size(), audit_view(mesh, labels),
-                   {.spacing = info.spacing, .origin = info.origin}, job.audit);
+                   {.spacing = info.spacing, .origin = info.origin}, options);
   verdict.labels_changed = changed_labels(verdict.audit, table);
   verdict.table = std::move(table);
   return verdict;
+}
+
+/// Says what distances count in, where that is not the input's voxels.
+void print_lattice(Index3 layers) {
+  if (layers == Index3{1, 1, 1}) return;
+  std::cout << "lattice       distances are in voxels cut into " << layers.x << " x " << layers.y
+            << " x " << layers.z << " layers\n";
 }
 
 void print_verdict(const Verdict& verdict) {
@@ -126,7 +147,10 @@ void print_verdict(const Verdict& verdict) {
     std::cout << "\n";
   }
   if (verdict.looked_at()) print_quality(verdict.audit.quality);
-  if (verdict.audit.distance) print_distance(*verdict.audit.distance, verdict.table);
+  if (verdict.audit.distance) {
+    print_lattice(verdict.layers);
+    print_distance(*verdict.audit.distance, verdict.table);
+  }
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const audit::Check& check) { return !check.passed; });
   std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail") << "\n";
@@ -166,6 +190,7 @@ ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
   return {{"version", MW_VERSION},
           {"settings", job.options.json()},
           {"labels", verdict.table.size()},
+          {"lattice", {{"layers_xyz", {verdict.layers.x, verdict.layers.y, verdict.layers.z}}}},
           {"passed", verdict.audit.passed()},
           {"checks", checks_json(verdict.audit)},
           {"quality", measured ? quality_json(verdict.audit.quality) : ordered_json(nullptr)},

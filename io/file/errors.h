@@ -3,6 +3,8 @@
 // How this library words its errors: file, field, reason, way out.
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <concepts>
 #include <string>
 #include <string_view>
@@ -14,10 +16,14 @@ namespace mw::io {
 inline void append_piece(std::string& out, std::string_view piece) {
   out.append(piece);
 }
-template <class T>
-requires std::integral<T> || std::floating_point<T>
+template <std::integral T>
 void append_piece(std::string& out, T number) {
   out.append(std::to_string(number));
+}
+/// The shortest text that reads back as the same number.
+inline void append_piece(std::string& out, double number) {
+  std::array<char, 32> text{};
+  out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr);
 }
 
 /// The pieces (strings and numbers) one after the other.

@@ -46,6 +46,7 @@ class DenseVolume {
   DenseVolume(const LabelVolume& volume, const LabelTable& table)
       : volume_(&volume), table_(&table) {}
 
+  [[nodiscard]] const LabelVolume& raw() const { return *volume_; }
   [[nodiscard]] const VolumeInfo& info() const { return volume_->info(); }
   [[nodiscard]] const LabelTable& table() const { return *table_; }
   /// As LabelVolume::read, with dense labels.

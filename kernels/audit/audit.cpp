@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "kernels/audit/layered_labels.h"
+
 namespace mw::audit {
 namespace {
 
@@ -94,6 +96,14 @@ std::string distance_text(const DistanceReport& distance) {
          (distance.is_finite() ? ", mean " + number(distance.mean_voxels) : "");
 }
 
+/// In voxels of the lattice that the options ask for.
+DistanceReport measure_in_lattice(const VoxelLabels& volume, std::size_t label_count,
+                                  const AuditMesh& mesh, const Frame& frame, Index3 layers) {
+  if (layers == Index3{1, 1, 1}) return measure_distance(volume, label_count, mesh, frame);
+  const LayeredLabels lattice = layered_labels(volume, layers);
+  return measure_distance(lattice.view(), label_count, mesh, layered_frame(frame, layers));
+}
+
 /// Sampled distances fail only when they exceed the bound by more than rounding.
 Check judge_distance(const DistanceReport& distance, const std::optional<double>& bound) {
   constexpr double kRounding = 1e-6;
@@ -148,7 +158,7 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
   report.quality = measure_quality(mesh);
   report.checks.push_back(judge_quality(report.quality, options.radius_ratio_floor));
   if (options.measure_distance || options.max_distance) {
-    report.distance = measure_distance(volume, label_count, mesh, frame);
+    report.distance = measure_in_lattice(volume, label_count, mesh, frame, options.layers);
     if (options.max_distance || !report.distance->is_finite()) {
       report.checks.push_back(judge_distance(*report.distance, options.max_distance));
     }

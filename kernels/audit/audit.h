@@ -22,6 +22,7 @@ struct AuditOptions {
   bool count_places = false;                       ///< P1 also of interfaces and meetings
   bool measure_distance = true;                    ///< false: only when max_distance is set
   std::optional<double> max_distance;              ///< voxels; P4 is checked, and fails above this
+  Index3 layers{1, 1, 1};  ///< distances are in voxels cut into so many layers along each axis
 };
 
 /// Interfaces and meetings of labels (places.h).

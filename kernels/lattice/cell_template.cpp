@@ -37,16 +37,44 @@ CellNode middle_of(CellFace face) {
   return kCellCentre + (face.high ? 1 : 0) * 2 * node_step(face.axis) - node_step(face.axis);
 }
 
-/// Where the triangles of a face meet.
-CellNode hub_of(CellNodes nodes, bool odd, CellFace face, const std::vector<CellNode>& rim) {
-  if (has_node(nodes, middle_of(face))) return middle_of(face);
-  const auto is_middle = [](CellNode n) { return !has_node(kCellCorners, n); };
-  const auto is_even = [odd](CellNode n) { return !is_odd_corner(n, odd); };
-  CellNode hub = 27;
-  for (CellNode n : rim) {
-    if (is_middle(n)) hub = std::min(hub, n);
+bool is_middle(CellNode n) {
+  return !has_node(kCellCorners, n);
+}
+
+/// Cuts off the corners of a face that are between two middles of edges: a fan from one middle
+/// would put a flat triangle beside the other.
+void cut_corners(std::vector<CellNode>& rim, std::vector<NodeTriangle>& triangles) {
+  std::vector<CellNode> rest;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const CellNode before = rim[(i + rim.size() - 1) % rim.size()];
+    const CellNode after = rim[(i + 1) % rim.size()];
+    if (!is_middle(rim[i]) && is_middle(before) && is_middle(after)) {
+      triangles.push_back({rim[i], before, after});
+    } else {
+      rest.push_back(rim[i]);
+    }
   }
-  return hub < 27 ? hub : *std::find_if(rim.begin(), rim.end(), is_even);
+  rim = std::move(rest);
+}
+
+/// Where the triangles of a face without a node in its middle meet.  rim: after cut_corners().
+CellNode hub_of(const std::vector<CellNode>& rim, bool odd, CellFace face) {
+  const auto has = [&](CellNode n) { return std::find(rim.begin(), rim.end(), n) != rim.end(); };
+  const auto middles = std::count_if(rim.begin(), rim.end(), is_middle);
+  const auto is_beside_middle = [&](std::size_t i) {
+    return is_middle(rim[(i + 1) % rim.size()]) ||
+           is_middle(rim[(i + rim.size() - 1) % rim.size()]);
+  };
+  const auto is_hub = [&](std::size_t i) {
+    if (middles == 0) return !is_odd_corner(rim[i], odd);
+    if (!is_middle(rim[i])) return middles == 2 && !is_beside_middle(i);
+    return middles == 1 || has(2 * middle_of(face) - rim[i]);
+  };
+  CellNode hub = 27;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    if (is_hub(i)) hub = std::min(hub, rim[i]);
+  }
+  return hub;
 }
 
 std::vector<NodeTet> five_tets(bool odd) {
@@ -94,8 +122,24 @@ bool find_cone(CellNode apex, const std::vector<NodeTriangle>& surface,
   return true;
 }
 
-/// The worst radius ratio of the tets, or any lower one than `enough`.
-double worst_ratio(const std::vector<NodeTet>& tets, const Metric& metric, double enough) {
+}  // namespace
+
+std::vector<NodeTriangle> face_triangles(CellNodes nodes, bool odd, CellFace face) {
+  std::vector<CellNode> rim = rim_of(nodes, face);
+  std::vector<NodeTriangle> triangles;
+  CellNode hub = middle_of(face);
+  if (!has_node(nodes, hub)) {
+    cut_corners(rim, triangles);
+    hub = hub_of(rim, odd, face);
+  }
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const CellNode a = rim[i], b = rim[(i + 1) % rim.size()];
+    if (a != hub && b != hub) triangles.push_back({hub, a, b});
+  }
+  return triangles;
+}
+
+double worst_ratio(std::span<const NodeTet> tets, const Metric& metric, double enough) {
   const auto at = [](CellNode n) {
     const auto along = [n](unsigned axis) {
       return static_cast<std::int32_t>(node_along(n, axis)) * kUnitsPerVoxel;
@@ -113,20 +157,7 @@ double worst_ratio(const std::vector<NodeTet>& tets, const Metric& metric, doubl
   return worst;
 }
 
-}  // namespace
-
-std::vector<NodeTriangle> face_triangles(CellNodes nodes, bool odd, CellFace face) {
-  const std::vector<CellNode> rim = rim_of(nodes, face);
-  const CellNode hub = hub_of(nodes, odd, face, rim);
-  std::vector<NodeTriangle> triangles;
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    const CellNode a = rim[i], b = rim[(i + 1) % rim.size()];
-    if (a != hub && b != hub) triangles.push_back({hub, a, b});
-  }
-  return triangles;
-}
-
-CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric) {
+CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric, double quality_floor) {
   CellTemplate out;
   for (std::size_t f = 0; f < kFaces.size(); ++f) {
     const std::vector<NodeTriangle> triangles = face_triangles(nodes, odd, kFaces[f]);
@@ -138,7 +169,7 @@ CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric) {
     return out;
   }
   find_cone(kCellCentre, out.surface, out.tets);
-  double best = std::min(kLeastShape, worst_ratio(out.tets, metric, 0.0));
+  double best = std::min(std::max(kLeastShape, quality_floor), worst_ratio(out.tets, metric));
   bool at_centre = true;
   std::vector<NodeTet> tets;
   for (CellNode apex = 0; apex <= 26; ++apex) {
@@ -161,7 +192,7 @@ std::span<const NodeTriangle> CellTemplate::on(CellFace face) const {
 const CellTemplate& CellTemplates::of(CellNodes nodes, bool odd) {
   constexpr CellNodes kOdd = 1U << 31;
   const auto [entry, fresh] = known_.try_emplace(nodes | (odd ? kOdd : 0));
-  if (fresh) entry->second = cut_cell(nodes, odd, metric_);
+  if (fresh) entry->second = cut_cell(nodes, odd, metric_, quality_floor_);
   return entry->second;
 }
 

@@ -75,7 +75,7 @@ class StartBuilder {
         levels_(labels.shape, volume, {block.lo - Index3{1, 1, 1}, block.hi + Index3{1, 1, 1}},
                 options.max_level, large),
         surface_(levels_, labels.shape, volume),
-        templates_(options.metric),
+        templates_(options.metric, options.quality_floor),
         used_(static_cast<std::size_t>(corners_.voxels()), 0),
         known_(static_cast<std::size_t>(block.voxels()), nullptr) {}
 

@@ -24,7 +24,8 @@ struct StartOptions {
   bool with_samples = false;  ///< samples for the distance bound
   double max_distance = 1.5;  ///< with samples: that bound, in voxels
   QuadricWeights weights;
-  Metric metric;  ///< of the quadrics
+  Metric metric;               ///< of the quadrics, and of the shapes of cells
+  double quality_floor = 0.0;  ///< no tet below it, if the metric allows (start_quality.h)
 };
 
 /// Voxels around a block whose labels its start mesh depends on.

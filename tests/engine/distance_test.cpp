@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "kernels/audit/distance.h"
+#include "kernels/audit/layered_labels.h"
+#include "kernels/core/layers.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
@@ -19,8 +21,11 @@ using test::Trial;
 
 double measured(const Trial& trial) {
   const auto mesh = small_mesh(run_in_memory(trial));
-  const auto report =
-      measure_distance(trial.volume.view(), trial.volume.label_count, mesh.view(), trial.frame);
+  const Index3 layers =
+      trial.settings.surface == Surface::kSmooth ? layers_of(trial.frame.spacing) : Index3{1, 1, 1};
+  const audit::LayeredLabels lattice = layered_labels(trial.volume.view(), layers);
+  const auto report = measure_distance(lattice.view(), trial.volume.label_count, mesh.view(),
+                                       layered_frame(trial.frame, layers));
   EXPECT_TRUE(report.is_finite());
   return report.max_voxels;
 }
@@ -33,6 +38,10 @@ TEST(Promise4Distance, HoldsInBothDirectionsForEveryLabel) {
     const Index3 shape{6 + below(random, 12), 6 + below(random, 9), 6 + below(random, 6)};
     Trial trial = random_trial(random, random_volume_of(random, kind, shape, 2 + below(random, 4)));
     if (i % 4 == 0) trial.frame.spacing = {1.0, 1.0, 3.0};
+    if (i % 8 == 0) {
+      trial.settings.surface = Surface::kVoxel;
+      trial.settings.quality_floor = 0.1;
+    }
     trial.settings.max_distance = kBounds[below(random, 4)];
     trial.settings.edge_variance.reset();
     SCOPED_TRACE(trial.text());

@@ -116,7 +116,9 @@ struct Trial {
            std::to_string(settings.marches) +
            (settings.topology == KeptTopology::kInterfaces ? " interfaces" : "") +
            (settings.optimizer == Optimizer::kNone ? " not optimised" : " optimised") +
-           " spacing z " + std::to_string(frame.spacing[2]);
+           (settings.surface == Surface::kVoxel ? " voxel surface" : "") + " spacing " +
+           std::to_string(frame.spacing[0]) + "," + std::to_string(frame.spacing[1]) + "," +
+           std::to_string(frame.spacing[2]);
   }
 };
 

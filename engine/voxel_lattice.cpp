@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Layers, and what can be promised on them.
+#include "engine/voxel_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/file/errors.h"
+#include "kernels/core/face_sample.h"
+#include "kernels/core/layers.h"
+#include "kernels/lattice/start_quality.h"
+
+namespace mw::engine {
+namespace {
+
+/// What ids and samples can number, and positions hold.
+void check_shape(Index3 shape, Index3 layers) {
+  const Index3 lattice = layered_shape(shape, layers);
+  const std::int64_t longest = std::max({lattice.x, lattice.y, lattice.z});
+  if (longest < kMaxSampledVoxels) return;
+  const bool cut = layers != Index3{1, 1, 1};
+  throw Error(ErrorKind::kInput,
+              io::text("the volume has ", longest, " voxels along an axis",
+                       cut ? io::text(" once they are cut into ", layers.x, " x ", layers.y, " x ",
+                                      layers.z, " layers, as their spacing differs")
+                           : "",
+                       "; fewer than ", kMaxSampledVoxels, " can be meshed: cut it into parts",
+                       cut ? ", or set --surface voxel" : ""));
+}
+
+/// The floor that the start mesh keeps.
+double kept_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const Index3 layers = layers_of(volume, settings.surface);
+  const Metric metric(layered_spacing(volume.spacing, layers));
+  return least_start_ratio(metric, largest_cell_level(settings));
+}
+
+/// Other settings under which the floor can be promised, in words.
+std::string ways_out(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  MeshSettings cut = settings, dense = settings;
+  cut.surface = Surface::kSmooth;
+  dense.start = StartMesh::kDense;
+  std::string out;
+  if (kept_floor(volume, cut) >= settings.quality_floor) {
+    out += ", or set --surface smooth, which cuts thick slices into layers";
+  }
+  if (kept_floor(volume, dense) >= settings.quality_floor) out += ", or set --start dense";
+  return out;
+}
+
+/// No step makes a tet below the floor; only the start mesh could have one.
+void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const double kept = kept_floor(volume, settings);
+  if (kept >= settings.quality_floor) return;
+  // Rounded down, so that what is told can be promised.
+  const double told = std::floor(1000 * kept) / 1000;
+  const std::array<double, 3> voxel =
+      layered_spacing(volume.spacing, layers_of(volume, settings.surface));
+  throw Error(ErrorKind::kUsage, io::text("quality-floor ", settings.quality_floor,
+                                          " cannot be promised for voxels of ", voxel[0], " x ",
+                                          voxel[1], " x ", voxel[2], "; --quality-floor ", told,
+                                          " can be", ways_out(volume, settings)));
+}
+
+}  // namespace
+
+Index3 layers_of(const io::VolumeInfo& volume, Surface surface) {
+  return surface == Surface::kSmooth ? mw::layers_of(volume.spacing) : Index3{1, 1, 1};
+}
+
+VoxelLattice::VoxelLattice(const io::DenseVolume& volume, Surface surface)
+    : volume_(volume),
+      layers_(layers_of(volume.info(), surface)),
+      layered_(volume.raw(), layers_),
+      labels_(layered_, volume.table()) {}
+
+void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  check(settings);
+  check_shape(volume.shape, layers_of(volume, settings.surface));
+  check_floor(volume, settings);
+}
+
+}  // namespace mw::engine

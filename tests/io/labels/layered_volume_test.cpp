@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Layers against repetition voxel by voxel, in any box.
+#include "io/labels/layered_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "kernels/core/each_index.h"
+#include "kernels/core/layers.h"
+
+namespace mw::io {
+namespace {
+
+/// A volume in memory that knows how much was read of it.
+class CountingVolume : public LabelVolume {
+ public:
+  CountingVolume(Index3 shape, std::mt19937& random) {
+    info_ = {
+        .shape = shape, .spacing = {0.5, 3, 1.25}, .origin = {-1, 2, 0.25}, .format = "memory"};
+    for (std::int64_t i = 0; i < shape.product(); ++i) labels_.push_back(random());
+  }
+
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    std::size_t next = 0;
+    each_index(box, [&](Index3 v) { out[next++] = at(v); });
+    EXPECT_EQ(next, out.size());
+    voxels_read += box.voxels();
+  }
+  [[nodiscard]] RawLabel at(Index3 v) const {
+    const Box3 all{{0, 0, 0}, info_.shape};
+    EXPECT_TRUE(all.contains(v)) << "read outside the volume";
+    return labels_[static_cast<std::size_t>(all.offset(v))];
+  }
+
+  mutable std::int64_t voxels_read = 0;
+
+ private:
+  VolumeInfo info_;
+  std::vector<RawLabel> labels_;
+};
+
+std::int64_t one_to(std::mt19937& random, std::int64_t most) {
+  return 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(most));
+}
+
+Box3 random_box(std::mt19937& random, Index3 shape) {
+  const Index3 size{one_to(random, shape.x), one_to(random, shape.y), one_to(random, shape.z)};
+  const Index3 lo{one_to(random, shape.x - size.x + 1) - 1,
+                  one_to(random, shape.y - size.y + 1) - 1,
+                  one_to(random, shape.z - size.z + 1) - 1};
+  return {lo, lo + size};
+}
+
+TEST(LayeredVolume, RepeatsEachVoxelInEveryBox) {
+  std::mt19937 random(712);
+  for (int i = 0; i < 300 && !testing::Test::HasFailure(); ++i) {
+    const CountingVolume volume({one_to(random, 5), one_to(random, 5), one_to(random, 5)}, random);
+    const Index3 layers{one_to(random, 4), one_to(random, 4), one_to(random, 4)};
+    const LayeredVolume layered(volume, layers);
+    const Index3 shape = layered_shape(volume.info().shape, layers);
+    ASSERT_EQ(layered.info().shape, shape);
+    const Box3 box = i % 10 == 0 ? Box3{{0, 0, 0}, shape} : random_box(random, shape);
+    std::vector<RawLabel> got(static_cast<std::size_t>(box.voxels()));
+    layered.read(box, got);
+    std::size_t next = 0;
+    each_index(box, [&](Index3 v) {
+      EXPECT_EQ(got[next++], volume.at({v.x / layers.x, v.y / layers.y, v.z / layers.z}));
+    });
+    EXPECT_LE(volume.voxels_read, volume.info().shape.product()) << "a voxel was read twice";
+  }
+}
+
+TEST(LayeredVolume, KeepsTheFactsOfTheVolume) {
+  std::mt19937 random(713);
+  const CountingVolume volume({4, 5, 6}, random);
+  const LayeredVolume layered(volume, {1, 6, 5});
+  EXPECT_EQ(layered.info().shape, (Index3{4, 30, 30}));
+  EXPECT_EQ(layered.info().spacing, (std::array{0.5, 0.5, 0.25}));
+  EXPECT_EQ(layered.info().origin, volume.info().origin);
+  EXPECT_EQ(layered.info().type, volume.info().type);
+}
+
+}  // namespace
+}  // namespace mw::io
