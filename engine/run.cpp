@@ -193,6 +193,16 @@ FinishedMesh write_mesh(const RunLayout& layout, const io::DenseVolume& volume, 
   return finish(blocks, grid, volume, sink, options);
 }
 
+void report_shape(FinishedMesh& finished, const PreparedLabels& labels, const LabelSelection& kept,
+                  RunReport& report) {
+  report.shape = finished.shape;
+  report.label_volumes6 = std::move(finished.label_volumes6);
+  report.label_voxels = labels.label_voxels();
+  for (Label label = 0; label < report.label_voxels.size(); ++label) {
+    if (!kept.keeps(label)) report.label_voxels[label] = 0;
+  }
+}
+
 /// Everything between an open store and a written mesh.  workers: null without TetGen.
 void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
                      const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
@@ -216,11 +226,14 @@ void march_and_write(const RunLayout& layout, const io::DenseVolume& volume,
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();
   watch.restart();
-  const FinishedMesh finished = write_mesh(layout, volume, store, sink, hooks);
+  FinishedMesh finished = write_mesh(layout, volume, store, sink, hooks);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;
   report.quality = finished.quality;
+  if (finished.shape) {
+    report_shape(finished, labels, LabelSelection(hooks.output.wanted, volume.table()), report);
+  }
 }
 
 /// After an error: what can be saved is, and the first error stays the one that is told.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// mwmesh verify: promises P1 to P4 of a finished mesh, independently of how it was made.
+// mwmesh verify: promises P1 to P4 and P8 of a finished mesh, independently of how it was made.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -11,6 +11,7 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/resource_meter.h"
+#include "engine/cli/shape_facts.h"
 #include "engine/cli/values.h"
 #include "engine/cli/volume_options.h"
 #include "io/mesh/open_mesh.h"
@@ -49,6 +50,13 @@ std::optional<double> parse_distance(const std::string& text) {
   throw Error(ErrorKind::kUsage, "must not be negative; or none");
 }
 
+std::optional<double> parse_volume_error(const std::string& text) {
+  if (text == kNone) return std::nullopt;
+  const double share = parse_number(text);
+  if (share >= 0) return share;
+  throw Error(ErrorKind::kUsage, "must not be negative; or none");
+}
+
 void add_verify_options(VerifyJob& job) {
   OptionSet& options = job.options;
   add_input_option(options, job.volume.path);
@@ -80,6 +88,16 @@ void add_verify_options(VerifyJob& job) {
        .kind = ValueKind::kNumberOrNone,
        .fallback = kNone,
        .assign = [&](const std::string& text) { job.audit.max_distance = parse_distance(text); }});
+  options.add({.name = "max-volume-error",
+               .value = "E",
+               .help =
+                   "P8 fails when a label of 1000 voxels or more is off by a larger share of its "
+                   "volume, or none",
+               .kind = ValueKind::kNumberOrNone,
+               .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
+               .assign = [&](const std::string& text) {
+                 job.audit.max_volume_error = parse_volume_error(text);
+               }});
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes the result as JSON",
@@ -125,7 +143,11 @@ void print_verdict(const Verdict& verdict) {
     for (const std::string& label : verdict.labels_changed) std::cout << " " << label;
     std::cout << "\n";
   }
-  if (verdict.looked_at()) print_quality(verdict.audit.quality);
+  if (verdict.looked_at()) {
+    print_quality(verdict.audit.quality);
+    print_volumes(verdict.audit.volumes, verdict.table);
+    print_interfaces(verdict.audit.shape);
+  }
   if (verdict.audit.distance) print_distance(*verdict.audit.distance, verdict.table);
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const audit::Check& check) { return !check.passed; });
@@ -160,6 +182,19 @@ ordered_json measured_distance(const Verdict& verdict) {
   return distance_json(*verdict.audit.distance, verdict.table);
 }
 
+ordered_json volume_json(const Verdict& verdict) {
+  if (!verdict.looked_at()) return nullptr;
+  const audit::VolumeReport& volumes = verdict.audit.volumes;
+  ordered_json out = volume_summary_json(volumes.summary, verdict.table);
+  out["exact"] = volumes.exact;
+  ordered_json rows = ordered_json::array();
+  for (const audit::VolumeRow& row : volumes.per_label) {
+    rows.push_back(volume_row_json(row, verdict.table));
+  }
+  out["per_label"] = std::move(rows);
+  return out;
+}
+
 ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
                            const Resources& resources) {
   const bool measured = verdict.looked_at();
@@ -169,6 +204,8 @@ ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
           {"passed", verdict.audit.passed()},
           {"checks", checks_json(verdict.audit)},
           {"quality", measured ? quality_json(verdict.audit.quality) : ordered_json(nullptr)},
+          {"volume", volume_json(verdict)},
+          {"shape", measured ? interfaces_json(verdict.audit.shape) : ordered_json(nullptr)},
           {"distance", measured_distance(verdict)},
           {"topology", topology_json(verdict)},
           {"performance",
