@@ -84,6 +84,7 @@ class InterfaceShape {
   };
 
   void collect_faces();
+  void reserve_news();
   void pair_faces();
   void settle_faces(std::size_t home, std::span<const Face> faces);
   void settle_edges(std::size_t home, std::span<const EdgeNews> news);

@@ -31,7 +31,7 @@ constexpr std::uint64_t kBytesPerBrick = 20;
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
 
-// Decoding, positions, tets with global rows.
+// Decoding, positions, tets with global rows; before them triangles, and what they tell of edges.
 constexpr std::uint64_t kBytesPerWrittenByte = 4;
 
 std::uint64_t content_bytes(const StartSize& size) {
