@@ -116,10 +116,12 @@ void ShapeMeter::add_edge(const Position& p, const Position& q, const Wing& one,
   const Position n = normal(p, edge, other);
   const double weight = length(edge);
   const double degrees = std::atan2(length(cross(m, n)), dot(m, n)) * (180 / std::numbers::pi);
-  const auto bin = static_cast<std::size_t>(degrees * kBinsPerDegree);
+  // Lattices are full of right angles and the like, which rounding must not put on either side.
+  constexpr double kRounding = 1e-9;
+  const auto bin = static_cast<std::size_t>((degrees + kRounding) * kBinsPerDegree);
   bins_[std::min(bin, bins_.size() - 1)].add(weight);
   length_.add(weight);
-  if (degrees > kSharpDegrees) sharp_length_.add(weight);
+  if (degrees > kSharpDegrees + kRounding) sharp_length_.add(weight);
   largest_ = std::max(largest_, degrees);
 }
 
