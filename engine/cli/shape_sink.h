@@ -34,7 +34,7 @@ class ShapeSink : public io::MeshSink {
   [[nodiscard]] audit::ShapeReport shape();
 
  private:
-  static constexpr std::size_t kSortBytes = 16 << 20;
+  static constexpr std::size_t kSortBytes = 8 << 20;
 
   void add_tet(const io::TetRows& tet, RawLabel label);
 
