@@ -42,7 +42,8 @@ TEST(ShapeSink, MeasuresWhatTheAuditDoes) {
     const SmallVolume volume = audit::test::random_volume(random);
     const audit::Frame frame{{0.5, 1, 2}, {-1, 0, 3}};
     SmallMesh mesh = five_tet_mesh(volume, frame);
-    for (auto& p : mesh.vertices) p[i % 3] += 1e-4 * audit::test::below(random, 1000);
+    for (auto& p : mesh.vertices)
+      p[static_cast<std::size_t>(i) % 3] += 1e-4 * audit::test::below(random, 1000);
     if (i % 4 == 0) {
       for (auto& tet : mesh.tets) std::swap(tet[1], tet[2]);
     }
