@@ -27,9 +27,9 @@ void each_piece(std::span<const Element> list, Key key, Visit visit) {
 
 }  // namespace
 
-InterfaceShape::InterfaceShape(const WindowGrid& grid, const io::VolumeInfo& info,
+InterfaceShape::InterfaceShape(const WindowGrid& grid, io::VolumeInfo info,
                                const LabelSelection& selection, HoldMemory hold)
-    : info_(info), selection_(selection), hold_(std::move(hold)), homes_(grid) {}
+    : info_(std::move(info)), selection_(selection), hold_(std::move(hold)), homes_(grid) {}
 
 void InterfaceShape::add(const BlockMesh& block) {
   block_ = &block;
@@ -40,7 +40,7 @@ void InterfaceShape::add(const BlockMesh& block) {
   collect_faces();
   reserve_news();
   pair_faces();
-  hold_for(faces_);
+  hold_left();
   const auto home_of = [&](const auto& part) { return home_[part.rows[0]]; };
   std::sort(faces_.begin(), faces_.end(), [&](const Face& a, const Face& b) {
     return std::tuple(home_of(a), a.rows) < std::tuple(home_of(b), b.rows);
@@ -208,11 +208,10 @@ bool InterfaceShape::points_out(const Face& face) const {
   return false;
 }
 
-/// Before these triangles and their edges wait as well; some close others, but few blocks know.
-void InterfaceShape::hold_for(std::span<const Face> open) {
+/// Before the triangles that are left and their edges wait as well; those that close one will not.
+void InterfaceShape::hold_left() {
   const std::uint64_t each = sizeof(OpenFace) + 3 * sizeof(OpenEdge);
-  const std::uint64_t most = remembered() + each * open.size();
-  if (hold_) hold_(most);
+  if (hold_) hold_(remembered() + each * faces_.size());
 }
 
 }  // namespace mw::engine

@@ -29,9 +29,9 @@ namespace mw::engine {
 /// Cost: about 0.5 us a tet.  The figures are a function of the blocks.
 class InterfaceShape {
  public:
-  /// The references outlive it.
-  InterfaceShape(const WindowGrid& grid, const io::VolumeInfo& info,
-                 const LabelSelection& selection, HoldMemory hold);
+  /// The selection outlives it.
+  InterfaceShape(const WindowGrid& grid, io::VolumeInfo info, const LabelSelection& selection,
+                 HoldMemory hold);
 
   /// REQUIRES: each block once, in a fixed order, whole: what is not written is left out here.
   void add(const BlockMesh& block);
@@ -98,9 +98,9 @@ class InterfaceShape {
   [[nodiscard]] Label label(const Face& face) const { return block_->tets[face.tet].label; }
   [[nodiscard]] bool on_box(const Face& face) const;
   [[nodiscard]] bool points_out(const Face& face) const;
-  void hold_for(std::span<const Face> open);
+  void hold_left();
 
-  const io::VolumeInfo& info_;
+  io::VolumeInfo info_;
   const LabelSelection& selection_;
   HoldMemory hold_;
   VertexUses homes_;

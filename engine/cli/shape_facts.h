@@ -3,10 +3,8 @@
 // What can be said of label volumes and of the shape of interfaces, and how reports say it.
 #pragma once
 
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 
-#include "io/file/atomic_file.h"
 #include "io/labels/label_table.h"
 #include "kernels/audit/shape.h"
 #include "kernels/audit/volumes.h"

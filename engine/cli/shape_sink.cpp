@@ -87,7 +87,7 @@ void ShapeSink::add_tet(const io::TetRows& tet, RawLabel label) {
   const auto [a, b, c, d] = rows;
   const double volume6 = determinant(positions_[a], positions_[b], positions_[c], positions_[d]);
   volumes_[label].add(std::abs(volume6) / 6);
-  // Seen from d, a triangle a b c of a positive tet runs clockwise: its normal points at d.
+  // The normal of a b c points at d, into the tet, when that is positive; with each swap it turns.
   const std::uint64_t positive = volume6 > 0 ? 1 : 0;
   const std::uint64_t negative = 1 - positive;
   faces_.add({a, b, c << 1 | negative, label});

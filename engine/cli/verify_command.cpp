@@ -43,17 +43,10 @@ struct Verdict {
   [[nodiscard]] bool looked_at() const { return audit.checks.front().passed; }
 };
 
-std::optional<double> parse_distance(const std::string& text) {
+std::optional<double> parse_bound(const std::string& text) {
   if (text == kNone) return std::nullopt;
-  const double voxels = parse_number(text);
-  if (voxels >= 0) return voxels;
-  throw Error(ErrorKind::kUsage, "must not be negative; or none");
-}
-
-std::optional<double> parse_volume_error(const std::string& text) {
-  if (text == kNone) return std::nullopt;
-  const double share = parse_number(text);
-  if (share >= 0) return share;
+  const double bound = parse_number(text);
+  if (bound >= 0) return bound;
   throw Error(ErrorKind::kUsage, "must not be negative; or none");
 }
 
@@ -87,17 +80,15 @@ void add_verify_options(VerifyJob& job) {
        .help = "P4 fails above this many voxels between label boundaries, or none",
        .kind = ValueKind::kNumberOrNone,
        .fallback = kNone,
-       .assign = [&](const std::string& text) { job.audit.max_distance = parse_distance(text); }});
-  options.add({.name = "max-volume-error",
-               .value = "E",
-               .help =
-                   "P8 fails when a label of 1000 voxels or more is off by a larger share of its "
-                   "volume, or none",
-               .kind = ValueKind::kNumberOrNone,
-               .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
-               .assign = [&](const std::string& text) {
-                 job.audit.max_volume_error = parse_volume_error(text);
-               }});
+       .assign = [&](const std::string& text) { job.audit.max_distance = parse_bound(text); }});
+  options.add(
+      {.name = "max-volume-error",
+       .value = "E",
+       .help = "P8 fails when a label of 1000 voxels or more is off by a larger share of its "
+               "volume, or none",
+       .kind = ValueKind::kNumberOrNone,
+       .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
+       .assign = [&](const std::string& text) { job.audit.max_volume_error = parse_bound(text); }});
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes the result as JSON",

@@ -189,7 +189,7 @@ TEST_F(JudgedVolumes, FailWhenALabelGrows) {
   EXPECT_FALSE(judge().passed);
 }
 
-/// Topology does not see it: both are balls... but one is ten times the other.
+/// The block's label is then that of what is around it.
 TEST_F(JudgedVolumes, FailWhenTwoLabelsAreSwapped) {
   for (Label& label : mesh_.labels) label = label == 0 ? 1 : label == 1 ? 0 : 2;
   const AuditReport report =
