@@ -21,7 +21,7 @@ namespace mw::engine {
 struct OutputOptions {
   WantedLabel wanted;            ///< empty: every label
   bool measure_quality = false;  ///< about 0.1 us a tet
-  bool measure_shape = false;    ///< volumes, area and bends; about 0.5 us a tet
+  bool measure_shape = false;    ///< volumes, area and bends; about 1 us a tet
   HoldMemory hold;               ///< optional
 };
 

@@ -107,7 +107,8 @@ ordered_json shape_json(const FinishedRun& run) {
 }
 
 void write_rows(io::AtomicFile& file, const FinishedRun& run) {
-  const char* before = "[";
+  file.append("[");
+  const char* before = "";
   each_volume(run.engine, [&](const audit::VolumeRow& row) {
     file.append(std::string(before) + "\n      " + volume_row_json(row, run.labels).dump());
     before = ",";
