@@ -30,6 +30,8 @@ stem() {
 print_table() {
   jq -rs '
     def percent: . * 10000 | round / 100 | tostring + " %";
+    # Of labels with 1000 voxels or more.
+    def measured: if . == null then "no large label" else percent end;
     def digits3: . * 1000 | round / 1000 | tostring;
     .[0] as $run | .[1] as $check |
     ["input", ($run.input.shape_xyz | map(tostring) | join(" x ")) + " voxels, "
@@ -42,11 +44,14 @@ print_table() {
     ["slivers (below 0.1)", ($run.quality.sliver_fraction | percent)],
     ["labels changed", ($check.topology.labels_changed // "not known")],
     ["distance, voxels at most", ($check.distance.max_voxels | digits3)],
+    ["volume error, mean", ($run.shape.volume_error_mean_abs | measured)],
+    ["volume error, at most", ($run.shape.volume_error_max_abs | measured)],
+    ["edges sharper than 60 deg", ($run.shape.sharp_share | percent)],
     ["all checks hold", (if $check.passed then "yes" else "NO" end)],
     ["seconds", ($run.performance.wall_s * 10 | round / 10)],
     ["voxels/s", ($run.performance.voxels_per_s | round)],
     ["peak memory, MiB", ($run.performance.peak_rss_bytes / 1048576 | round)]
-    | map(tostring) | @tsv' "$1" "$2" | awk -F '\t' '{ printf "%-24s %s\n", $1, $2 }'
+    | map(tostring) | @tsv' "$1" "$2" | awk -F '\t' '{ printf "%-26s %s\n", $1, $2 }'
 }
 
 main() {

@@ -3,6 +3,10 @@
 // Two passes over the final blocks: count, then write.
 #include "engine/finish.h"
 
+#include <cstdlib>
+
+#include "engine/interface_shape.h"
+#include "engine/physical_position.h"
 #include "engine/vertex_rows.h"
 
 namespace mw::engine {
@@ -12,17 +16,33 @@ namespace {
 constexpr std::uint64_t kBytesPerRemembered = 32;
 constexpr std::uint64_t kHoldStepBytes = 1 << 20;
 
-/// One division a coordinate, so that corners of the volume's voxels stay whole numbers.
-io::Position physical(Point p, const io::VolumeInfo& info, Index3 layers) {
-  const auto in_voxels = [](std::int32_t units, std::int64_t of_voxel) {
-    return static_cast<double>(units) / static_cast<double>(of_voxel * kUnitsPerVoxel);
-  };
-  const std::array<double, 3> corner{in_voxels(p.x, layers.x), in_voxels(p.y, layers.y),
-                                     in_voxels(p.z, layers.z)};
-  io::Position out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = info.origin[i] + info.spacing[i] * corner[i];
-  return out;
-}
+/// What the parts of the merge remember, told as one sum.
+class Remembered {
+ public:
+  explicit Remembered(HoldMemory hold) : hold_(std::move(hold)) {}
+
+  /// Before a part comes to so many bytes.
+  void rows(std::uint64_t bytes) {
+    rows_ = bytes;
+    tell();
+  }
+  void shape(std::uint64_t bytes) {
+    shape_ = bytes;
+    tell();
+  }
+
+ private:
+  void tell() {
+    if (!hold_ || rows_ + shape_ <= held_) return;
+    held_ = rows_ + shape_ + kHoldStepBytes;
+    hold_(held_);
+  }
+
+  HoldMemory hold_;
+  std::uint64_t rows_ = 0;
+  std::uint64_t shape_ = 0;
+  std::uint64_t held_ = 0;
+};
 
 std::vector<io::Position> positions_of(const BlockMesh& block, const io::VolumeInfo& info,
                                        Index3 layers) {
@@ -50,13 +70,13 @@ std::vector<io::TetRows> oriented_tets(const BlockMesh& block) {
 /// Second pass.
 class Writer {
  public:
-  Writer(VertexUses uses, const io::DenseVolume& volume, io::MeshSink& sink,
-         const OutputOptions& options)
+  Writer(VertexUses uses, const io::DenseVolume& volume, Index3 layers, io::MeshSink& sink,
+         Remembered& remembered)
       : rows_(std::move(uses)),
         volume_(volume),
-        layers_(options.layers),
+        layers_(layers),
         sink_(sink),
-        hold_(options.hold) {}
+        remembered_(remembered) {}
 
   void write(Index3 where, const BlockMesh& block, audit::QualityMeter* quality) {
     const std::vector<io::Position> positions = positions_of(block, volume_.info(), layers_);
@@ -81,7 +101,7 @@ class Writer {
  private:
   std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
                                             const std::vector<io::Position>& positions) {
-    hold(block.vertices.size());
+    remembered_.rows(kBytesPerRemembered * (rows_.remembered() + block.vertices.size()));
     const std::uint64_t first_new = rows_.count();
     std::vector<std::uint64_t> rows = rows_.assign(where, block.vertices);
     std::vector<io::Position> added;
@@ -92,20 +112,55 @@ class Writer {
     return rows;
   }
 
-  /// Before so many vertices more are remembered.
-  void hold(std::size_t more) {
-    const std::uint64_t bytes = kBytesPerRemembered * (rows_.remembered() + more);
-    if (!hold_ || bytes <= held_) return;
-    held_ = bytes + kHoldStepBytes;
-    hold_(held_);
-  }
-
   VertexRows rows_;
   const io::DenseVolume& volume_;
   Index3 layers_;
   io::MeshSink& sink_;
-  HoldMemory hold_;
-  std::uint64_t held_ = 0;
+  Remembered& remembered_;
+};
+
+io::VolumeInfo lattice_info(io::VolumeInfo info, Index3 layers) {
+  const auto cut = [&](std::size_t axis, std::int64_t& voxels, std::int64_t parts) {
+    voxels *= parts;
+    info.spacing[axis] /= static_cast<double>(parts);
+  };
+  cut(0, info.shape.x, layers.x);
+  cut(1, info.shape.y, layers.y);
+  cut(2, info.shape.z, layers.z);
+  return info;
+}
+
+/// The volumes of labels and the shape of their interfaces, on the way of the blocks to the writer.
+class ShapeWatch {
+ public:
+  ShapeWatch(const WindowGrid& grid, const io::DenseVolume& volume, const LabelSelection& selection,
+             Index3 layers, Remembered& remembered)
+      : selection_(selection),
+        interfaces_(grid, lattice_info(volume.info(), layers), selection,
+                    [&](std::uint64_t bytes) { remembered.shape(bytes); }),
+        volumes6_(volume.table().size()) {}
+
+  /// REQUIRES: as InterfaceShape::add.
+  void add(const BlockMesh& block) {
+    interfaces_.add(block);
+    const auto at = [&](std::uint32_t v) { return block.vertices[v].position; };
+    for (const BlockTet& t : block.tets) {
+      if (!selection_.keeps(t.label)) continue;
+      const auto& [a, b, c, d] = t.vertices;
+      volumes6_[t.label] += std::abs(volume6(at(a), at(b), at(c), at(d)));
+    }
+  }
+
+  void report(FinishedMesh& out) {
+    out.shape = interfaces_.report();
+    out.label_volumes6 = std::move(volumes6_);
+    out.most_shape_bytes = interfaces_.most_remembered();
+  }
+
+ private:
+  const LabelSelection& selection_;
+  InterfaceShape interfaces_;
+  std::vector<Int128> volumes6_;
 };
 
 }  // namespace
@@ -113,28 +168,31 @@ class Writer {
 FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::DenseVolume& volume,
                     io::MeshSink& sink, const OutputOptions& options) {
   const LabelSelection selection(options.wanted, volume.table());
-  const auto load = [&](Index3 where) {
-    BlockMesh block = blocks.load(where);
-    selection.apply(block);
-    return block;
-  };
   FinishedMesh out;
   VertexUses uses(grid);
   each_index(grid.blocks(), [&](Index3 b) {
-    const BlockMesh block = load(b);
+    BlockMesh block = blocks.load(b);
+    selection.apply(block);
     uses.add(b, block.vertices);
     out.tets += block.tets.size();
   });
   sink.begin({.tets = out.tets, .labels_signed = volume.table().is_signed()});
-  Writer writer(std::move(uses), volume, sink, options);
+  Remembered remembered(options.hold);
+  Writer writer(std::move(uses), volume, options.layers, sink, remembered);
   audit::QualityMeter quality;
+  std::optional<ShapeWatch> shape;
+  if (options.measure_shape) shape.emplace(grid, volume, selection, options.layers, remembered);
   each_index(grid.blocks(), [&](Index3 b) {
-    writer.write(b, load(b), options.measure_quality ? &quality : nullptr);
+    BlockMesh block = blocks.load(b);
+    if (shape) shape->add(block);
+    selection.apply(block);
+    writer.write(b, block, options.measure_quality ? &quality : nullptr);
   });
   sink.finish();
   out.vertices = writer.rows().count();
   out.most_remembered = writer.rows().most_remembered();
   if (options.measure_quality) out.quality = quality.report();
+  if (shape) shape->report(out);
   return out;
 }
 

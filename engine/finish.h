@@ -3,25 +3,25 @@
 // The end of a run: final blocks become one mesh with global rows, in bounded memory (promise P6).
 #pragma once
 
-#include <functional>
 #include <optional>
+#include <vector>
 
 #include "engine/final_blocks.h"
+#include "engine/hold_memory.h"
 #include "engine/label_selection.h"
 #include "engine/window_grid.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/audit/quality.h"
+#include "kernels/audit/shape.h"
+#include "kernels/core/int128.h"
 
 namespace mw::engine {
-
-/// Told how much the merge remembers of vertices, before that grows beyond what was last told; may
-/// throw.
-using HoldMemory = std::function<void(std::uint64_t bytes)>;
 
 /// What is written and told of the mesh.
 struct OutputOptions {
   WantedLabel wanted;            ///< empty: every label
   bool measure_quality = false;  ///< about 0.1 us a tet
+  bool measure_shape = false;    ///< volumes, area and bends; about 1 us a tet
   HoldMemory hold;               ///< optional
   Index3 layers{1, 1, 1};        ///< that the volume's voxels were cut into; set by mesh_volume()
 };
@@ -31,7 +31,12 @@ struct FinishedMesh {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
   std::optional<audit::QualityReport> quality;
-  std::size_t most_remembered = 0;  ///< see VertexRows; 16 bytes each
+  std::optional<audit::ShapeReport> shape;
+  /// With measure_shape, by dense label: six times the volume that is written, exact, in cubic
+  /// units of the lattice.
+  std::vector<Int128> label_volumes6;
+  std::size_t most_remembered = 0;     ///< see VertexRows; 16 bytes each
+  std::uint64_t most_shape_bytes = 0;  ///< see InterfaceShape
 };
 
 /// Reads every block twice in raster order, first for counts and uses of vertices, then to write.
@@ -39,7 +44,8 @@ struct FinishedMesh {
 /// order inside it.  Coordinates are origin + spacing * voxel corner of the volume, and exactly
 /// that on corners, whatever the layers.
 /// grid: of the lattice, layers times the volume's shape.
-/// Memory: one block, what VertexRows remembers, and the sink's buffers.
+/// Memory: one block, what VertexRows and InterfaceShape remember, 16 bytes a label and the sink's
+/// buffers.
 FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::DenseVolume& volume,
                     io::MeshSink& sink, const OutputOptions& options = {});
 

@@ -18,6 +18,9 @@ class LabelSelection {
  public:
   LabelSelection(const WantedLabel& wanted, const io::LabelTable& table);
 
+  /// Whether a label is written.
+  [[nodiscard]] bool keeps(Label label) const { return wanted_.empty() || wanted_[label]; }
+
   /// Drops the tets of other labels, and the vertices that no tet references any more.  Samples
   /// are dropped.  ENSURES: canonical when it was.
   void apply(BlockMesh& block) const;

@@ -58,7 +58,8 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                int threads, const std::filesystem::path& folder)
-    : original_(volume.info().shape, volume.table().size(), folder) {
+    : original_(volume.info().shape, volume.table().size(), folder),
+      label_voxels_(volume.table().size()) {
   read_bricks(volume);
   // Coarsening keeps the topology of labels, not that of interfaces.
   if (settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels) {
@@ -91,8 +92,18 @@ void PreparedLabels::read_bricks(const io::DenseVolume& volume) {
         each_index(Box3{first, last}, [&](Index3 brick) {
           cut_brick(labels, original_.box_of(brick), one);
           original_.write(brick, one);
+          count(brick, one);
         });
       });
+}
+
+void PreparedLabels::count(Index3 brick, std::span<const Label> voxels) {
+  const Label only = original_.uniform_label(brick);
+  if (only != kExterior) {
+    label_voxels_[only] += voxels.size();
+  } else {
+    for (const Label label : voxels) ++label_voxels_[label];
+  }
 }
 
 void PreparedLabels::coarsen_tiles(double max_distance, int threads) {

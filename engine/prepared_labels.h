@@ -19,7 +19,7 @@ class PreparedLabels {
   /// Reads the volume once, and coarsens it when the start mesh asks for that.
   /// folder: where temporary files go.  threads: of all but the reading; they change nothing.
   /// ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
-  /// Memory while it works: preparation_bytes() a thread.
+  /// Memory while it works: preparation_bytes() a thread; 8 bytes a label stay.
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
                  const std::filesystem::path& folder = io::scratch_folder());
 
@@ -28,9 +28,12 @@ class PreparedLabels {
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
+  /// How many voxels of the input have each dense label.
+  [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return label_voxels_; }
 
  private:
   void read_bricks(const io::DenseVolume& volume);
+  void count(Index3 brick, std::span<const Label> voxels);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(int threads);
@@ -39,6 +42,7 @@ class PreparedLabels {
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;
   LevelMap levels_;
+  std::vector<std::uint64_t> label_voxels_;
 };
 
 }  // namespace mw::engine

@@ -186,6 +186,16 @@ FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, Ru
   return finish(blocks, grid, lattice.volume(), sink, options);
 }
 
+void report_shape(FinishedMesh& finished, const PreparedLabels& labels, const LabelSelection& kept,
+                  RunReport& report) {
+  report.shape = finished.shape;
+  report.label_volumes6 = std::move(finished.label_volumes6);
+  report.label_voxels = labels.label_voxels();
+  for (Label label = 0; label < report.label_voxels.size(); ++label) {
+    if (!kept.keeps(label)) report.label_voxels[label] = 0;
+  }
+}
+
 /// Everything between an open store and a written mesh.  workers: null without TetGen.
 void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
                      const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
@@ -210,11 +220,15 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();
   watch.restart();
-  const FinishedMesh finished = write_mesh(layout, lattice, store, sink, hooks);
+  FinishedMesh finished = write_mesh(layout, lattice, store, sink, hooks);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;
   report.quality = finished.quality;
+  if (finished.shape) {
+    report_shape(finished, labels, LabelSelection(hooks.output.wanted, lattice.volume().table()),
+                 report);
+  }
 }
 
 /// After an error: what can be saved is, and the first error stays the one that is told.

@@ -22,7 +22,8 @@ constexpr std::uint64_t kBytesPerWindow = 64 * kKibibyte;
 // Pages of code and libraries, the allocator's slack, and buffers of the reading of labels.
 constexpr std::uint64_t kProgramBytes = 20 * kMebibyte;
 constexpr std::uint64_t kBytesPerThread = kMebibyte;
-constexpr std::uint64_t kBytesPerLabel = 64;
+// The label table, and what is counted of each label in voxels and mesh.
+constexpr std::uint64_t kBytesPerLabel = 96;
 
 // Places of a brick of the input and of a coarsened one, and its large cells.
 constexpr std::uint64_t kBytesPerBrick = 20;
@@ -30,7 +31,7 @@ constexpr std::uint64_t kBytesPerBrick = 20;
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
 
-// Decoding, positions, tets with global rows.
+// Decoding, positions, tets with global rows; before them triangles, and what they tell of edges.
 constexpr std::uint64_t kBytesPerWrittenByte = 4;
 
 std::uint64_t content_bytes(const StartSize& size) {

@@ -89,7 +89,8 @@ engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& v
   };
   if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
   hooks.output = {.wanted = wanted_labels(request, volume.table()),
-                  .measure_quality = !request.report.empty()};
+                  .measure_quality = !request.report.empty(),
+                  .measure_shape = !request.report.empty()};
   return engine::mesh_volume(volume, request.settings, files.all(), hooks);
 }
 
@@ -160,7 +161,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   const InterruptibleVolume volume(*opened);
   const FingerprintVolume fingerprint(volume);
   const io::LabelTable table = io::collect_labels(fingerprint);
-  FinishedRun run{.volume = volume.info(), .labels = table.size()};
+  FinishedRun run{.volume = volume.info(), .labels = table};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
   run.engine = mesh_or_keep(request, io::DenseVolume(volume, table), files, fingerprint.text());
@@ -172,7 +173,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
     engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
     run.digest = files.digest->digest();
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
-    write_json(*files.report, run_report(run, request.output, options.json()));
+    write_run_report(*files.report, run, request.output, options.json());
   }
   return kExitDone;
 }

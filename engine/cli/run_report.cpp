@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/cli/mesh_facts.h"
+#include "engine/cli/shape_facts.h"
 
 namespace mw::cli {
 namespace {
@@ -19,7 +20,7 @@ ordered_json input_json(const FinishedRun& run) {
           {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
           {"spacing_xyz", info.spacing},
           {"origin_xyz", info.origin},
-          {"labels", run.labels},
+          {"labels", run.labels.size()},
           {"voxels", info.shape.product()}};
 }
 
@@ -94,11 +95,37 @@ ordered_json engine_json(const FinishedRun& run) {
   return out;
 }
 
-}  // namespace
+/// Calls visit(row) for the labels that were written.
+template <typename Visit>
+void each_volume(const engine::RunReport& run, Visit visit) {
+  const std::int64_t parts = run.lattice.layers.product();
+  for (Label label = 0; label < run.label_voxels.size(); ++label) {
+    const std::uint64_t voxels = run.label_voxels[label] / static_cast<std::uint64_t>(parts);
+    if (voxels > 0) visit(audit::volume_row(label, voxels, run.label_volumes6[label], parts));
+  }
+}
 
-double vertex_fraction(std::uint64_t vertices, Index3 shape) {
-  const Index3 corners = shape + Index3{1, 1, 1};
-  return static_cast<double>(vertices) / static_cast<double>(corners.product());
+/// Stands for rows that are written one by one: as JSON values they would take some 500 bytes each,
+/// which no budget has set aside.
+constexpr const char* kRows = "@rows";
+
+ordered_json shape_json(const FinishedRun& run) {
+  audit::VolumeMeter volumes;
+  each_volume(run.engine, [&](const audit::VolumeRow& row) { volumes.add(row); });
+  ordered_json out = volume_summary_json(volumes.summary(), run.labels);
+  out.update(interfaces_json(run.engine.shape.value()));
+  out["per_label"] = kRows;
+  return out;
+}
+
+void write_rows(io::AtomicFile& file, const FinishedRun& run) {
+  file.append("[");
+  const char* before = "";
+  each_volume(run.engine, [&](const audit::VolumeRow& row) {
+    file.append(std::string(before) + "\n      " + volume_row_json(row, run.labels).dump());
+    before = ",";
+  });
+  file.append("\n    ]");
 }
 
 ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
@@ -109,11 +136,34 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
           {"lattice", lattice_json(run.engine.lattice)},
           {"output", output_json(run, mesh)},
           {"quality", quality_json(run.engine.quality.value())},
+          {"shape", shape_json(run)},
           {"distance", {{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}}},
           {"topology", {{"checked", false}, {"labels_changed", nullptr}}},
           {"performance", performance_json(run)},
           {"engine", engine_json(run)},
           {"digest", run.digest}};
+}
+
+}  // namespace
+
+double vertex_fraction(std::uint64_t vertices, Index3 shape) {
+  const Index3 corners = shape + Index3{1, 1, 1};
+  return static_cast<double>(vertices) / static_cast<double>(corners.product());
+}
+
+void write_run_report(io::AtomicFile& file, const FinishedRun& run,
+                      const std::filesystem::path& mesh, ordered_json settings) {
+  const std::string text = run_report(run, mesh, std::move(settings))
+                               .dump(2, ' ', false, ordered_json::error_handler_t::replace);
+  // Inside of a string the quotes would be escaped, so this is the key and no part of a value.
+  const std::string key = "\"per_label\": ";
+  const std::string rows = "\"" + std::string(kRows) + "\"";
+  const std::size_t at = text.find(key + rows) + key.size();
+  file.append(std::string_view(text).substr(0, at));
+  write_rows(file, run);
+  file.append(std::string_view(text).substr(at + rows.size()));
+  file.append("\n");
+  file.commit();
 }
 
 }  // namespace mw::cli

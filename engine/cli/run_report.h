@@ -8,13 +8,14 @@
 
 #include "engine/cli/resource_meter.h"
 #include "engine/run.h"
+#include "io/file/atomic_file.h"
 
 namespace mw::cli {
 
 /// What a run knows when its mesh has been written.
 struct FinishedRun {
   const io::VolumeInfo& volume;
-  std::size_t labels = 0;
+  const io::LabelTable& labels;
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels
   Resources resources;        ///< times until the mesh was written, memory until its digest
@@ -24,9 +25,9 @@ struct FinishedRun {
 /// Vertices of a mesh per corner of the volume's voxels.
 [[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
 
-/// What nobody measured is null.  REQUIRES: run.engine.quality.
-[[nodiscard]] nlohmann::ordered_json run_report(const FinishedRun& run,
-                                                const std::filesystem::path& mesh,
-                                                nlohmann::ordered_json settings);
+/// What nobody measured is null.  Memory: no more for more labels.
+/// REQUIRES: run.engine.quality and shape.
+void write_run_report(io::AtomicFile& file, const FinishedRun& run,
+                      const std::filesystem::path& mesh, nlohmann::ordered_json settings);
 
 }  // namespace mw::cli

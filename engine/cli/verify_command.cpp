@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// mwmesh verify: promises P1 to P4 of a finished mesh, independently of how it was made.
+// mwmesh verify: promises P1 to P4 and P8 of a finished mesh, independently of how it was made.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -11,6 +11,7 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/resource_meter.h"
+#include "engine/cli/shape_facts.h"
 #include "engine/cli/values.h"
 #include "engine/cli/volume_options.h"
 #include "io/mesh/open_mesh.h"
@@ -46,10 +47,10 @@ struct Verdict {
   [[nodiscard]] bool looked_at() const { return audit.checks.front().passed; }
 };
 
-std::optional<double> parse_distance(const std::string& text) {
+std::optional<double> parse_bound(const std::string& text) {
   if (text == kNone) return std::nullopt;
-  const double voxels = parse_number(text);
-  if (voxels >= 0) return voxels;
+  const double bound = parse_number(text);
+  if (bound >= 0) return bound;
   throw Error(ErrorKind::kUsage, "must not be negative; or none");
 }
 
@@ -83,7 +84,7 @@ void add_verify_options(VerifyJob& job) {
        .help = "P4 fails above this many voxels (see --surface) between label boundaries, or none",
        .kind = ValueKind::kNumberOrNone,
        .fallback = kNone,
-       .assign = [&](const std::string& text) { job.audit.max_distance = parse_distance(text); }});
+       .assign = [&](const std::string& text) { job.audit.max_distance = parse_bound(text); }});
   options.add({.name = "surface",
                .value = "SHAPE",
                .help = "how the mesh was made, hence what distances count in: smooth, voxels of "
@@ -91,6 +92,14 @@ void add_verify_options(VerifyJob& job) {
                .fallback = "smooth",
                .choices = {"smooth", kVoxel},
                .assign = [&](const std::string& text) { job.in_layers = text != kVoxel; }});
+  options.add(
+      {.name = "max-volume-error",
+       .value = "E",
+       .help = "P8 fails when a label of 1000 voxels or more is off by a larger share of its "
+               "volume, or none",
+       .kind = ValueKind::kNumberOrNone,
+       .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
+       .assign = [&](const std::string& text) { job.audit.max_volume_error = parse_bound(text); }});
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes the result as JSON",
@@ -146,7 +155,11 @@ void print_verdict(const Verdict& verdict) {
     for (const std::string& label : verdict.labels_changed) std::cout << " " << label;
     std::cout << "\n";
   }
-  if (verdict.looked_at()) print_quality(verdict.audit.quality);
+  if (verdict.looked_at()) {
+    print_quality(verdict.audit.quality);
+    print_volumes(verdict.audit.volumes, verdict.table);
+    print_interfaces(verdict.audit.shape);
+  }
   if (verdict.audit.distance) {
     print_lattice(verdict.layers);
     print_distance(*verdict.audit.distance, verdict.table);
@@ -184,6 +197,19 @@ ordered_json measured_distance(const Verdict& verdict) {
   return distance_json(*verdict.audit.distance, verdict.table);
 }
 
+ordered_json volume_json(const Verdict& verdict) {
+  if (!verdict.looked_at()) return nullptr;
+  const audit::VolumeReport& volumes = verdict.audit.volumes;
+  ordered_json out = volume_summary_json(volumes.summary, verdict.table);
+  out["exact"] = volumes.exact;
+  ordered_json rows = ordered_json::array();
+  for (const audit::VolumeRow& row : volumes.per_label) {
+    rows.push_back(volume_row_json(row, verdict.table));
+  }
+  out["per_label"] = std::move(rows);
+  return out;
+}
+
 ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
                            const Resources& resources) {
   const bool measured = verdict.looked_at();
@@ -194,6 +220,8 @@ ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
           {"passed", verdict.audit.passed()},
           {"checks", checks_json(verdict.audit)},
           {"quality", measured ? quality_json(verdict.audit.quality) : ordered_json(nullptr)},
+          {"volume", volume_json(verdict)},
+          {"shape", measured ? interfaces_json(verdict.audit.shape) : ordered_json(nullptr)},
           {"distance", measured_distance(verdict)},
           {"topology", topology_json(verdict)},
           {"performance",

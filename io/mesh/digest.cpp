@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "io/file/errors.h"
+#include "io/file/paged_file.h"
 #include "io/mesh/hasher.h"
 
 namespace mw::io {
@@ -25,39 +26,6 @@ std::uint64_t unsortable(std::uint64_t key) {
   return (key >> 63) != 0 ? key & ~(std::uint64_t{1} << 63) : ~key;
 }
 
-/// Numbers in a temporary file, looked up through a cache of pages.
-class LookupFile {
- public:
-  explicit LookupFile(const std::filesystem::path& folder)
-      : file_(folder), pages_(kPages), held_(kPages, kNone) {}
-
-  void append(std::uint64_t number) { file_.append(std::as_bytes(std::span(&number, 1))); }
-  [[nodiscard]] std::uint64_t size() const { return file_.size() / sizeof(std::uint64_t); }
-  /// REQUIRES: at < size(); nothing is appended any more.
-  [[nodiscard]] std::uint64_t operator[](std::uint64_t at) {
-    const std::uint64_t page = at / kPageNumbers;
-    const std::size_t slot = page % kPages;
-    if (held_[slot] != page) load(page, slot);
-    return pages_[slot][at % kPageNumbers];
-  }
-
- private:
-  static constexpr std::size_t kPageNumbers = 512;
-  static constexpr std::size_t kPages = 2048;  ///< 8 MiB
-  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
-
-  void load(std::uint64_t page, std::size_t slot) {
-    const std::uint64_t first = page * kPageNumbers;
-    pages_[slot].resize(std::min<std::uint64_t>(kPageNumbers, size() - first));
-    file_.read_at(first * sizeof(std::uint64_t), std::as_writable_bytes(std::span(pages_[slot])));
-    held_[slot] = page;
-  }
-
-  ScratchFile file_;
-  std::vector<std::vector<std::uint64_t>> pages_;
-  std::vector<std::uint64_t> held_;  ///< by slot: its page
-};
-
 /// Hashes the vertices in order and leaves the rank of each row.
 void hash_vertices(ExternalSort<4>& positions, ExternalSort<2>& ranks, Hasher& hasher) {
   std::uint64_t place = 0;
@@ -74,7 +42,7 @@ void hash_vertices(ExternalSort<4>& positions, ExternalSort<2>& ranks, Hasher& h
 }
 
 /// The tets with ranks instead of rows.
-void rank_tets(ScratchFile& tet_rows, LookupFile& rank, ExternalSort<5>& keys) {
+void rank_tets(ScratchFile& tet_rows, PagedFile<std::uint64_t>& rank, ExternalSort<5>& keys) {
   std::vector<TetKey> batch;
   for (std::uint64_t at = 0; at < tet_rows.size(); at += batch.size() * sizeof(TetKey)) {
     batch.resize(std::min<std::uint64_t>(4096, (tet_rows.size() - at) / sizeof(TetKey)));
@@ -121,7 +89,7 @@ std::string DigestSink::digest() {
   hasher.add(std::string_view("mwmesh-digest-1"));
   hasher.add(vertices_);
   hasher.add(tets_);
-  LookupFile rank(folder_);
+  PagedFile<std::uint64_t> rank(folder_);
   {
     ExternalSort<2> ranks(folder_, memory_bytes_);
     hash_vertices(positions_, ranks, hasher);

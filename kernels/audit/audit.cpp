@@ -121,6 +121,19 @@ Check judge_distance(const DistanceReport& distance, const std::optional<double>
   return {"P4 distance", passed, detail};
 }
 
+Check judge_volumes(const VolumeSummary& volumes, double bound) {
+  if (!volumes.worst) {
+    return {"P8 volumes", true,
+            "no label of " + std::to_string(kLeastJudgedVoxels) + " voxels or more"};
+  }
+  const VolumeRow& worst = *volumes.worst;
+  return {"P8 volumes", volumes.error_max_abs <= bound,
+          "error " + number(volumes.error_max_abs) + " at most (" + label_text(worst.label) + ": " +
+              std::to_string(worst.voxels) + " voxels, " + number(worst.volume_voxels) +
+              " in the mesh), mean " + number(volumes.error_mean_abs) + " of " +
+              std::to_string(volumes.labels_measured) + " labels, bound " + number(bound)};
+}
+
 /// Fails every check that needs a mesh.
 void refuse_all(const AuditOptions& options, std::vector<Check>& checks) {
   const auto refuse = [&](const char* name) {
@@ -133,6 +146,7 @@ void refuse_all(const AuditOptions& options, std::vector<Check>& checks) {
   }
   refuse("P3 radius ratio");
   if (options.max_distance) refuse("P4 distance");
+  if (options.max_volume_error) refuse("P8 volumes");
 }
 
 }  // namespace
@@ -163,6 +177,11 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
       report.checks.push_back(judge_distance(*report.distance, options.max_distance));
     }
   }
+  report.volumes = measure_volumes(volume, label_count, mesh, frame, options.layers);
+  if (options.max_volume_error) {
+    report.checks.push_back(judge_volumes(report.volumes.summary, *options.max_volume_error));
+  }
+  report.shape = measure_shape(mesh);
   return report;
 }
 

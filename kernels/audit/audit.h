@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An independent second opinion on a finished mesh: promises P1 to P4 (`mwmesh verify`).
+// An independent second opinion on a finished mesh: promises P1 to P4 and P8 (`mwmesh
+// verify`).
 #pragma once
 
 #include <cstddef>
@@ -12,8 +13,10 @@
 #include "kernels/audit/distance.h"
 #include "kernels/audit/places.h"
 #include "kernels/audit/quality.h"
+#include "kernels/audit/shape.h"
 #include "kernels/audit/subject.h"
 #include "kernels/audit/validity.h"
+#include "kernels/audit/volumes.h"
 
 namespace mw::audit {
 
@@ -23,6 +26,8 @@ struct AuditOptions {
   bool measure_distance = true;                    ///< false: only when max_distance is set
   std::optional<double> max_distance;              ///< voxels; P4 is checked, and fails above this
   Index3 layers{1, 1, 1};  ///< distances are in voxels cut into so many layers along each axis
+  /// P8 fails above this share, for labels of at least kLeastJudgedVoxels; empty: no check.
+  std::optional<double> max_volume_error = 0.05;
 };
 
 /// Interfaces and meetings of labels (places.h).
@@ -36,7 +41,7 @@ struct PlacesReport {
 /// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
 struct AuditReport {
   /// Those of validity, then "P1 topology", as AuditOptions ask "P1 interfaces" and
-  /// "P1 meetings", "P3 radius ratio" and "P4 distance"; the last only with
+  /// "P1 meetings", "P3 radius ratio", "P4 distance" and "P8 volumes"; "P4 distance" only with
   /// a bound, or when a label has an interface on one side only, which fails without a bound too.
   std::vector<Check> checks;
   std::vector<RegionBetti> voxels;
@@ -48,6 +53,8 @@ struct AuditReport {
   bool topology_is_indicative = false;
   ValidityReport validity;
   QualityReport quality;
+  VolumeReport volumes;
+  ShapeReport shape;
   std::optional<DistanceReport>
       distance;  ///< as AuditOptions ask, if the mesh could be read as one
 
@@ -57,8 +64,8 @@ struct AuditReport {
 /// Judges a mesh of any tool against its volume.  Shares no code with the mesher but kernels/core.
 /// label_count: size of the label table; the volume's labels are below it.
 /// Errors: kInput for an unusable volume; whatever is wrong with the mesh is a failed check.
-/// Cost: see voxel_betti, mesh_betti, check_validity and measure_distance.  Deterministic, one
-/// thread.
+/// Cost: see voxel_betti, mesh_betti, check_validity, measure_shape and measure_distance.
+/// Deterministic, one thread.
 [[nodiscard]] AuditReport audit(const VoxelLabels& volume, std::size_t label_count,
                                 const AuditMesh& mesh, const Frame& frame,
                                 const AuditOptions& options = {});

@@ -8,6 +8,9 @@
 namespace mw {
 
 inline constexpr std::int32_t kUnitsPerVoxel = 1024;
+/// Six times the volume of a voxel, in cubic lattice units.
+inline constexpr std::int64_t kVoxelVolume6 =
+    std::int64_t{6} * kUnitsPerVoxel * kUnitsPerVoxel * kUnitsPerVoxel;
 
 /// Largest extent, per axis, of a tetrahedron: 512 voxels.  Within it volume6 is exact in int64,
 /// because |det| <= 6 * 2^57 and no partial sum exceeds 3 * 2^58.

@@ -5,9 +5,11 @@
 
 #include <map>
 
+#include "engine/interface_shape.h"
 #include "engine/store/run_store.h"
 #include "engine/window_visitor.h"
 #include "io/mesh/digest.h"
+#include "kernels/audit/volumes.h"
 #include "tests/engine/memory_run.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
@@ -94,6 +96,33 @@ double volume6_of(const io::MeshData& mesh, const io::TetRows& t) {
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
+/// Figures of the audit, which holds the whole mesh, are those that were measured on the way.
+void expect_same_shape(const FinishedMesh& finished, const io::MeshData& mesh, const Trial& trial,
+                       const WantedLabel& wanted) {
+  const test::SmallMesh small = test::small_mesh(mesh);
+  const audit::ShapeReport expected = audit::measure_shape(small.view());
+  const audit::ShapeReport& actual = finished.shape.value();
+  EXPECT_EQ(actual.triangles, expected.triangles);
+  EXPECT_NEAR(actual.area, expected.area, 1e-12 * expected.area);
+  EXPECT_NEAR(actual.bend_max_deg, expected.bend_max_deg, 1e-9);
+  EXPECT_NEAR(actual.sharp_share, expected.sharp_share, 1e-9);
+  // Rounding may put an edge at the bound of two bins into either.
+  EXPECT_NEAR(actual.bend_p50_deg, expected.bend_p50_deg, 0.11);
+  EXPECT_NEAR(actual.bend_p95_deg, expected.bend_p95_deg, 0.11);
+  EXPECT_NEAR(actual.bend_p99_deg, expected.bend_p99_deg, 0.11);
+  const audit::VolumeReport volumes = audit::measure_volumes(
+      trial.volume.view(), trial.volume.label_count, small.view(), trial.frame);
+  EXPECT_TRUE(volumes.exact);
+  ASSERT_EQ(volumes.per_label.size(), finished.label_volumes6.size());
+  for (std::size_t l = 0; l < volumes.per_label.size(); ++l) {
+    const audit::VolumeRow& row = volumes.per_label[l];
+    EXPECT_EQ(audit::volume_row(row.label, row.voxels, finished.label_volumes6[l]).error,
+              row.error);
+    const bool written = !wanted || wanted(test::raw_label(row.label));
+    EXPECT_EQ(finished.label_volumes6[l] > 0, written);
+  }
+}
+
 TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
   std::mt19937 random(321);
   for (std::uint32_t i = 0; i < 40 && !HasFailure(); ++i) {
@@ -107,7 +136,7 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     const io::DenseVolume volume(file, table);
     MarchedBlocks blocks(trial, volume);
     const WindowGrid& grid = blocks.grid();
-    OutputOptions options{.wanted = {}, .measure_quality = true};
+    OutputOptions options{.wanted = {}, .measure_quality = true, .measure_shape = true};
     if (i % 3 == 0) options.wanted = [](RawLabel label) { return test::test_label(label) != 0; };
     MemorySink sink;
     const FinishedMesh finished = finish(blocks, grid, volume, sink, options);
@@ -123,8 +152,12 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     EXPECT_EQ(finished.quality->radius_ratio_mean, quality.radius_ratio_mean);
     EXPECT_EQ(finished.quality->radius_ratio_histogram, quality.radius_ratio_histogram);
     EXPECT_EQ(finished.quality->worst_tet, quality.worst_tet);
+    expect_same_shape(finished, mesh, trial, options.wanted);
     MemorySink again;
-    finish(blocks, grid, volume, again, options);
+    const FinishedMesh second = finish(blocks, grid, volume, again, options);
+    EXPECT_EQ(second.shape->bend_p95_deg, finished.shape->bend_p95_deg);
+    EXPECT_EQ(second.shape->area, finished.shape->area);
+    EXPECT_EQ(second.shape->sharp_share, finished.shape->sharp_share);
     EXPECT_TRUE(again.mesh().vertices == mesh.vertices && again.mesh().tets == mesh.tets);
   }
 }
@@ -151,18 +184,42 @@ class Bar : public FinalBlocks {
 /// P6: what is remembered does not grow with the number of planes of blocks.
 TEST(Promise6BoundedMemory, OfTheFinalMerge) {
   std::vector<std::size_t> most;
+  std::vector<std::uint64_t> most_shape;
   for (const std::int64_t length : {12, 60, 240}) {
     Bar bar(length);
     const MemoryVolume file(bar.volume(), {});
     const io::LabelTable table = io::collect_labels(file);
     MemorySink sink;
-    const FinishedMesh finished = finish(bar, bar.grid(), io::DenseVolume(file, table), sink);
+    const FinishedMesh finished =
+        finish(bar, bar.grid(), io::DenseVolume(file, table), sink, {.measure_shape = true});
     EXPECT_EQ(finished.vertices, static_cast<std::uint64_t>(9 * 9 * (length + 1)));
     most.push_back(finished.most_remembered);
+    most_shape.push_back(finished.most_shape_bytes);
   }
   // Two planes of blocks and a line, two voxels thick each, and the far side.
   EXPECT_LE(most[0], 9U * 9U * 7U);
   EXPECT_EQ(most[1], most[2]);
+  EXPECT_GT(most_shape[1], 0U);
+  EXPECT_EQ(most_shape[1], most_shape[2]);
+}
+
+/// The same, and nothing is left when the last block has come.
+TEST(InterfaceShape, RemembersTheFrontOnly) {
+  Bar bar(40);
+  const MemoryVolume file(bar.volume(), {});
+  const io::LabelTable table = io::collect_labels(file);
+  const LabelSelection all({}, table);
+  std::uint64_t held = 0;
+  InterfaceShape shape(bar.grid(), file.info(), all, [&](std::uint64_t bytes) { held = bytes; });
+  each_index(bar.grid().blocks(), [&](Index3 b) {
+    shape.add(bar.load(b));
+    EXPECT_LE(shape.remembered(), held);
+  });
+  EXPECT_EQ(shape.remembered(), 0U);
+  // A plane of blocks has 8 x 8 voxel faces of two triangles on one side, the row of blocks that
+  // is under way 4 x 8 and 2 x 4 more; three edges a triangle at most.
+  constexpr std::uint64_t kTriangles = 2 * (64 + 32 + 16);
+  EXPECT_LE(shape.most_remembered(), kTriangles * (32 + 3 * 56) + 64 * 160);
 }
 
 }  // namespace

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Volumes of labels, area and bends of interfaces of a mesh that streams by.
+#pragma once
+
+#include <map>
+
+#include "io/file/external_sort.h"
+#include "io/file/paged_file.h"
+#include "io/mesh/mesh_sink.h"
+#include "kernels/audit/compensated_sum.h"
+#include "kernels/audit/shape.h"
+
+namespace mw::cli {
+
+/// Measures any mesh whose tets come after their vertices, in double.
+/// Memory: 40 MiB and 100 bytes a label, whatever the mesh; what does not fit waits in temporary
+/// files in `folder`: 24 bytes a vertex, 128 a tet and 120 an interface triangle.  ERRORS: see
+/// ScratchFile; kInput when a tet names a vertex that has not come.
+class ShapeSink : public io::MeshSink {
+ public:
+  explicit ShapeSink(const std::filesystem::path& folder);
+
+  void begin(const io::MeshHeader&) override {}
+  void write_vertices(std::span<const io::Position> positions) override;
+  void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
+  void finish() override {}
+
+  /// Sums of absolute volumes, cubic physical units.
+  [[nodiscard]] const std::map<RawLabel, audit::CompensatedSum>& volumes() const {
+    return volumes_;
+  }
+  /// Sorts and measures.  REQUIRES: finished; called once.
+  [[nodiscard]] audit::ShapeReport shape();
+
+ private:
+  static constexpr std::size_t kSortBytes = 8 << 20;
+
+  void add_tet(const io::TetRows& tet, RawLabel label);
+
+  std::filesystem::path folder_;
+  io::PagedFile<io::Position> positions_;
+  /// Three ascending rows, the last doubled and odd when their triangle's normal points out of the
+  /// tet; the tet's label.
+  io::ExternalSort<4> faces_;
+  std::map<RawLabel, audit::CompensatedSum> volumes_;
+};
+
+}  // namespace mw::cli

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Area and smoothness of the interfaces between labels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kernels/audit/compensated_sum.h"
+#include "kernels/audit/subject.h"
+
+namespace mw::audit {
+
+/// Edges that bend by more are sharp.
+inline constexpr double kSharpDegrees = 60;
+
+/// Figures of the triangles between two labels, the box left out.  The bend of an edge is the angle
+/// between the normals of its two triangles, both out of the lower label: 0 where the interface is
+/// flat.  It is that of edges at which exactly two triangles meet, of the same two labels.  An
+/// ideal mesh of a ball of radius r with edges of length e has about e / r radians.
+struct ShapeReport {
+  std::uint64_t triangles = 0;
+  double area = 0;  ///< square physical units
+  /// Percentiles of the bends by length of edge, to 0.05 degrees.
+  double bend_p50_deg = 0;
+  double bend_p95_deg = 0;
+  double bend_p99_deg = 0;
+  double bend_max_deg = 0;
+  double sharp_share = 0;  ///< of that length, that bends by more than kSharpDegrees
+};
+
+/// A triangle at an edge (p, q) by its third corner.
+struct Wing {
+  Position apex{};
+  bool turned = false;  ///< (q - p) x (apex - p) points into the lower label
+};
+
+/// Takes triangles and edges one after the other.  Percentiles come from a histogram with bins of
+/// 0.1 degrees, weights being added in the order of the calls: the same calls give the same bits.
+/// Memory: 28 KiB.
+class ShapeMeter {
+ public:
+  /// REQUIRES (all members): finite coordinates, physical units.
+  void add_triangle(const Position& a, const Position& b, const Position& c);
+  /// An edge with its two triangles.
+  void add_edge(const Position& p, const Position& q, const Wing& one, const Wing& other);
+  /// Of everything so far.
+  [[nodiscard]] ShapeReport report() const;
+
+ private:
+  static constexpr std::size_t kBinsPerDegree = 10;
+
+  [[nodiscard]] double percentile(double share, double total) const;
+
+  std::uint64_t triangles_ = 0;
+  CompensatedSum area_;
+  std::vector<CompensatedSum> bins_ = std::vector<CompensatedSum>(180 * kBinsPerDegree);
+  CompensatedSum length_;
+  CompensatedSum sharp_length_;
+  double largest_ = 0;
+};
+
+/// Triangles with three tets or more, and those between labels that are not the volume's (which all
+/// count as one), are no interfaces.
+/// REQUIRES: as MeshStars, and finite vertices.  Errors: as MeshStars.
+/// Memory: 16 bytes a tet, 72 an interface triangle.  Deterministic.
+[[nodiscard]] ShapeReport measure_shape(const AuditMesh& mesh);
+
+}  // namespace mw::audit

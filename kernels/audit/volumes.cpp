@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Volumes in whole numbers where vertices are on the lattice, in double elsewhere.
+#include "kernels/audit/volumes.h"
+
+#include <cmath>
+#include <limits>
+
+#include "kernels/audit/layered_labels.h"
+#include "kernels/core/lattice.h"
+
+namespace mw::audit {
+namespace {
+
+/// Lattice units.  Differences of two fit 33 bits, so a determinant fits 102.
+using LatticePoint = std::array<std::int64_t, 3>;
+
+template <typename Number>
+using Edges = std::array<std::array<Number, 3>, 3>;
+
+template <typename Number>
+Number determinant(const Edges<Number>& e) {
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+/// The coordinate in lattice units when it is what a multiple of the unit rounds to.
+std::optional<std::int64_t> lattice_coordinate(double x, double origin, double spacing) {
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+  // Half a unit in the last place each for the product, the sum, and a decimal text read back.
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  const double units = std::nearbyint((x - origin) / spacing * kUnitsPerVoxel);
+  if (!(std::abs(units) <= kMost)) return std::nullopt;
+  const double back = origin + spacing * (units / kUnitsPerVoxel);
+  if (std::abs(back - x) > kRounding * (std::abs(origin) + std::abs(x))) return std::nullopt;
+  return static_cast<std::int64_t>(units);
+}
+
+/// All vertices on the lattice; nothing when one is not.
+std::optional<std::vector<LatticePoint>> lattice_points(const AuditMesh& mesh, const Frame& frame) {
+  std::vector<LatticePoint> out;
+  out.reserve(mesh.vertices.size());
+  for (const Position& p : mesh.vertices) {
+    LatticePoint& q = out.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto units = lattice_coordinate(p[k], frame.origin[k], frame.spacing[k]);
+      if (!units) return std::nullopt;
+      q[k] = *units;
+    }
+  }
+  return out;
+}
+
+template <typename Number, typename Point>
+Number volume6(const std::vector<Point>& points, const TetRow& t) {
+  Edges<Number> e{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) e[i][k] = points[t[i + 1]][k] - points[t[0]][k];
+  }
+  const Number det = determinant(e);
+  return det < 0 ? -det : det;
+}
+
+/// Vertices as multiples of a voxel's edges, from the first corner.
+std::vector<Position> in_voxels(const AuditMesh& mesh, const Frame& frame) {
+  std::vector<Position> out(mesh.vertices.begin(), mesh.vertices.end());
+  for (Position& p : out) {
+    for (std::size_t k = 0; k < 3; ++k) p[k] = (p[k] - frame.origin[k]) / frame.spacing[k];
+  }
+  return out;
+}
+
+std::vector<std::uint64_t> voxels_of(const VoxelLabels& volume, std::size_t label_count) {
+  std::vector<std::uint64_t> out(label_count);
+  for (const Label label : volume.labels) ++out[label];
+  return out;
+}
+
+/// Calls add(label, tet) for the tets whose label is one of the volume.
+template <typename Add>
+void each_known_tet(const AuditMesh& mesh, std::size_t label_count, Add add) {
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (mesh.labels[t] < label_count) add(mesh.labels[t], mesh.tets[t]);
+  }
+}
+
+std::vector<VolumeRow> exact_rows(const std::vector<std::uint64_t>& voxels, const AuditMesh& mesh,
+                                  const std::vector<LatticePoint>& points, std::int64_t parts) {
+  std::vector<Int128> sums(voxels.size());
+  each_known_tet(mesh, voxels.size(),
+                 [&](Label label, const TetRow& t) { sums[label] += volume6<Int128>(points, t); });
+  std::vector<VolumeRow> rows;
+  for (Label l = 0; l < voxels.size(); ++l) {
+    if (voxels[l] > 0) rows.push_back(volume_row(l, voxels[l], sums[l], parts));
+  }
+  return rows;
+}
+
+std::vector<VolumeRow> rounded_rows(const std::vector<std::uint64_t>& voxels, const AuditMesh& mesh,
+                                    const std::vector<Position>& points) {
+  std::vector<CompensatedSum> sums(voxels.size());
+  each_known_tet(mesh, voxels.size(), [&](Label label, const TetRow& t) {
+    sums[label].add(volume6<double>(points, t) / 6);
+  });
+  std::vector<VolumeRow> rows;
+  for (Label l = 0; l < voxels.size(); ++l) {
+    const auto whole = static_cast<double>(voxels[l]);
+    const double found = sums[l].value();
+    if (voxels[l] > 0) rows.push_back({l, voxels[l], found, (found - whole) / whole});
+  }
+  return rows;
+}
+
+}  // namespace
+
+VolumeRow volume_row(Label label, std::uint64_t voxels, Int128 volume6, std::int64_t parts) {
+  const Int128 of_voxel = Int128{kVoxelVolume6} * parts;
+  const Int128 expected = of_voxel * voxels;
+  return {.label = label,
+          .voxels = voxels,
+          .volume_voxels = static_cast<double>(volume6) / static_cast<double>(of_voxel),
+          .error = static_cast<double>(volume6 - expected) / static_cast<double>(expected)};
+}
+
+void VolumeMeter::add(const VolumeRow& row) {
+  if (row.voxels < kLeastJudgedVoxels) return;
+  const double size = std::abs(row.error);
+  if (summary_.labels_measured++ == 0 || size > summary_.error_max_abs) {
+    summary_.error_max_abs = size;
+    summary_.worst = row;
+  }
+  sum_.add(size);
+}
+
+VolumeSummary VolumeMeter::summary() const {
+  VolumeSummary out = summary_;
+  if (out.labels_measured > 0) {
+    out.error_mean_abs = sum_.value() / static_cast<double>(out.labels_measured);
+  }
+  return out;
+}
+
+VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,
+                             const AuditMesh& mesh, const Frame& frame, Index3 layers) {
+  const std::vector<std::uint64_t> voxels = voxels_of(volume, label_count);
+  const auto points = lattice_points(mesh, layered_frame(frame, layers));
+  VolumeReport report{.summary = {},
+                      .per_label = points ? exact_rows(voxels, mesh, *points, layers.product())
+                                          : rounded_rows(voxels, mesh, in_voxels(mesh, frame)),
+                      .exact = points.has_value()};
+  VolumeMeter meter;
+  for (const VolumeRow& row : report.per_label) meter.add(row);
+  report.summary = meter.summary();
+  return report;
+}
+
+}  // namespace mw::audit

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How well the mesh keeps the volumes of labels (promise P8).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kernels/audit/compensated_sum.h"
+#include "kernels/audit/subject.h"
+#include "kernels/core/int128.h"
+
+namespace mw::audit {
+
+/// Labels of fewer voxels are listed but not judged: a single vertex holds a large share of them.
+inline constexpr std::uint64_t kLeastJudgedVoxels = 1000;
+
+/// One label in voxels and mesh.
+struct VolumeRow {
+  Label label = 0;
+  std::uint64_t voxels = 0;
+  double volume_voxels = 0;  ///< of the mesh
+  double error = 0;          ///< mesh / voxels - 1
+};
+
+/// volume6: six times the mesh's volume in cubic units of the lattice, which has 1024^3 * parts in
+/// a voxel.  The error is rounded once, from the exact difference.  REQUIRES: voxels > 0.
+[[nodiscard]] VolumeRow volume_row(Label label, std::uint64_t voxels, Int128 volume6,
+                                   std::int64_t parts = 1);
+
+/// Over the labels of at least kLeastJudgedVoxels.
+struct VolumeSummary {
+  std::uint64_t labels_measured = 0;
+  double error_mean_abs = 0;
+  double error_max_abs = 0;
+  std::optional<VolumeRow> worst;  ///< the first with the largest error; none: no label measured
+};
+
+/// Takes labels one after the other.
+class VolumeMeter {
+ public:
+  void add(const VolumeRow& row);
+  [[nodiscard]] VolumeSummary summary() const;
+
+ private:
+  VolumeSummary summary_;  ///< without the mean
+  CompensatedSum sum_;
+};
+
+struct VolumeReport {
+  VolumeSummary summary;
+  std::vector<VolumeRow> per_label;  ///< labels of the volume, ascending
+  bool exact = false;                ///< summed in whole numbers
+};
+
+/// P8.  A tet counts with its absolute volume, and to no label when its own is none of the volume.
+/// Exact when every vertex lies on the 1/1024-voxel lattice of the frame, its voxels cut into
+/// layers, up to the rounding of
+/// `origin + spacing * corner` in double: volumes are then sums of integers.  Other meshes are
+/// summed in double as they are, which is right to some 1e-12 of a volume.
+/// REQUIRES: vertex rows in range, finite coordinates, positive spacing; labels of the volume <
+/// label_count.  Memory: 24 bytes a vertex.  Deterministic.
+[[nodiscard]] VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,
+                                           const AuditMesh& mesh, const Frame& frame,
+                                           Index3 layers = {1, 1, 1});
+
+}  // namespace mw::audit

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Promise 8 end to end: the volumes that a run reports are exact.
+#include "kernels/audit/volumes.h"
+
+#include <numeric>
+
+#include "kernels/core/lattice.h"
+#include "tests/engine/memory_run.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::test::below;
+using audit::test::random_volume_of;
+using audit::test::VolumeKind;
+using test::MemorySink;
+using test::MemoryVolume;
+using test::random_trial;
+using test::Trial;
+
+RunReport run(const Trial& trial, MemorySink& sink, int threads) {
+  const MemoryVolume volume(trial.volume, trial.frame);
+  const io::LabelTable table = io::collect_labels(volume);
+  RunHooks hooks{.threads = threads};
+  hooks.output.measure_shape = true;
+  return mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, hooks);
+}
+
+TEST(Promise8Volumes, OfARunAddUpToTheBoxAndAreThoseOfItsMesh) {
+  std::mt19937 random(831);
+  for (std::uint32_t i = 0; i < 24 && !HasFailure(); ++i) {
+    const auto edge = [&] { return std::int64_t{4 + below(random, 20)}; };
+    const auto x = edge(), y = edge(), z = edge();
+    const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
+    const Trial trial = random_trial(random, random_volume_of(random, kind, {x, y, z}, 1 + i % 6));
+    SCOPED_TRACE(trial.text());
+    MemorySink sink;
+    const RunReport report = run(trial, sink, 1 + static_cast<int>(i % 2));
+    const auto& sums = report.label_volumes6;
+    const Int128 total = std::accumulate(sums.begin(), sums.end(), Int128{0});
+    EXPECT_TRUE(total == Int128{kVoxelVolume6} * (x * y * z));
+    const audit::VolumeReport expected =
+        audit::measure_volumes(trial.volume.view(), trial.volume.label_count,
+                               test::small_mesh(sink.mesh()).view(), trial.frame);
+    EXPECT_TRUE(expected.exact);
+    ASSERT_EQ(expected.per_label.size(), sums.size());
+    for (Label rank = 0; rank < sums.size(); ++rank) {
+      const audit::VolumeRow& row = expected.per_label[rank];
+      EXPECT_EQ(report.label_voxels[rank], row.voxels);
+      EXPECT_EQ(audit::volume_row(rank, row.voxels, sums[rank]).error, row.error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mw::engine
