@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""The pictures of README.md: `--surface voxel` and `--surface smooth` of a ball and of a brain.
+
+Usage: xvfb-run -a bench/pictures/pictures.py [ball] [organ] [cut]
+Writes bench/pictures/*.png.  MW_PROGRAM is the program (default: build/release/mwmesh).
+apt-get install python3-numpy python3-pil python3-vtk9 xvfb xauth libgl1-mesa-dri mricron-data
+VTK of Debian 12 draws through an X server only; any DISPLAY will do, xvfb-run gives one.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy
+
+import scene
+import volumes
+
+HERE = pathlib.Path(__file__).resolve().parent
+SURFACES = ("voxel", "smooth")
+COLOURS = (
+    "e8b45a", "6fa8d6", "d9776b", "86b878", "b08cc4", "e0d65a", "5cc8c0", "e59cc4", "a87c50",
+    "5a74c8", "b8d890", "d85a90", "4c9468",
+)
+BACKGROUND = "eeeeee"
+LARGE = 1000  # voxels of a label whose volume is promised
+BALL_RADIUS = 20  # voxels
+# Of the right half of the brain: caudate, thalamus, hippocampus, amygdala.
+ORGAN = (72, 78, 38, 42)
+CUT_CORNER, CUT_SHAPE = (92, 88, 46), (64, 48, 56)  # voxels x, y, z: around the right basal ganglia
+CUT_LAYER = 30  # along y: what is behind stays
+
+
+def main():
+    names = sys.argv[1:] or list(PICTURES)
+    if not set(names) <= set(PICTURES):
+        raise SystemExit(__doc__)
+    if "DISPLAY" not in os.environ:
+        raise SystemExit("pictures: no DISPLAY; xvfb-run -a " + sys.argv[0])
+    for name in names:
+        with tempfile.TemporaryDirectory() as folder:
+            PICTURES[name](HERE / f"{name}.png", pathlib.Path(folder))
+
+
+def draw_ball(png, folder):
+    halves = [
+        ([scene.surface(file, 1)], caption(report, [1]))
+        for file, report in mesh_both(volumes.ball(BALL_RADIUS), folder)
+    ]
+    scene.draw(png, halves, colours([1]), ((1, 1, 1), 1.6))
+
+
+def draw_organ(png, folder):
+    halves = [
+        ([scene.surface(file, label) for label in ORGAN], caption(report, ORGAN))
+        for file, report in mesh_both(volumes.only(volumes.atlas(), ORGAN), folder)
+    ]
+    scene.draw(png, halves, colours(ORGAN), ((-1, 0.3, 0.3), 1.6))
+
+
+def draw_cut(png, folder):
+    volume = volumes.crop(volumes.atlas(), CUT_CORNER, CUT_SHAPE)
+    sizes = numpy.bincount(volume.ravel())
+    labels = [int(label) for label in numpy.argsort(-sizes) if label and sizes[label]]
+    halves = [
+        ([scene.behind(file, (0, CUT_LAYER, 0), (0, 1, 0))], caption(report, labels))
+        for file, report in mesh_both(volume, folder)
+    ]
+    scene.draw(png, halves, {0: BACKGROUND} | colours(labels), ((0.25, 1, 0.2), 1.35))
+
+
+def colours(labels):
+    """By label; more labels than colours share them."""
+    return {label: COLOURS[i % len(COLOURS)] for i, label in enumerate(labels)}
+
+
+def mesh_both(volume, folder):
+    """Mesh and report for each surface."""
+    numpy.save(folder / "volume.npy", volume)
+    return [mesh(folder / "volume.npy", surface, folder / surface) for surface in SURFACES]
+
+
+def mesh(volume, surface, stem):
+    program = os.environ.get("MW_PROGRAM", HERE.parent.parent / "build" / "release" / "mwmesh")
+    file, report = stem.with_suffix(".vtu"), stem.with_suffix(".json")
+    command = [program, "mesh", volume, "--surface", surface, "-o", file, "--report", report]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return file, json.loads(report.read_text())
+
+
+def caption(report, labels):
+    """The volume is that of the label that is worst off."""
+    shape = report["shape"]
+    rows = [row for row in shape["per_label"] if row["label"] in labels and large(row)]
+    worst = max((row["volume_error"] for row in rows), key=abs)
+    text = (
+        f"--surface {report['settings']['surface']}\n{report['output']['vertices']:,} vertices,  "
+        f"volume {100 * worst:+.2f} %,  sharp edges {100 * shape['sharp_share']:.1f} %"
+    )
+    print(text.replace("\n", ": "))
+    return text
+
+
+def large(row):
+    return row["voxels"] >= LARGE
+
+
+PICTURES = {"ball": draw_ball, "organ": draw_organ, "cut": draw_cut}
+
+
+if __name__ == "__main__":
+    main()
