@@ -23,12 +23,7 @@ SimplifyOptions simplify_options(const MeshSettings& settings) {
 
 std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings) {
   if (settings.surface == Surface::kVoxel) return std::nullopt;
-  SurfaceWeights w;
-  if (const char* e = getenv("MWS_BEND")) w.bend = atof(e);
-  if (const char* e = getenv("MWS_FIT")) w.fit = atof(e);
-  if (const char* e = getenv("MWS_JA")) w.junction_area = atof(e);
-  if (const char* e = getenv("MWS_A")) w.area = atof(e);
-  return w;
+  return SurfaceWeights{};
 }
 
 }  // namespace
@@ -54,6 +49,14 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance),
       target_reduction_(settings.target_reduction) {}
+
+void WindowVisitor::polish(const WindowOrder& order) {
+  constexpr int kSweeps = 3, kSmoothSweeps = 4;
+  constexpr double kFlipBelow = 0.7;
+  optimise_.sweeps *= optimise_.surface ? kSmoothSweeps : kSweeps;
+  optimise_.flip_below = kFlipBelow;
+  if (optimise_.surface) order_ = order;
+}
 
 void WindowVisitor::reconnect_with(Triangulate triangulate) {
   triangulate_ = std::move(triangulate);
@@ -126,7 +129,7 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   watch.lap(stats.optimise_seconds);
 }
 
-/// Empty before the last march.
+/// Empty but in the last march of smooth surfaces.
 std::vector<LatticeBox> WindowVisitor::later_boxes(Index3 window) const {
   std::vector<LatticeBox> out;
   if (!order_) return out;

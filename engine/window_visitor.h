@@ -43,11 +43,8 @@ class WindowVisitor {
                 const WindowGrid& grid, BlockStore& store);
 
   /// Optimises longer and flips more: for the last march, when shape is all that is left to gain.
-  void polish(const WindowOrder& order) {
-    optimise_.sweeps *= kPolishSweeps;
-    optimise_.flip_below = kPolishFlipBelow;
-    order_ = order;
-  }
+  /// order: of its windows; the sweeps after the first are for what no later window will see.
+  void polish(const WindowOrder& order);
   /// Adds constrained ODT with this triangulation, which many threads may ask at once.  Local
   /// optimisation stays around it when there is a quality floor: tets of a Delaunay triangulation
   /// are often below one, so patches that are good already come through, and one sweep more lifts
@@ -64,9 +61,6 @@ class WindowVisitor {
   VisitStats visit(Index3 window) const;
 
  private:
-  const int kPolishSweeps = getenv("MWS_S") ? atoi(getenv("MWS_S")) : 3;
-  static constexpr double kPolishFlipBelow = 0.7;
-
   [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;
@@ -83,7 +77,7 @@ class WindowVisitor {
   OptimiseOptions optimise_;
   CodtOptions codt_;
   Triangulate triangulate_;
-  std::optional<WindowOrder> order_;  ///< of the last march
+  std::optional<WindowOrder> order_;  ///< of the last march, for smooth surfaces
   std::optional<double> max_distance_;
   std::optional<double> target_reduction_;
 };

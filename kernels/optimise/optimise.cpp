@@ -135,7 +135,7 @@ OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOption
   Turns turns;
   const bool unfolds = guard != nullptr && options.surface && options.surface->bend > 0.0;
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    static const int kAll = getenv("MWS_ALL") ? atoi(getenv("MWS_ALL")) : 2; if (sweep == kAll) turns.leave_out(mesh, options.later);
+    if (sweep == 1) turns.leave_out(mesh, options.later);
     stats.flips += flip_sweep(mesh, metric, options, guard, turns);
     if (unfolds) stats.flips += unfold_sweep(mesh, metric, options, *guard, turns);
     stats.moves += smooth_sweep(mesh, metric, options, guard, debts, turns);

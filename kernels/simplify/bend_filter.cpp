@@ -3,14 +3,14 @@
 // Bends before and after.
 #include "kernels/simplify/bend_filter.h"
 
-#include <cstdlib>
+#include <utility>
 
 namespace mw {
 namespace {
 
 constexpr double kShareOfPresent = 0.8;
 /// Bend energy that any contraction may leave.
-const double kFree = getenv("MWS_T") ? atof(getenv("MWS_T")) : 1.5;
+constexpr double kFree = 1.0;
 
 }  // namespace
 

@@ -19,7 +19,7 @@ struct SimplifyOptions {
   double quality_floor = 0.1;
   /// The same for contractions of an inner vertex: those can wait for better shapes, because inner
   /// vertices are few and the shape of everything around depends on them.
-  double inner_quality = 0.45;
+  double inner_quality = 0.465;
   /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none: unbounded.
   std::optional<double> edge_variance;
   KeptTopology topology = KeptTopology::kLabels;

@@ -10,9 +10,9 @@ namespace mw {
 namespace {
 
 /// 1 / voxel: what is sharper than a ball of a few voxels is no shape but a step.
-const double kMostCurvature = getenv("MWS_K") ? atof(getenv("MWS_K")) : 0.5;
+constexpr double kMostCurvature = 0.5;
 /// Where it cannot be told.
-const double kUnknown = 2.0 * kMostCurvature;
+constexpr double kUnknown = 2.0 * kMostCurvature;
 
 double curvature_of(const SurfaceStar& star) {
   Vec3 volume_gradient = Vec3::Zero(), area_gradient = Vec3::Zero();

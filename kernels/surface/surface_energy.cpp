@@ -59,39 +59,47 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
 void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard& guard) {
   const Vec3 voxel = metric.voxel();
   const Vec3 at = metric.vector({}, origin);
-  for (const SurfaceTriangle& t : star_->triangles()) {
+  const std::vector<SurfaceTriangle>& triangles = star_->triangles();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const SurfaceTriangle& t = triangles[i];
     const TriangleKey key = triangle_key(star_->vertex(), t.a, t.b);
     guard.each_piece(key, t.low, [&](const DistanceGuard::Piece& piece) {
       const double area = piece.quarters / kSamplesPerFace * metric.face_area(piece.axis);
-      add_piece(piece.middle.cwiseProduct(voxel) - at, area, piece, t.low, t.high);
+      add_piece(piece.middle.cwiseProduct(voxel) - at, area, piece, i);
     });
   }
 }
 
-/// p: middle of the piece, from v.
-void SurfaceEnergy::add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece,
-                              Label low, Label high) {
+/// The triangle that p's foot is on: the carrier when it is inside, else the nearest of its labels.
+std::pair<std::size_t, Foot> SurfaceEnergy::foot_of(const Vec3& p, std::size_t carrier) const {
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
-  std::size_t nearest = triangles.size();
-  Foot foot;
+  const SurfaceTriangle& own = triangles[carrier];
+  std::pair<std::size_t, Foot> best{carrier, foot_on_triangle(p, own.to_a, own.to_b)};
+  const std::array<double, 3>& w = best.second.weights;
+  if (w[0] > 0.0 && w[1] > 0.0 && w[2] > 0.0) return best;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
-    if (!t.is_between(low, high)) continue;
-    const Foot f = foot_on_triangle(p, t.to_a, t.to_b);
-    if (nearest < triangles.size() && f.squared_distance >= foot.squared_distance) continue;
-    nearest = i;
-    foot = f;
+    if (i == carrier || !t.is_between(own.low, own.high)) continue;
+    const Foot foot = foot_on_triangle(p, t.to_a, t.to_b);
+    if (foot.squared_distance < best.second.squared_distance) best = {i, foot};
   }
-  const Vec3& n = unit_normals_[nearest];
+  return best;
+}
+
+/// p: middle of the piece, from v.
+void SurfaceEnergy::add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece,
+                              std::size_t carrier) {
+  const auto [row, foot] = foot_of(p, carrier);
+  const SurfaceTriangle& t = star_->triangles()[row];
+  const Vec3& n = unit_normals_[row];
   const double weight = area * piece.sign * n[static_cast<int>(piece.axis)];
   if (!(weight > 0.0)) return;
-  const SurfaceTriangle& t = triangles[nearest];
   const double r = n.dot(p - foot.weights[1] * t.to_a - foot.weights[2] * t.to_b);
   const double share = foot.weights[0];
   square_ += weight * share * share * n * n.transpose();
   linear_ += weight * share * r * n;
   mass_ += weight * share * share;
-  Balance& b = balance(low, high);
+  Balance& b = balance(t.low, t.high);
   b.volume += weight * share * r;
   b.slope += weight * share * share * n;
 }
@@ -136,24 +144,18 @@ void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
   }
 }
 
-/// The ring's debts are added to what v's own faces ask of it.
+/// What is left of v's own debts and of the ring's is added to what v's faces ask of it now.
 void SurfaceEnergy::take_debts(const VolumeDebts& debts) {
-  static const double kShare = getenv("MWS_DEBT") ? atof(getenv("MWS_DEBT")) : 0.9;
-  // A vertex of the ring is at two triangles, in general.
-  constexpr double kForEachTriangle = 0.5;
+  constexpr double kShareOfOwn = 0.5, kShareOfRing = 0.9;
+  // A vertex of the ring is at two of the triangles, in general.
+  constexpr double kEachOfRing = 0.5 * kShareOfRing;
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
-    static const double kOwn = getenv("MWS_OWN") ? atof(getenv("MWS_OWN")) : 0.5;
-    for (const VolumeDebt& d : debts.of(star_->vertex())) {
-        if (t.is_between(d.low, d.high)) linear_ += kOwn * d.volume * unit_normals_[i];
-    }
-    for (const LocalVertex w : {t.a, t.b}) {
-      for (const VolumeDebt& d : debts.of(w)) {
-        if (!t.is_between(d.low, d.high)) continue;
-        linear_ += kShare * kForEachTriangle * d.volume * unit_normals_[i];
-      }
-    }
+    const double volume = kShareOfOwn * debts.of(star_->vertex(), t.low, t.high) +
+                          kEachOfRing * debts.of(t.a, t.low, t.high) +
+                          kEachOfRing * debts.of(t.b, t.low, t.high);
+    linear_ += volume * unit_normals_[i];
   }
 }
 

@@ -3,9 +3,12 @@
 // What a good interface costs: distance to the input's faces, area at constant volume, bends.
 #pragma once
 
+#include <utility>
+
 #include "kernels/distance/distance_guard.h"
 #include "kernels/quality/star_batch.h"
 #include "kernels/surface/curvature_field.h"
+#include "kernels/surface/foot.h"
 #include "kernels/surface/surface_star.h"
 #include "kernels/surface/volume_debts.h"
 
@@ -13,10 +16,10 @@ namespace mw {
 
 /// Weights of the parts of SurfaceEnergy.
 struct SurfaceWeights {
-  double fit = 1.5;
+  double fit = 1.25;
   double area = 1.0;            ///< beside the fit, voxels squared; between two labels, off the box
   double junction_area = 0.01;  ///< the same where more labels meet
-  double bend = 5.0;
+  double bend = 4.5;
   bool with_pressure = true;
 };
 
@@ -73,8 +76,9 @@ class SurfaceEnergy {
 
   [[nodiscard]] Balance& balance(Label low, Label high);
   void fit(const Metric& metric, Point origin, const DistanceGuard& guard);
-  void add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece, Label low,
-                 Label high);
+  [[nodiscard]] std::pair<std::size_t, Foot> foot_of(const Vec3& p, std::size_t carrier) const;
+  void add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece,
+                 std::size_t carrier);
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
   [[nodiscard]] double raw_value_at(const Vec3& x) const;

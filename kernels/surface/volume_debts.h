@@ -26,15 +26,18 @@ class VolumeDebts {
   void set(LocalVertex v, std::span<const VolumeDebt> debts) {
     of_[v].assign(debts.begin(), debts.end());
   }
-  /// Empty at vertices that were not visited.
-  [[nodiscard]] std::span<const VolumeDebt> of(LocalVertex v) const {
+  /// 0 at vertices that were not visited.
+  [[nodiscard]] double of(LocalVertex v, Label low, Label high) const {
     const auto found = of_.find(v);
-    if (found == of_.end()) return {};
-    return found->second;
+    if (found == of_.end()) return 0.0;
+    for (const VolumeDebt& d : found->second) {
+      if (d.low == low && d.high == high) return d.volume;
+    }
+    return 0.0;
   }
 
  private:
-  std::unordered_map<LocalVertex, std::vector<VolumeDebt>> of_;
+  std::unordered_map<LocalVertex, std::vector<VolumeDebt>> of_;  ///< for look-ups only
 };
 
 }  // namespace mw
