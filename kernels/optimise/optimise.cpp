@@ -147,8 +147,12 @@ std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const Optimise
                              DistanceGuard* guard) {
   if (guard == nullptr || !options.surface) return 0;
   // Curvature of steps says nothing, and bends of steps are no faults yet.
-  const SurfaceWeights weights{
-      .area = 0.3, .junction_area = 0.03, .bend = 0.0, .with_pressure = false};
+  const SurfaceWeights weights{.fit = 1.25,
+                               .junction_fit = 1.25,
+                               .area = 0.3,
+                               .junction_area = 0.03,
+                               .bend = 0.0,
+                               .with_pressure = false};
   Smoother smoother(mesh, metric, {options.smooth_below, options.quality_floor, weights}, guard);
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {

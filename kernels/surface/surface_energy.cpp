@@ -49,8 +49,9 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   const LocalVertex v = star.vertex();
   fit(metric, mesh.position(v), guard);
   if (mass_ > 0.0) mass_ = std::max(mass_, area / 6.0);
-  const bool on_box = mesh.planes(v) != 0;
-  area_weight_ = on_box ? 0.0 : mesh.order(v) == 2 ? weights_.area : weights_.junction_area;
+  const bool on_box = mesh.planes(v) != 0, two_labels = mesh.order(v) == (on_box ? 3 : 2);
+  fit_weight_ = two_labels ? weights_.fit : weights_.junction_fit;
+  area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
   if (debts != nullptr && mass_ > 0.0) take_debts(*debts);
   present_ = raw_value_at(Vec3::Zero());
@@ -179,7 +180,7 @@ double SurfaceEnergy::raw_value_at(const Vec3& x) const {
       for (const SurfaceTriangle& t : star_->triangles()) area += 0.5 * t.normal(x).norm();
       value += area_weight_ * (area - pressure_.dot(x));
     }
-    value *= weights_.fit / mass_;
+    value *= fit_weight_ / mass_;
   }
   if (weights_.bend > 0.0) value += weights_.bend / kUsualSpokes * star_->bends_at(x);
   return value;
@@ -187,7 +188,7 @@ double SurfaceEnergy::raw_value_at(const Vec3& x) const {
 
 void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& terms) {
   if (mass_ > 0.0) {
-    const double factor = scale * weights_.fit / mass_;
+    const double factor = scale * fit_weight_ / mass_;
     terms.gradient += factor * 2.0 * (square_ * x - linear_);
     terms.hessian += factor * 2.0 * square_;
     if (area_weight_ > 0.0) add_area(x, factor * area_weight_, terms);

@@ -16,7 +16,8 @@ namespace mw {
 
 /// Weights of the parts of SurfaceEnergy.
 struct SurfaceWeights {
-  double fit = 1.25;
+  double fit = 2.5;             ///< between two labels
+  double junction_fit = 1.25;   ///< where more labels meet
   double area = 1.0;            ///< beside the fit, voxels squared; between two labels, off the box
   double junction_area = 0.01;  ///< the same where more labels meet
   double bend = 4.5;
@@ -90,6 +91,7 @@ class SurfaceEnergy {
   const SurfaceStar* star_ = nullptr;
   std::vector<Vec3> unit_normals_;  ///< of the star's triangles at present
   double mass_ = 0.0;               ///< M; 0: there is nothing to fit
+  double fit_weight_ = 0.0;
   double area_weight_ = 0.0;
   Eigen::Matrix3d square_ = Eigen::Matrix3d::Zero();  ///< Q is x.square x - 2 linear.x
   Vec3 linear_ = Vec3::Zero();

@@ -167,6 +167,7 @@ inline void expect_same(const io::MeshData& actual, const io::MeshData& expected
   trial.settings.quality_floor = kFloors[below(random, 4)];
   trial.settings.max_distance = kDistances[below(random, 3)];
   if (below(random, 6) == 0) trial.settings.target_reduction = 0.3;
+  if (below(random, 4) == 0) trial.settings.surface = Surface::kVoxel;
   if (below(random, 2) == 0) trial.frame = {{0.25, 0.25, 0.25}, {-3, 100, 0.5}};
   return trial;
 }

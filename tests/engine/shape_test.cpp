@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Smooth surfaces end to end: bodies whose shape is known.
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "kernels/audit/shape.h"
+#include "kernels/audit/volumes.h"
+#include "tests/engine/memory_run.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::Position;
+using test::MemorySink;
+using test::MemoryVolume;
+using test::small_mesh;
+using test::SmallMesh;
+using test::SmallVolume;
+
+/// Voxels take the label at their centres.
+template <typename LabelAt>
+SmallVolume body(std::int64_t edge, std::size_t labels, LabelAt label_at) {
+  SmallVolume out{{edge, edge, edge}, labels, {}};
+  each_index(out.shape, [&](Index3 v) {
+    const auto centre = [](std::int64_t i) { return static_cast<double>(i) + 0.5; };
+    out.labels.push_back(label_at(Vec3(centre(v.x), centre(v.y), centre(v.z))));
+  });
+  return out;
+}
+
+struct Result {
+  RunReport report;
+  SmallMesh mesh;
+
+  /// The largest share by which a label's volume is off.
+  [[nodiscard]] double volume_error() const {
+    double most = 0.0;
+    for (std::size_t l = 0; l < report.label_voxels.size(); ++l) {
+      const auto row = audit::volume_row(static_cast<Label>(l), report.label_voxels[l],
+                                         report.label_volumes6[l]);
+      most = std::max(most, std::abs(row.error));
+    }
+    return most;
+  }
+};
+
+Result run(const SmallVolume& voxels, const MeshSettings& settings = {}) {
+  const MemoryVolume volume(voxels, {});
+  const io::LabelTable table = io::collect_labels(volume);
+  RunHooks hooks;
+  hooks.output.measure_shape = hooks.output.measure_quality = true;
+  MemorySink sink;
+  Result out;
+  out.report = mesh_volume(io::DenseVolume(volume, table), settings, sink, hooks);
+  out.mesh = small_mesh(sink.mesh());
+  EXPECT_GE(out.report.quality->radius_ratio_min, 0.2 - 1e-9);
+  return out;
+}
+
+SmallVolume ball(double radius, const Vec3& centre, std::int64_t edge) {
+  return body(edge, 2, [&](const Vec3& p) { return (p - centre).norm() < radius ? 1U : 0U; });
+}
+
+/// The mean angle between a plane and the triangles between two labels that do not touch the box of
+/// that edge, by area, in degrees.
+double mean_tilt(const SmallMesh& mesh, double edge, const Vec3& normal) {
+  std::map<std::array<std::uint64_t, 3>, std::vector<Label>> faces;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t out = 0; out < 4; ++out) {
+      std::array<std::uint64_t, 3> face{};
+      std::size_t next = 0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (k != out) face[next++] = mesh.tets[t][k];
+      }
+      std::sort(face.begin(), face.end());
+      faces[face].push_back(mesh.labels[t]);
+    }
+  }
+  double sum = 0.0, total = 0.0;
+  for (const auto& [face, labels] : faces) {
+    if (labels.size() != 2 || labels[0] == labels[1]) continue;
+    const auto at = [&](std::size_t i) -> Vec3 {
+      const Position& p = mesh.vertices[face[i]];
+      return {p[0], p[1], p[2]};
+    };
+    const auto on_box = [&](std::size_t i) {
+      return at(i).minCoeff() <= 0.0 || at(i).maxCoeff() >= edge;
+    };
+    if (on_box(0) || on_box(1) || on_box(2)) continue;
+    const Vec3 n = (at(1) - at(0)).cross(at(2) - at(0));
+    const double cosine = std::min(1.0, std::abs(n.dot(normal)) / n.norm());
+    sum += n.norm() * std::acos(cosine) * 180.0 / std::numbers::pi;
+    total += n.norm();
+  }
+  return sum / total;
+}
+
+TEST(SmoothSurface, BallsKeepTheirVolumeAndHaveNoDents) {
+  std::mt19937 random(121);
+  const auto between = [&](double a, double b) {
+    return a + (b - a) * audit::test::below(random, 10000) / 10000.0;
+  };
+  for (const double radius : {9.0, 10.4, 12.0, 13.7, 15.2, 18.9, 24.0}) {
+    const auto edge = static_cast<std::int64_t>(2 * radius + 12);
+    const double middle = static_cast<double>(edge) / 2;
+    const Vec3 centre(middle + between(-1, 1), middle + between(-1, 1), middle + between(-1, 1));
+    SCOPED_TRACE("radius " + std::to_string(radius));
+    const Result r = run(ball(radius, centre, edge));
+    EXPECT_LT(r.volume_error(), 0.0025);
+    EXPECT_LT(r.report.shape->sharp_share, 0.01);
+    if (radius < 12) continue;
+    EXPECT_LT(r.report.shape->bend_max_deg, 45.0);
+  }
+}
+
+TEST(SmoothSurface, VoxelSurfacesShrinkBalls) {
+  const SmallVolume volume = ball(10, {16, 16, 16}, 32);
+  EXPECT_GT(run(volume, {.surface = Surface::kVoxel}).volume_error(), 0.02);
+  EXPECT_LT(run(volume).volume_error(), 0.0025);
+}
+
+TEST(SmoothSurface, TiltedPlanesAreFlat) {
+  for (const Vec3& way : {Vec3(0.3, 0.5, 0.81), Vec3(1, 0.1, 0.05), Vec3(1, 1, 1)}) {
+    const Vec3 normal = way.normalized();
+    const Result r = run(body(
+        48, 2, [&](const Vec3& p) { return (p - Vec3(24, 24, 24)).dot(normal) < 0 ? 1U : 0U; }));
+    EXPECT_LT(mean_tilt(r.mesh, 48, normal), 0.8);
+    EXPECT_LT(r.report.shape->bend_p95_deg, 10.0);
+    EXPECT_LT(r.volume_error(), 0.001);
+  }
+}
+
+TEST(SmoothSurface, TwoVoxelSheetsAreFlatOnBothSides) {
+  const Vec3 normal = Vec3(0.3, 0.5, 0.81).normalized();
+  const Result r = run(body(64, 2, [&](const Vec3& p) {
+    return std::abs((p - Vec3(32, 32, 32)).dot(normal)) < 1 ? 1U : 0U;
+  }));
+  EXPECT_LT(r.report.shape->sharp_share, 0.01);
+  EXPECT_LT(r.volume_error(), 0.015);
+  EXPECT_LT(mean_tilt(r.mesh, 64, normal), 1.0);
+}
+
+TEST(SmoothSurface, TubesAndToriKeepTheirVolume) {
+  const Result tube = run(
+      body(40, 2, [](const Vec3& p) { return std::hypot(p[0] - 20, p[1] - 20) < 5 ? 1U : 0U; }));
+  EXPECT_LT(tube.volume_error(), 0.01);
+  EXPECT_LT(tube.report.shape->sharp_share, 0.01);
+  const Result torus = run(body(48, 2, [](const Vec3& p) {
+    return std::hypot(std::hypot(p[0] - 24, p[1] - 24) - 14, p[2] - 24) < 5 ? 1U : 0U;
+  }));
+  EXPECT_LT(torus.volume_error(), 0.01);
+  EXPECT_LT(torus.report.shape->sharp_share, 0.02);
+}
+
+/// Half balls of two labels: a junction line where three labels meet.
+TEST(SmoothSurface, TwoLabelsShareABall) {
+  const Vec3 normal = Vec3(0.2, 0.4, 0.9).normalized(), centre(24, 24, 24);
+  const Result r = run(body(48, 3, [&](const Vec3& p) {
+    if ((p - centre).norm() >= 18) return 0U;
+    return (p - centre).dot(normal) < 0 ? 1U : 2U;
+  }));
+  EXPECT_LT(r.volume_error(), 0.0025);
+  EXPECT_LT(r.report.shape->sharp_share, 0.02);
+}
+
+TEST(SmoothSurface, InterfacesKeptAreSmoothAsWell) {
+  const Result r = run(ball(14, {20.3, 19.8, 20.1}, 40), {.topology = KeptTopology::kInterfaces});
+  EXPECT_LT(r.volume_error(), 0.005);
+  EXPECT_LT(r.report.shape->sharp_share, 0.02);
+}
+
+}  // namespace
+}  // namespace mw::engine
