@@ -5,7 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <Eigen/Geometry>
+#include <algorithm>
 
 #include "kernels/distance/point_triangle.h"
 #include "tests/kernels/distance/random_points.h"
