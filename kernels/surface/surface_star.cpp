@@ -93,15 +93,18 @@ void SurfaceStar::find_rim(const TetMesh& mesh, const Metric& metric, std::uint3
   const LocalVertex p = a_is_smaller ? t.a : t.b, q = a_is_smaller ? t.b : t.a;
   if (!collect_ring(mesh, p, q, ring_)) return;
   LocalVertex other = mesh.infinity();
-  int others = 0;
+  int others = 0, rises = 0;
   for (std::size_t i = 0; i < ring_.size(); ++i) {
     const Label before = ring_.labels[(i + ring_.size() - 1) % ring_.size()];
     const auto [low, high] = std::minmax(before, ring_.labels[i]);
-    if (!t.is_between(low, high) || ring_.vertices[i] == vertex_) continue;
+    if (!t.is_between(low, high)) continue;
+    rises += before == low ? 1 : 0;
+    if (ring_.vertices[i] == vertex_) continue;
     other = ring_.vertices[i];
     ++others;
   }
-  if (others != 1) return;
+  // Around an edge of six regions both may lead from low to high: no surface runs through it.
+  if (others != 1 || rises != 1) return;
   // Across the edge the normal of (b, a, other) points to high, as that of (v, a, b) does.
   const Vec3 to_other = metric.vector(mesh.position(vertex_), mesh.position(other));
   const Vec3 normal = (t.to_a - t.to_b).cross(to_other - t.to_b);

@@ -27,13 +27,15 @@ struct SurfaceTriangle {
   [[nodiscard]] Vec3 normal(const Vec3& x) const;
 };
 
-/// Two triangles at v that share an edge at v and are the only two of their labels there.
+/// Two triangles at v that share an edge at v, are the only two of their labels there, and go on
+/// from each other: they run through the edge in opposite ways.
 struct Spoke {
   std::uint32_t first = 0;  ///< rows of triangles
   std::uint32_t second = 0;
 };
 
-/// The edge opposite v of a triangle, where exactly two triangles of its labels meet.
+/// The edge opposite v of a triangle, where exactly two triangles of its labels meet, as at a
+/// spoke.
 struct Rim {
   std::uint32_t triangle = 0;  ///< row of the one at v
   Vec3 normal;                 ///< unit normal of the other, from low to high

@@ -98,6 +98,23 @@ TEST(WindowOrder, PathsAreThoseOfSharedBlocks) {
   });
 }
 
+/// Of the windows that share a block with this one, those behind it in the sequence.
+TEST(WindowOrder, LaterNeighboursAreThoseOfHigherRank) {
+  for_small_orders([](const WindowOrder& order) {
+    const Relation shares = by_blocks(order);
+    for (std::uint64_t w = 0; w < order.size(); ++w) {
+      std::set<std::uint64_t> expected, listed;
+      for (std::uint64_t v = w + 1; v < order.size(); ++v) {
+        if (shares[v][w]) expected.insert(v);
+      }
+      const std::vector<Index3> later = order.later_neighbours(order.window(w));
+      for (Index3 v : later) listed.insert(order.rank(v));
+      EXPECT_EQ(listed, expected);
+      EXPECT_EQ(later.size(), listed.size());
+    }
+  });
+}
+
 /// step() is the longest path to a window, steps() - 1 - step() the longest from it.
 TEST(WindowOrder, StepsAreLongestPaths) {
   for_small_orders([](const WindowOrder& order) {

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <tuple>
+
 #include "kernels/audit/betti.h"
 #include "kernels/coarsen/carrier_faces.h"
 #include "tests/kernels/coarsen/coarse_volume.h"
@@ -156,6 +159,56 @@ TEST(Promise4Distance, CoarseningKeepsTheBoundBothWays) {
     expect_samples_carried(volume, coarse, bound);
   }
   EXPECT_GT(changed, 250);
+}
+
+/// Faces of the output by what may carry: labels, axis, and the label on the lower side.
+using Carriers = std::map<std::tuple<Label, Label, unsigned, Label>, std::vector<VoxelFace>>;
+
+/// The distance bound again, by faces that look their way where the axis is the same.
+void expect_oriented_carriers(const SmallVolume& before, const SmallVolume& after, double bound) {
+  Carriers carriers;
+  each_interface_face(after, [&](const VoxelFace& face, LabelPair labels) {
+    carriers[{labels.low, labels.high, face.axis, label_at(after, face.lower)}].push_back(face);
+  });
+  const LabelBox original{{{0, 0, 0}, before.shape}, before.labels};
+  const LabelBox coarse{{{0, 0, 0}, after.shape}, after.labels};
+  each_interface_face(before, [&](const VoxelFace& face, LabelPair labels) {
+    double best = 1e9;
+    for (const auto& [key, faces] : carriers) {
+      const auto [low, high, axis, lower] = key;
+      const bool same_labels = LabelPair{low, high} == labels;
+      const bool may = same_labels && (axis != face.axis || lower == label_at(before, face.lower));
+      for (const VoxelFace& f : faces) {
+        ASSERT_EQ(may_carry(coarse, f, original, face), may);
+        if (!may) continue;
+        double farthest = 0.0;
+        for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
+          const FaceSamples samples = face_samples(face.lower, face.axis, kAllQuarters);
+          farthest = std::max(farthest, distance_to(f, sample_position(samples, quarter)));
+        }
+        best = std::min(best, farthest);
+      }
+    }
+    ASSERT_LE(best, bound - kSampleCoveringRadius + 1e-12);
+  });
+}
+
+/// One carrier for all four samples of a face.
+TEST(Promise4Distance, CoarseningLeavesACarrierThatLooksTheSameWay) {
+  std::mt19937 random(1027);
+  int changed = 0;
+  for (std::size_t i = 0; i < 600 && !HasFailure(); ++i) {
+    const SmallVolume volume =
+        i % 3 == 0 ? random_volume_of(random, VolumeKind::kSheets, {8, 7, 6}, 2 + below(random, 3))
+                   : random_of(random, 2, 8);
+    SCOPED_TRACE(volume.text());
+    const double bound = kBounds[i % 3];
+    const SmallVolume coarse = coarsened(volume, bound);
+    if (coarse.labels == volume.labels) continue;
+    ++changed;
+    expect_oriented_carriers(volume, coarse, bound);
+  }
+  EXPECT_GT(changed, 100);
 }
 
 /// Is the whole cube inside the volume, and of one label there?

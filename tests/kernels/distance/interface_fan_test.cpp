@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Interface triangles at a vertex against those of all tets.
+// Interface triangles at a vertex, and the way they face, against those of all tets.
 #include "kernels/distance/interface_fan.h"
 
 #include <gtest/gtest.h>
@@ -15,25 +15,35 @@
 namespace mw::test {
 namespace {
 
-using Fan = std::vector<std::tuple<LocalVertex, LocalVertex, Label, Label>>;
+using Fan = std::vector<std::tuple<LocalVertex, LocalVertex, Label, Label, bool>>;
+
+/// Exact: the larger label's tet, with corner `apex`, is on the side of the normal of (v, a, b).
+bool faces(const TetMesh& mesh, LocalVertex v, LocalVertex a, LocalVertex b, LocalVertex apex) {
+  return volume6(mesh.position(v), mesh.position(a), mesh.position(b), mesh.position(apex)) > 0;
+}
 
 /// Of every vertex: each triangle of the mesh whose two tets have different labels.
 std::vector<Fan> fans_of_all_tets(const TetMesh& mesh) {
-  std::map<std::set<LocalVertex>, std::set<Label>> triangles;
+  std::map<std::set<LocalVertex>, std::map<Label, LocalVertex>> triangles;
   for (const LocalTet& t : mesh.tets()) {
     for (LocalVertex opposite : t.vertices) {
       std::set<LocalVertex> corners(t.vertices.begin(), t.vertices.end());
       corners.erase(opposite);
-      triangles[corners].insert(t.label);
+      triangles[corners][t.label] = opposite;
     }
   }
   std::vector<Fan> fans(mesh.vertex_count());
-  for (const auto& [corners, labels] : triangles) {
-    if (labels.size() < 2) continue;
+  for (const auto& [corners, apexes] : triangles) {
+    if (apexes.size() < 2) continue;
     for (LocalVertex v : corners) {
       std::set<LocalVertex> others = corners;
       others.erase(v);
-      fans[v].emplace_back(*others.begin(), *others.rbegin(), *labels.begin(), *labels.rbegin());
+      const LocalVertex a = *others.begin(), b = *others.rbegin();
+      const auto& [low, below] = *apexes.begin();
+      const auto& [high, above] = *apexes.rbegin();
+      const bool faces_high = faces(mesh, v, a, b, above);
+      EXPECT_NE(faces_high, faces(mesh, v, a, b, below));
+      fans[v].emplace_back(a, b, low, high, faces_high);
     }
   }
   for (Fan& fan : fans) std::sort(fan.begin(), fan.end());
@@ -48,7 +58,9 @@ void expect_fans(const TetMesh& mesh) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
     fan.collect(mesh, v, found);
     Fan listed;
-    for (const FanTriangle& t : found) listed.emplace_back(t.a, t.b, t.low, t.high);
+    for (const FanTriangle& t : found) {
+      listed.emplace_back(t.a, t.b, t.low, t.high, t.faces_high);
+    }
     ASSERT_EQ(listed, expected[v]) << v;
   }
 }

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Verdicts on folds against bends of the really contracted mesh.
+#include "kernels/simplify/bend_filter.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/simplify/simplify.h"
+#include "kernels/topology/collapse_test.h"
+#include "tests/kernels/surface/interface_triangles.h"
+
+namespace mw::test {
+namespace {
+
+/// One filter for all questions about a mesh that changes between them.
+TEST(BendFilter, ComparesTheContractedMeshWithThePresentOne) {
+  std::mt19937 random(731);
+  int refused = 0, allowed_by_share = 0, free = 0;
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    const Metric metric = i % 2 == 0 ? Metric() : Metric({1.0, 2.0, 1.5});
+    const auto kind = i % 3 == 0 ? VolumeKind::kNoise : VolumeKind::kBlobs;
+    TetMesh mesh = dense_mesh(random_volume_of(random, kind, {5, 5, 5}, 2 + below(random, 3)));
+    disturb(mesh, random);
+    if (i % 4 < 2) simplify(mesh, metric, {.quality_floor = 0.02});
+    BendFilter filter(mesh, metric);
+    CollapseTest topology(mesh);
+    for (int k = 0; k < 150 && !HasFailure(); ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p == q || !mesh.on_interface(p) || !mesh.on_interface(q)) continue;
+      if (!topology.keeps_topology(mesh, p, q)) continue;
+      for (const std::uint32_t at : {0U, 2U, 1U}) {
+        const auto target = contraction_target(mesh, p, q, at);
+        if (!target || !stays_positive(mesh, p, q, *target)) continue;
+        const bool verdict = filter.stays_smooth({.keep = p, .drop = q, .position = *target});
+        TetMesh contracted = mesh;
+        contracted.contract(p, q, *target, mesh.quadric(p));
+        const double present = bends_around(mesh, metric, p) + bends_around(mesh, metric, q);
+        const double after = bends_around(contracted, metric, p);
+        const double most = 0.8 * present + 1.0;
+        if (std::abs(after - most) < 1e-9) continue;
+        ASSERT_EQ(verdict, after < most) << present << " " << after;
+        (!verdict ? refused : after > 1.0 ? allowed_by_share : free) += 1;
+        if (below(random, 8) != 0) continue;
+        mesh.contract(p, q, *target, mesh.quadric(p));
+        break;
+      }
+    }
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(allowed_by_share, 100);
+  EXPECT_GT(free, 100);
+}
+
+}  // namespace
+}  // namespace mw::test

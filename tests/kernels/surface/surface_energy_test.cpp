@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The energy of interfaces: derivatives by differences, and where it is least.
+#include "kernels/surface/surface_energy.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "kernels/simplify/simplify.h"
+#include "tests/kernels/surface/interface_triangles.h"
+
+namespace mw::test {
+namespace {
+
+constexpr double kBound = 1.5;
+constexpr SurfaceWeights kFitAlone{.area = 0.0, .junction_area = 0.0, .bend = 0.0};
+constexpr SurfaceWeights kBendsAlone{.fit = 0.0, .bend = 4.5};
+
+Vec3 random_offset(std::mt19937& random) {
+  const auto step = [&] { return 0.001 * (static_cast<double>(below(random, 401)) - 200.0); };
+  const double x = step(), y = step();
+  return {x, y, step()};
+}
+
+StarTerms derivatives(SurfaceEnergy& energy, const Vec3& x, double scale = 1.0) {
+  StarTerms terms;
+  energy.add_derivatives(x, scale, terms);
+  return terms;
+}
+
+Vec3 gradient_by_differences(const SurfaceEnergy& energy, const Vec3& x) {
+  constexpr double kStep = 1e-5;
+  Vec3 out;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 step = kStep * Vec3::Unit(i);
+    out[i] = (energy.value_at(x + step) - energy.value_at(x - step)) / (2.0 * kStep);
+  }
+  return out;
+}
+
+void expect_derivatives(SurfaceEnergy& energy, const Vec3& x) {
+  const StarTerms terms = derivatives(energy, x);
+  const Vec3 expected = gradient_by_differences(energy, x);
+  const double size = 1.0 + expected.norm() + std::abs(energy.value_at(x));
+  EXPECT_NEAR((terms.gradient - expected).norm(), 0.0, 1e-5 * size);
+  EXPECT_NEAR((terms.hessian - terms.hessian.transpose()).norm(), 0.0,
+              1e-12 * terms.hessian.norm());
+  const Vec3 eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(terms.hessian).eigenvalues();
+  EXPECT_GE(eigenvalues[0], -1e-9 * (1.0 + eigenvalues[2]));
+  const StarTerms twice = derivatives(energy, x, 2.0);
+  EXPECT_NEAR((twice.gradient - 2.0 * terms.gradient).norm(), 0.0, 1e-9 * size);
+  EXPECT_NEAR((twice.hessian - 2.0 * terms.hessian).norm(), 0.0, 1e-9 * terms.hessian.norm());
+}
+
+/// Triangles of some size only: next to a flat one differences say little.
+bool is_regular(const SurfaceStar& star, const Vec3& x) {
+  return std::all_of(star.triangles().begin(), star.triangles().end(),
+                     [&](const SurfaceTriangle& t) { return t.normal(x).norm() > 0.05; });
+}
+
+/// Calls visit(mesh, metric, guard, star) at interface vertices of random meshes, some simplified.
+template <typename Visit>
+void each_random_star(unsigned seed, Visit visit) {
+  std::mt19937 random(seed);
+  for (std::uint32_t i = 0; i < 40 && !::testing::Test::HasFailure(); ++i) {
+    const Metric metric = i % 3 == 0 ? Metric({1.0, 2.0, 1.5}) : Metric();
+    const auto kind = i % 4 == 0 ? VolumeKind::kNoise : VolumeKind::kBlobs;
+    const SmallVolume volume = random_volume_of(random, kind, {6, 5, 6}, 2 + below(random, 3));
+    GuardedMesh guarded(volume, kBound);
+    if (i % 2 == 0) simplify(guarded.mesh, metric, {.quality_floor = 0.05}, &guarded.guard);
+    disturb(guarded.mesh, random);
+    SurfaceStar star;
+    for (LocalVertex v = 0; v < guarded.mesh.vertex_count(); ++v) {
+      if (!guarded.mesh.is_alive(v) || !guarded.mesh.on_interface(v)) continue;
+      star.collect(guarded.mesh, metric, v);
+      star.collect_rims(guarded.mesh, metric);
+      visit(guarded.mesh, metric, guarded.guard, star);
+    }
+  }
+}
+
+/// Debts of all vertices, any.
+VolumeDebts random_debts(const TetMesh& mesh, std::mt19937& random) {
+  VolumeDebts out;
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    out.set(v, std::array{VolumeDebt{0, 1, 0.001 * below(random, 100)},
+                          VolumeDebt{0, 2, -0.001 * below(random, 100)}});
+  }
+  return out;
+}
+
+TEST(SurfaceEnergy, HasItsDerivatives) {
+  std::mt19937 random(1141);
+  int checked = 0, bent = 0;
+  each_random_star(1142, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                             const SurfaceStar& star) {
+    const Vec3 x = below(random, 4) == 0 ? Vec3::Zero() : random_offset(random);
+    if (below(random, 4) != 0 || !is_regular(star, x)) return;
+    CurvatureField curvature;
+    curvature.measure(mesh, metric);
+    const VolumeDebts debts = random_debts(mesh, random);
+    const SurfaceWeights no_bends{.bend = 0.0};
+    for (const SurfaceWeights& weights : {no_bends, kFitAlone, kBendsAlone, SurfaceWeights{}}) {
+      SurfaceEnergy energy(weights);
+      energy.collect(mesh, metric, star, guard, &curvature, &debts);
+      EXPECT_EQ(energy.value_at(Vec3::Zero()), 0.0);
+      expect_derivatives(energy, x);
+      energy.collect(mesh, metric, star, guard, nullptr, nullptr);
+      EXPECT_EQ(energy.value_at(Vec3::Zero()), 0.0);
+      expect_derivatives(energy, x);
+    }
+    ++checked;
+    bent += star.bends_at(x) > 0.01 ? 1 : 0;
+  });
+  EXPECT_GT(checked, 200);
+  EXPECT_GT(bent, 100);
+}
+
+/// A square's Hessian is what it is.
+TEST(SurfaceEnergy, HasTheHessianOfTheFit) {
+  std::mt19937 random(1143);
+  each_random_star(1144, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                             const SurfaceStar& star) {
+    SurfaceEnergy energy(kFitAlone);
+    energy.collect(mesh, metric, star, guard, nullptr, nullptr);
+    const Vec3 x = random_offset(random), y = random_offset(random);
+    const StarTerms at_x = derivatives(energy, x), at_y = derivatives(energy, y);
+    EXPECT_NEAR((at_y.gradient - at_x.gradient - at_x.hessian * (y - x)).norm(), 0.0, 1e-9);
+  });
+}
+
+TEST(SurfaceEnergy, OfBendsAloneIsTheirSum) {
+  std::mt19937 random(1145);
+  each_random_star(1146, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                             const SurfaceStar& star) {
+    SurfaceEnergy energy(kBendsAlone);
+    energy.collect(mesh, metric, star, guard, nullptr, nullptr);
+    const Vec3 x = random_offset(random);
+    EXPECT_NEAR(energy.value_at(x), 4.5 / 6.0 * (star.bends_at(x) - star.bends_at(Vec3::Zero())),
+                1e-9);
+    double least = 1.0;
+    for (const InterfaceEdge& e : interface_edges(interface_triangles(mesh))) {
+      const LocalVertex v = star.vertex();
+      if (!e.triangles[0].has(v) && !e.triangles[1].has(v)) continue;
+      least = std::min(least, cosine_between(e.triangles[0].normal(mesh, metric),
+                                             e.triangles[1].normal(mesh, metric)));
+    }
+    EXPECT_NEAR(energy.least_cosine(), least, 1e-9);
+  });
+}
+
+/// Moves interface vertices of a plane between labels 0 and 1 by `height` along its axis, but for
+/// those for which `stays` says so.
+template <typename Stays>
+void move_plane(TetMesh& mesh, int axis, double height, Stays stays) {
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.on_interface(v) || stays(v)) continue;
+    const auto by = static_cast<std::int32_t>(height * kUnitsPerVoxel);
+    Point x = mesh.position(v);
+    (axis == 0 ? x.x : axis == 1 ? x.y : x.z) += by;
+    mesh.move(v, x, mesh.quadric(v));
+  }
+}
+
+/// A plane across an axis in the middle of 6^3 voxels, one label or the other below.
+SmallVolume plane(int axis, bool reversed) {
+  return volume_from({6, 6, 6}, 2, [&](auto x, auto y, auto z) {
+    const auto along = axis == 0 ? x : axis == 1 ? y : z;
+    return (along < 3) == reversed ? 1 : 0;
+  });
+}
+
+/// Value of the hat function of v at p, its own place the origin, and the sums that it gives.
+struct Hat {
+  double once = 0.0;
+  double twice = 0.0;
+
+  Hat(const TetMesh& mesh, const SurfaceStar& star, const DistanceGuard& guard,
+      const Metric& metric) {
+    const Vec3 at = metric.vector({}, mesh.position(star.vertex()));
+    for (const SurfaceTriangle& t : star.triangles()) {
+      guard.each_piece(triangle_key(star.vertex(), t.a, t.b), t.low,
+                       [&](const DistanceGuard::Piece& piece) {
+                         add(piece.middle.cwiseProduct(metric.voxel()) - at, piece.quarters, star);
+                       });
+    }
+  }
+  void add(const Vec3& p, double area, const SurfaceStar& star) {
+    double value = 0.0, least = 1e9;
+    for (const SurfaceTriangle& t : star.triangles()) {
+      const Foot foot = foot_on_triangle(p, t.to_a, t.to_b);
+      if (foot.squared_distance >= least) continue;
+      least = foot.squared_distance;
+      value = foot.weights[0];
+    }
+    once += area * value;
+    twice += area * value * value;
+  }
+};
+
+/// Of all interface vertices off the box, in planes across all axes, both ways round.
+template <typename Visit>
+void each_vertex_of_planes(double height, bool alone, Visit visit) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool reversed : {false, true}) {
+      const Metric metric = reversed ? Metric() : Metric({1.0, 2.0, 1.5});
+      const SmallVolume volume = plane(axis, reversed);
+      const GuardedMesh planes(volume, kBound);
+      for (LocalVertex v = 0; v < planes.mesh.vertex_count(); ++v) {
+        if (!planes.mesh.on_interface(v) || planes.mesh.planes(v) != 0) continue;
+        TetMesh mesh = planes.mesh;
+        move_plane(mesh, axis, -height, [&](LocalVertex w) { return alone && w != v; });
+        SurfaceStar star;
+        star.collect(mesh, metric, v);
+        star.collect_rims(mesh, metric);
+        visit(mesh, metric, planes.guard, star, Vec3(Vec3::Unit(axis)));
+      }
+    }
+  }
+}
+
+/// All of the plane lies h below its faces: v goes so far that the volume under its hat function is
+/// made up for, though its neighbours stay; then it owes nothing.
+TEST(SurfaceEnergy, FitMakesUpForTheVolumeUnderTheHat) {
+  constexpr double kHeight = 0.25;
+  int checked = 0;
+  each_vertex_of_planes(kHeight, false,
+                        [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                            const SurfaceStar& star, const Vec3& normal) {
+                          SurfaceEnergy energy(kFitAlone);
+                          energy.collect(mesh, metric, star, guard, nullptr, nullptr);
+                          const Hat hat(mesh, star, guard, metric);
+                          ASSERT_GT(hat.twice, 0.0);
+                          const double height = kHeight * metric.voxel().dot(normal);
+                          const Vec3 x = height * hat.once / hat.twice * normal;
+                          const StarTerms terms = derivatives(energy, x);
+                          EXPECT_NEAR(terms.gradient.norm(), 0.0, 1e-9);
+                          EXPECT_GT(normal.dot(terms.hessian * normal), 0.1);
+                          EXPECT_LT(energy.value_at(x), -1e-3);
+                          for (const VolumeDebt& d : energy.debts_at(x))
+                            EXPECT_NEAR(d.volume, 0.0, 1e-9);
+                          for (const VolumeDebt& d : energy.debts_at(Vec3::Zero()))
+                            EXPECT_GT(std::abs(d.volume), 1e-3);
+                          ++checked;
+                        });
+  EXPECT_EQ(checked, 150);
+}
+
+/// Only v lies h below the plane: it goes back, by h n.
+TEST(SurfaceEnergy, FitIsLeastOnThePlane) {
+  constexpr double kHeight = 0.0625;
+  each_vertex_of_planes(kHeight, true,
+                        [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                            const SurfaceStar& star, const Vec3& normal) {
+                          SurfaceEnergy energy(kFitAlone);
+                          energy.collect(mesh, metric, star, guard, nullptr, nullptr);
+                          const double height = kHeight * metric.voxel().dot(normal);
+                          const StarTerms terms = derivatives(energy, Vec3::Zero());
+                          const double least =
+                              -normal.dot(terms.gradient) / normal.dot(terms.hessian * normal);
+                          EXPECT_NEAR(least, height, 0.05 * height);
+                        });
+}
+
+/// Where the volumes are right, a flat plane is at rest, area and bends included.
+TEST(SurfaceEnergy, IsLeastForAPlaneWhereItIs) {
+  each_vertex_of_planes(0.0, false,
+                        [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                            const SurfaceStar& star, const Vec3& normal) {
+                          SurfaceEnergy energy(SurfaceWeights{});
+                          energy.collect(mesh, metric, star, guard, nullptr, nullptr);
+                          EXPECT_NEAR(derivatives(energy, Vec3::Zero()).gradient.norm(), 0.0, 1e-9);
+                          for (const double step : {0.2, -0.2})
+                            EXPECT_GT(energy.value_at(step * normal), 0.01);
+                          EXPECT_EQ(energy.least_cosine(), 1.0);
+                        });
+}
+
+}  // namespace
+}  // namespace mw::test
