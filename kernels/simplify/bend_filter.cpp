@@ -9,8 +9,10 @@ namespace mw {
 namespace {
 
 constexpr double kShareOfPresent = 0.8;
-/// Bend energy that any contraction may leave.
-constexpr double kFree = 1.0;
+/// Bend energy that any contraction may leave: between two labels, where surfaces are smooth, and
+/// where more meet.
+constexpr double kFreeBetweenTwo = 0.5;
+constexpr double kFreeElsewhere = 1.0;
 
 }  // namespace
 
@@ -18,9 +20,11 @@ bool BendFilter::stays_smooth(const Contraction& c) {
   collect(c);
   merged_.merge(keep_, metric_.vector(mesh_.position(c.keep), c.position), drop_,
                 metric_.vector(mesh_.position(c.drop), c.position));
+  const bool two = mesh_.order(c.keep) == 2 && mesh_.order(c.drop) == 2;
+  const double free = two ? kFreeBetweenTwo : kFreeElsewhere;
   const double after = merged_.bends_at(Vec3::Zero());
-  if (after <= kFree) return true;
-  return after <= kShareOfPresent * present_ + kFree;
+  if (after <= free) return true;
+  return after <= kShareOfPresent * present_ + free;
 }
 
 void BendFilter::collect(const Contraction& c) {

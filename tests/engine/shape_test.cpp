@@ -144,15 +144,17 @@ TEST(SmoothSurface, TwoVoxelSheetsAreFlatOnBothSides) {
 }
 
 TEST(SmoothSurface, TubesAndToriKeepTheirVolume) {
-  const Result tube = run(
-      body(40, 2, [](const Vec3& p) { return std::hypot(p[0] - 20, p[1] - 20) < 5 ? 1U : 0U; }));
+  const Vec3 way = Vec3(0.5, 0.3, 0.9).normalized();
+  const Result tube = run(body(40, 2, [&](const Vec3& p) {
+    return (p - Vec3(20, 20, 20)).cross(way).norm() < 6 ? 1U : 0U;
+  }));
   EXPECT_LT(tube.volume_error(), 0.01);
   EXPECT_LT(tube.report.shape->sharp_share, 0.01);
   const Result torus = run(body(48, 2, [](const Vec3& p) {
     return std::hypot(std::hypot(p[0] - 24, p[1] - 24) - 14, p[2] - 24) < 5 ? 1U : 0U;
   }));
   EXPECT_LT(torus.volume_error(), 0.01);
-  EXPECT_LT(torus.report.shape->sharp_share, 0.02);
+  EXPECT_LT(torus.report.shape->sharp_share, 0.03);
 }
 
 /// Half balls of two labels: a junction line where three labels meet.
