@@ -239,6 +239,44 @@ TEST(DistanceGuard, PrefersChangedTrianglesThatLookTheSamplesWay) {
   EXPECT_GT(other_way, 10);
 }
 
+/// Point of a mesh, in tenths of a voxel.
+BlockVertex vertex_at(VertexId id, int x, int y, int z) {
+  const auto lattice = [](int tenths) { return tenths * kUnitsPerVoxel / 10; };
+  return {id, {lattice(x), lattice(y), lattice(z)}, {}};
+}
+
+/// A flip that makes a fold: of the new triangles (a, b, q) looks up and (b, a, p) down, one of
+/// them farther from the face at height 2 than the other.  The face goes to the one that looks its
+/// way, whichever label is above it, and near or far.
+TEST(DistanceGuard, HandsAFlippedFaceToTheTriangleThatLooksItsWay) {
+  for (const bool q_is_far : {false, true}) {
+    for (const Label above : {0U, 1U}) {
+      for (const Label towards : {0U, 1U}) {
+        const SmallVolume volume = volume_from(
+            {4, 4, 4}, 2, [&](auto, auto, auto z) { return z < 2 ? 1 - above : above; });
+        const LabelBox labels = labels_in(volume, {{-8, -8, -8}, {12, 12, 12}});
+        const LocalVertex p = 0, q = 1, a = 2, b = 3;
+        const std::array<BlockVertex, 6> vertices{vertex_at(p, 10, 20, q_is_far ? 19 : 10),
+                                                  vertex_at(q, 10, 20, q_is_far ? 30 : 21),
+                                                  vertex_at(a, 20, 10, 20),
+                                                  vertex_at(b, 20, 30, 20),
+                                                  vertex_at(4, 30, 20, 35),
+                                                  vertex_at(5, 30, 20, 5)};
+        const std::array<BlockTet, 2> tets{{{{p, a, b, 5}, 0}, {{q, a, b, 4}, 1}}};
+        const TetMesh mesh(vertices, tets, {1 << 20, 1 << 20, 1 << 20});
+        CarriedSamples samples;
+        samples.add(triangle_key(p, q, a), 0, face_samples({1, 1, 1}, 2, kAllQuarters));
+        DistanceGuard guard(labels, 3.0, samples);
+        ASSERT_TRUE(guard.allows_flip(mesh, {p, q}, {a, b}, towards, 1 - towards));
+        guard.commit();
+        EXPECT_FALSE(samples.has(triangle_key(p, q, a), 0));
+        EXPECT_EQ(samples.has(triangle_key(a, b, q), 0), towards == above);
+        EXPECT_EQ(samples.has(triangle_key(a, b, p), 0), towards != above);
+      }
+    }
+  }
+}
+
 /// The two sides of a sheet of two voxels keep their own samples, as far as it is moved about.
 TEST(DistanceGuard, KeepsTheSidesOfASheetApart) {
   std::mt19937 random(943);
