@@ -151,6 +151,83 @@ TEST(SurfaceEnergy, OfBendsAloneIsTheirSum) {
   });
 }
 
+/// Gradient at 0 of the energy without bends.
+Vec3 slope(const SurfaceWeights& weights, const TetMesh& mesh, const Metric& metric,
+           const DistanceGuard& guard, const SurfaceStar& star,
+           const CurvatureField* curvature = nullptr, const VolumeDebts* debts = nullptr) {
+  SurfaceEnergy energy(weights);
+  energy.collect(mesh, metric, star, guard, curvature, debts);
+  return derivatives(energy, Vec3::Zero()).gradient;
+}
+
+/// Of the area of the star's triangles, by differences.
+Vec3 area_slope(const SurfaceStar& star) {
+  constexpr double kStep = 1e-5;
+  Vec3 out = Vec3::Zero();
+  for (const SurfaceTriangle& t : star.triangles()) {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 step = kStep * Vec3::Unit(i);
+      out[i] += 0.5 * (t.normal(step).norm() - t.normal(-step).norm()) / (2.0 * kStep);
+    }
+  }
+  return out;
+}
+
+/// Pressure: curvature of the ring times what a move adds to the volume.  Debts: half of v's own,
+/// and of each corner of each triangle 0.45, along the normal.  Both in units of the area term.
+TEST(SurfaceEnergy, HasPressureAndDebtsInProportionToTheArea) {
+  std::mt19937 random(1147);
+  int checked = 0;
+  each_random_star(1148, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                             const SurfaceStar& star) {
+    const LocalVertex v = star.vertex();
+    if (mesh.planes(v) != 0 || mesh.order(v) != 2 || !is_regular(star, Vec3::Zero())) return;
+    constexpr SurfaceWeights kWithArea{.area = 1.0, .bend = 0.0};
+    const Vec3 plain = slope(kWithArea, mesh, metric, guard, star);
+    const Vec3 of_area = area_slope(star);
+    const Vec3 added = plain - slope(kFitAlone, mesh, metric, guard, star);
+    if (of_area.norm() < 0.1 || !(added.norm() > 0.0)) return;
+    const double factor = added.dot(of_area) / of_area.squaredNorm();
+    CurvatureField curvature;
+    curvature.measure(mesh, metric);
+    const VolumeDebts debts = random_debts(mesh, random);
+    double sum = 0.0, count = 0.0;
+    Vec3 of_volume = Vec3::Zero(), owed = Vec3::Zero();
+    for (const SurfaceTriangle& t : star.triangles()) {
+      const Vec3 normal = t.to_a.cross(t.to_b);
+      of_volume += normal / 6.0;
+      owed += 0.5 * debts.of(v, t.low, t.high) * normal.normalized();
+      for (const LocalVertex w : {t.a, t.b}) {
+        owed += 0.45 * debts.of(w, t.low, t.high) * normal.normalized();
+        if (!curvature.at(w)) continue;
+        sum += *curvature.at(w);
+        count += 1.0;
+      }
+    }
+    const Vec3 pressure = count > 0.0 ? Vec3(sum / count * of_volume) : Vec3::Zero();
+    const double precision = 1e-5 * factor * (1.0 + pressure.norm() + owed.norm());
+    const Vec3 pressed = slope(kWithArea, mesh, metric, guard, star, &curvature);
+    EXPECT_NEAR((pressed - plain + factor * pressure).norm(), 0.0, precision);
+    const Vec3 indebted = slope(kWithArea, mesh, metric, guard, star, nullptr, &debts);
+    EXPECT_NEAR((indebted - plain + 2.0 * factor * owed).norm(), 0.0, precision);
+    ++checked;
+  });
+  EXPECT_GT(checked, 100);
+}
+
+/// On the box there is no area term.
+TEST(SurfaceEnergy, LeavesAreaOutOnTheBox) {
+  int on_box = 0;
+  each_random_star(1149, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                             const SurfaceStar& star) {
+    if (mesh.planes(star.vertex()) == 0) return;
+    EXPECT_EQ(slope({.bend = 0.0}, mesh, metric, guard, star),
+              slope(kFitAlone, mesh, metric, guard, star));
+    ++on_box;
+  });
+  EXPECT_GT(on_box, 100);
+}
+
 /// Moves interface vertices of a plane between labels 0 and 1 by `height` along its axis, but for
 /// those for which `stays` says so.
 template <typename Stays>
