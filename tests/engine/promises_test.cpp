@@ -168,6 +168,7 @@ TEST(Promise3Quality, FloorHoldsUnderStrongAnisotropy) {
   for (int i = 0; i < 200 && !HasFailure(); ++i) {
     Trial trial = random_trial(random, random_small(random, 1, 7, 4));
     trial.frame = kThickFrames[below(random, 4)];
+    trial.settings.surface = Surface::kSmooth;
     expect_promises(trial, Counter::kAudit);
   }
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBound = 1.5;
 constexpr SurfaceWeights kFitAlone{.area = 0.0, .junction_area = 0.0, .bend = 0.0};
-constexpr SurfaceWeights kBendsAlone{.fit = 0.0, .bend = 4.5};
+constexpr SurfaceWeights kBendsAlone{.fit = 0.0, .junction_fit = 0.0, .bend = 4.5};
 
 Vec3 random_offset(std::mt19937& random) {
   const auto step = [&] { return 0.001 * (static_cast<double>(below(random, 401)) - 200.0); };
