@@ -186,7 +186,7 @@ double SurfaceEnergy::raw_value_at(const Vec3& x) const {
   return value;
 }
 
-void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& terms) {
+void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& terms) const {
   if (mass_ > 0.0) {
     const double factor = scale * fit_weight_ / mass_;
     terms.gradient += factor * 2.0 * (square_ * x - linear_);
@@ -212,7 +212,7 @@ void SurfaceEnergy::add_area(const Vec3& x, double scale, StarTerms& terms) cons
   }
 }
 
-void SurfaceEnergy::add_bends(const Vec3& x, double scale, StarTerms& terms) {
+void SurfaceEnergy::add_bends(const Vec3& x, double scale, StarTerms& terms) const {
   const std::vector<SurfaceTriangle>& t = star_->triangles();
   const auto edge = [&](std::uint32_t i) { return Vec3(t[i].to_b - t[i].to_a); };
   for (const Spoke& s : star_->spokes()) {

@@ -39,6 +39,9 @@ struct SurfaceWeights {
 /// makes it a diffusion of curvature: balls stay balls of the same volume.  On the box there is no
 /// area term, or surfaces would turn square to it.
 ///
+/// Debts.  What v could not do for its own balance last time (VolumeDebts), and what the ring could
+/// not, is added to what Q asks for: shapes and bends may hold a vertex back, its neighbours not.
+///
 /// Bends.  The energies (bend.h) of spokes and rims.
 ///
 /// In all, with E the present shape energy of v's tets and M the sum of w f^2 (or, where few faces
@@ -57,9 +60,10 @@ class SurfaceEnergy {
   /// Without the factor E; 0 for x = 0.
   [[nodiscard]] double value_at(const Vec3& x) const { return raw_value_at(x) - present_; }
   /// Adds `scale` times the derivatives; the Hessian is replaced by a positive semidefinite one.
-  void add_derivatives(const Vec3& x, double scale, StarTerms& terms);
+  void add_derivatives(const Vec3& x, double scale, StarTerms& terms) const;
 
   /// What v's own faces would still ask of it at x.
+  /// Valid until the next call.
   [[nodiscard]] std::span<const VolumeDebt> debts_at(const Vec3& x);
 
   /// The least cosine of a spoke or rim at present; 1 when there is none.
@@ -84,7 +88,7 @@ class SurfaceEnergy {
   void take_debts(const VolumeDebts& debts);
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
   void add_area(const Vec3& x, double scale, StarTerms& terms) const;
-  void add_bends(const Vec3& x, double scale, StarTerms& terms);
+  void add_bends(const Vec3& x, double scale, StarTerms& terms) const;
   void add_bend(const Vec3& gradient, double cosine, double scale, StarTerms& terms) const;
 
   SurfaceWeights weights_;
