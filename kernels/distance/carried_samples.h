@@ -25,8 +25,8 @@ using TriangleKey = std::array<LocalVertex, 3>;
 
 /// Lists of samples by triangle: a hash table with linear probing over chains in one pool, so that
 /// nothing is allocated while a window is worked on, but when the pool grows.
-/// Nothing depends on the order of triangles in the table.  Sums over a list follow its order, which
-/// is that of the calls of add(), hence a function of the window's content.
+/// Nothing depends on the order of triangles in the table.  Sums over a list follow its order,
+/// which is that of the calls of add(), hence a function of the window's content.
 class CarriedSamples {
  public:
   [[nodiscard]] bool empty() const { return used_ == 0; }
