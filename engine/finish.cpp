@@ -49,19 +49,19 @@ std::vector<io::Position> positions_of(const BlockMesh& block, const io::VolumeI
   std::vector<io::Position> out;
   out.reserve(block.vertices.size());
   for (const BlockVertex& v : block.vertices) {
-    out.push_back(physical(v.position, info, layers));
+    out.push_back(physical(v.position, info.space, layers));
   }
   return out;
 }
 
-/// The block's tets, positively oriented, rows being those of the block.
-std::vector<io::TetRows> oriented_tets(const BlockMesh& block) {
+/// The block's tets, positively oriented in the world, rows being those of the block.
+std::vector<io::TetRows> oriented_tets(const BlockMesh& block, bool mirrored) {
   std::vector<io::TetRows> out;
   out.reserve(block.tets.size());
   const auto at = [&](std::uint32_t v) { return block.vertices[v].position; };
   for (const BlockTet& t : block.tets) {
     auto [a, b, c, d] = t.vertices;
-    if (volume6(at(a), at(b), at(c), at(d)) < 0) std::swap(c, d);
+    if ((volume6(at(a), at(b), at(c), at(d)) < 0) != mirrored) std::swap(c, d);
     out.push_back({a, b, c, d});
   }
   return out;
@@ -80,7 +80,7 @@ class Writer {
 
   void write(Index3 where, const BlockMesh& block, audit::QualityMeter* quality) {
     const std::vector<io::Position> positions = positions_of(block, volume_.info(), layers_);
-    std::vector<io::TetRows> tets = oriented_tets(block);
+    std::vector<io::TetRows> tets = oriented_tets(block, is_mirrored(volume_.info().space));
     if (quality != nullptr) {
       for (const auto& [a, b, c, d] : tets) {
         quality->add(positions[a], positions[b], positions[c], positions[d]);
@@ -122,7 +122,7 @@ class Writer {
 io::VolumeInfo lattice_info(io::VolumeInfo info, Index3 layers) {
   const auto cut = [&](std::size_t axis, std::int64_t& voxels, std::int64_t parts) {
     voxels *= parts;
-    info.spacing[axis] /= static_cast<double>(parts);
+    info.space.spacing[axis] /= static_cast<double>(parts);
   };
   cut(0, info.shape.x, layers.x);
   cut(1, info.shape.y, layers.y);

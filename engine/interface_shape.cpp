@@ -29,7 +29,9 @@ void each_piece(std::span<const Element> list, Key key, Visit visit) {
 
 InterfaceShape::InterfaceShape(const WindowGrid& grid, io::VolumeInfo info,
                                const LabelSelection& selection, HoldMemory hold)
-    : info_(std::move(info)), selection_(selection), hold_(std::move(hold)), homes_(grid) {}
+    : info_(std::move(info)), selection_(selection), hold_(std::move(hold)), homes_(grid) {
+  info_.space.axes = io::VolumeSpace{}.axes;
+}
 
 void InterfaceShape::add(const BlockMesh& block) {
   block_ = &block;
@@ -156,8 +158,7 @@ void InterfaceShape::meet(const Face& face, Label other) {
   const auto& [a, b, c] = face.rows;
   const LabelPair labels = label_pair(here, other);
   const bool out = points_out(face) == (here == labels.low);
-  meter_.add_triangle(physical(point(a), info_), physical(point(b), info_),
-                      physical(point(c), info_));
+  meter_.add_triangle(place(point(a)), place(point(b)), place(point(c)));
   news_.push_back({{a, b}, c, labels, 0, !out});
   news_.push_back({{b, c}, a, labels, 0, !out});
   news_.push_back({{a, c}, b, labels, 0, out});
@@ -185,9 +186,12 @@ void InterfaceShape::take(OpenEdge& edge, const EdgeNews& news) const {
 
 void InterfaceShape::finish(const OpenEdge& edge, const std::array<std::uint32_t, 2>& rows) {
   if (edge.triangles != 2) return;
-  meter_.add_edge(physical(point(rows[0]), info_), physical(point(rows[1]), info_),
-                  {physical(edge.apexes[0], info_), edge.turned[0]},
-                  {physical(edge.apexes[1], info_), edge.turned[1]});
+  meter_.add_edge(place(point(rows[0])), place(point(rows[1])),
+                  {place(edge.apexes[0]), edge.turned[0]}, {place(edge.apexes[1]), edge.turned[1]});
+}
+
+io::Position InterfaceShape::place(Point p) const {
+  return physical(p, info_.space);
 }
 
 bool InterfaceShape::on_box(const Face& face) const {

@@ -205,7 +205,7 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   const PreparedLabels labels =
       prepare(lattice.labels(), settings, report.threads, hooks.store, store, room);
   watch.lap(report.prepare_seconds);
-  const Metric metric(lattice.info().spacing);
+  const Metric metric(lattice.info().space.spacing);
   Marches marches(hooks, store.facts().resumed_windows, layout.windows());
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
@@ -251,7 +251,7 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   check(volume.info(), settings);
   const VoxelLattice lattice(volume, settings.surface);
   RunReport report;
-  report.lattice = {lattice.info().shape, lattice.info().spacing, lattice.layers()};
+  report.lattice = {lattice.info().shape, lattice.info().space.spacing, lattice.layers()};
   report.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   const RunLayout layout(march_grids(lattice.info().shape, settings), settings.order);
   MemoryBudget budget(hooks.store.memory);

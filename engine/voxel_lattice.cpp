@@ -32,7 +32,7 @@ void check_shape(Index3 shape, Index3 layers) {
 /// The floor that the start mesh keeps.
 double kept_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
   const Index3 layers = layers_of(volume, settings.surface);
-  const Metric metric(layered_spacing(volume.spacing, layers));
+  const Metric metric(layered_spacing(volume.space.spacing, layers));
   return least_start_ratio(metric, largest_cell_level(settings));
 }
 
@@ -56,7 +56,7 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
   // Rounded down, so that what is told can be promised.
   const double told = std::floor(1000 * kept) / 1000;
   const std::array<double, 3> voxel =
-      layered_spacing(volume.spacing, layers_of(volume, settings.surface));
+      layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
   throw Error(ErrorKind::kUsage, io::text("quality-floor ", settings.quality_floor,
                                           " cannot be promised for voxels of ", voxel[0], " x ",
                                           voxel[1], " x ", voxel[2], "; --quality-floor ", told,
@@ -66,7 +66,7 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
 }  // namespace
 
 Index3 layers_of(const io::VolumeInfo& volume, Surface surface) {
-  return surface == Surface::kSmooth ? mw::layers_of(volume.spacing) : Index3{1, 1, 1};
+  return surface == Surface::kSmooth ? mw::layers_of(volume.space.spacing) : Index3{1, 1, 1};
 }
 
 VoxelLattice::VoxelLattice(const io::DenseVolume& volume, Surface surface)

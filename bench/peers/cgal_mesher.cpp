@@ -35,7 +35,7 @@ CGAL::Image_3 padded_image(std::span<const std::uint16_t> subdomains, const io::
   const Box3 inner{{1, 1, 1}, info.shape + Index3{1, 1, 1}};
   const Box3 whole{{0, 0, 0}, info.shape + Index3{2, 2, 2}};
   const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
-  const std::array<double, 3>& d = info.spacing;
+  const std::array<double, 3>& d = info.space.spacing;
   _image* image = _createImage(size(whole.hi.x), size(whole.hi.y), size(whole.hi.z), 1, d[0], d[1],
                                d[2], sizeof(std::uint16_t), WK_FIXED, SGN_UNSIGNED);
   image->tx = static_cast<float>(-0.5 * d[0]);
@@ -104,8 +104,8 @@ io::MeshData mesh_with_cgal(std::span<const std::uint16_t> subdomains, const io:
   const Domain domain = Domain::create_labeled_image_mesh_domain(
       image, params::relative_error_bound = kRelativeErrorBound, params::p_rng = &random);
   const Complex complex =
-      refine(domain, in_physical_units(criteria, info.spacing), criteria.improvement);
-  return mesh_data(complex, info.origin);
+      refine(domain, in_physical_units(criteria, info.space.spacing), criteria.improvement);
+  return mesh_data(complex, info.space.origin);
 }
 
 }  // namespace mw::peers

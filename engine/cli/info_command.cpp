@@ -55,8 +55,8 @@ ordered_json volume_facts(const VolumeRequest& request) {
           {"format", info.format},
           {"type", io::name(info.type)},
           {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
-          {"spacing_xyz", info.spacing},
-          {"origin_xyz", info.origin},
+          {"spacing_xyz", info.space.spacing},
+          {"origin_xyz", info.space.origin},
           {"voxels", info.shape.product()},
           {"labels", labels_json(io::collect_labels(*volume))}};
 }
@@ -108,7 +108,7 @@ VoxelCounts count_voxels(const VolumeRequest& request) {
   const std::unique_ptr<io::LabelVolume> volume = open(request);
   const io::VolumeInfo& info = volume->info();
   VoxelCounts out;
-  for (const double edge : info.spacing) out.voxel_volume *= edge;
+  for (const double edge : info.space.spacing) out.voxel_volume *= edge;
   std::vector<RawLabel> labels;
   const auto count = [&](const Box3& slab) {
     labels.resize(static_cast<std::size_t>(slab.voxels()));

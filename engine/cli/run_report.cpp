@@ -18,8 +18,8 @@ ordered_json input_json(const FinishedRun& run) {
   return {{"format", info.format},
           {"type", io::name(info.type)},
           {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
-          {"spacing_xyz", info.spacing},
-          {"origin_xyz", info.origin},
+          {"spacing_xyz", info.space.spacing},
+          {"origin_xyz", info.space.origin},
           {"labels", run.labels.size()},
           {"voxels", info.shape.product()}};
 }

@@ -126,11 +126,11 @@ Verdict judge(const VerifyJob& job) {
   const std::vector<Label> labels = dense_labels(mesh, table);
   Verdict verdict;
   audit::AuditOptions options = job.audit;
-  if (job.in_layers) options.layers = layers_of(info.spacing);
+  if (job.in_layers) options.layers = layers_of(info.space.spacing);
   verdict.layers = options.layers;
   verdict.audit =
       audit::audit({.shape = info.shape, .labels = voxels}, table.size(), audit_view(mesh, labels),
-                   {.spacing = info.spacing, .origin = info.origin}, options);
+                   {.spacing = info.space.spacing, .origin = info.space.origin}, options);
   verdict.labels_changed = changed_labels(verdict.audit, table);
   verdict.table = std::move(table);
   return verdict;

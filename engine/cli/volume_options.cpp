@@ -28,8 +28,8 @@ void add_raw_options(OptionSet& options, VolumeRequest& request) {
   options.add(
       {.name = "dtype",
        .value = "TYPE",
-       .help = "voxel type of a raw file: u8 u16 u32 u64 i8 i16 i32 i64",
-       .choices = {"u8", "u16", "u32", "u64", "i8", "i16", "i32", "i64"},
+       .help = "voxel type of a raw file: u8 u16 u32 u64 i8 i16 i32 i64 f32 f64",
+       .choices = {"u8", "u16", "u32", "u64", "i8", "i16", "i32", "i64", "f32", "f64"},
        .assign = [&](const std::string& text) { request.type = io::parse_voxel_type(text); }});
   options.add({.name = "endian",
                .value = "ORDER",

@@ -73,7 +73,7 @@ LabelTable collect_labels(const LabelVolume& volume) {
   } else {
     for_each_z_slab(all, kSlabVoxels, visit);
   }
-  return {set.values(), mw::io::is_signed(info.type)};
+  return {set.values(), has_signed_labels(info)};
 }
 
 void DenseVolume::read(const Box3& box, std::span<Label> out) const {

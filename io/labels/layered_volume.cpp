@@ -38,7 +38,7 @@ void spread(const RawLabel* from, std::int64_t lo, std::int64_t hi, std::int64_t
 LayeredVolume::LayeredVolume(const LabelVolume& volume, Index3 layers)
     : volume_(&volume), layers_(layers), info_(volume.info()) {
   info_.shape = layered_shape(info_.shape, layers);
-  info_.spacing = layered_spacing(info_.spacing, layers);
+  info_.space.spacing = layered_spacing(info_.space.spacing, layers);
 }
 
 void LayeredVolume::read(const Box3& box, std::span<RawLabel> out) const {

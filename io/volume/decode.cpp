@@ -1,7 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Voxels of any integer type and byte order from bytes and to bytes.
+// Voxels of any type and byte order from bytes and to bytes.
 #include "io/volume/decode.h"
+
+#include <cmath>
+#include <optional>
+#include <type_traits>
+
+#include "io/file/errors.h"
+#include "kernels/core/int128.h"
 
 namespace mw::io {
 namespace {
@@ -25,45 +32,110 @@ auto with_type(VoxelType type, Run run) {
     case VoxelType::kI32:
       return run(std::int32_t{});
     case VoxelType::kI64:
+      return run(std::int64_t{});
+    case VoxelType::kF32:
+      return run(float{});
+    case VoxelType::kF64:
       break;
   }
-  return run(std::int64_t{});
+  return run(double{});
 }
 
-// The byte order is a template parameter and stride 1 a loop of its own, for the vectoriser.
+/// The whole number that x is, if 64 signed bits hold it.
+std::optional<std::int64_t> whole(double x) {
+  if (!(x >= -0x1p63 && x < 0x1p63) || x != std::floor(x)) return std::nullopt;
+  return static_cast<std::int64_t>(x);
+}
+
+/// The same of slope * value + intercept; in integers where all three are, so that no bit is lost.
+template <class T>
+std::optional<std::int64_t> scaled(T value, const VoxelScaling& scaling) {
+  if constexpr (std::is_integral_v<T>) {
+    const auto slope = whole(scaling.slope), intercept = whole(scaling.intercept);
+    if (slope && intercept) {
+      const Int128 x = static_cast<Int128>(*slope) * value + *intercept;
+      if (x < INT64_MIN || x > INT64_MAX) return std::nullopt;
+      return static_cast<std::int64_t>(x);
+    }
+  }
+  return whole(scaling.slope * static_cast<double>(value) + scaling.intercept);
+}
+
+// The byte order is a template parameter and neighbours a loop of its own, for the vectoriser.
 template <class T, ByteOrder kOrder>
-void decode(const std::byte* bytes, std::size_t count, RawLabel* out, std::size_t stride) {
-  if (stride == 1) {
+void decode_integers(const std::byte* bytes, std::size_t count, std::size_t step, RawLabel* out,
+                     std::size_t stride) {
+  if (stride == 1 && step == 1) {
     for (std::size_t i = 0; i < count; ++i) {
       out[i] = static_cast<RawLabel>(load<T>(bytes + i * sizeof(T), kOrder));
     }
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    out[i * stride] = static_cast<RawLabel>(load<T>(bytes + i * sizeof(T), kOrder));
+    out[i * stride] = static_cast<RawLabel>(load<T>(bytes + i * step * sizeof(T), kOrder));
   }
+}
+
+template <class T>
+std::size_t decode_checked(const std::byte* bytes, std::size_t count, std::size_t step,
+                           const VoxelCoding& coding, RawLabel* out, std::size_t stride) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto label = scaled(load<T>(bytes + i * step * sizeof(T), coding.order), coding.scaling);
+    if (!label) return i;
+    out[i * stride] = static_cast<RawLabel>(*label);
+  }
+  return count;
 }
 
 }  // namespace
 
-void decode_voxels(const std::byte* bytes, std::size_t count, VoxelType type, ByteOrder order,
-                   RawLabel* out, std::size_t stride) {
-  with_type(type, [&]<class T>(T) {
-    if (order == ByteOrder::kLittle) {
-      decode<T, ByteOrder::kLittle>(bytes, count, out, stride);
-    } else {
-      decode<T, ByteOrder::kBig>(bytes, count, out, stride);
+std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t step,
+                          const VoxelCoding& coding, RawLabel* out, std::size_t stride) {
+  return with_type(coding.type, [&]<class T>(T) {
+    if constexpr (std::is_integral_v<T>) {
+      if (coding.scaling.is_identity()) {
+        if (coding.order == ByteOrder::kLittle) {
+          decode_integers<T, ByteOrder::kLittle>(bytes, count, step, out, stride);
+        } else {
+          decode_integers<T, ByteOrder::kBig>(bytes, count, step, out, stride);
+        }
+        return count;
+      }
     }
+    return decode_checked<T>(bytes, count, step, coding, out, stride);
   });
+}
+
+std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding) {
+  const double value = with_type(coding.type, [&]<class T>(T) {
+    return static_cast<double>(load<T>(bytes, coding.order));
+  });
+  const VoxelScaling& scaling = coding.scaling;
+  std::string what = text("value ", value);
+  if (!scaling.is_identity()) {
+    what += text(" times ", scaling.slope, " plus ", scaling.intercept);
+  }
+  const double label = scaling.slope * value + scaling.intercept;
+  const bool is_whole = std::isfinite(label) && label == std::floor(label);
+  return what + (is_whole ? " does not fit into 64 bits" : " is not a whole number");
+}
+
+void fail_voxel(std::string_view file, Index3 voxel, const std::byte* bytes,
+                const VoxelCoding& coding) {
+  fail_input(file, text("voxel (", voxel.x, ", ", voxel.y, ", ", voxel.z, ")"),
+             why_no_label(bytes, coding),
+             "labels are whole numbers: is this an image, or probabilities?");
 }
 
 std::size_t encode_voxels(std::span<const RawLabel> labels, VoxelType type,
                           std::span<std::byte> out) {
   return with_type(type, [&]<class T>(T) {
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      const T value = static_cast<T>(labels[i]);
-      if (static_cast<RawLabel>(value) != labels[i]) return i;
-      store_little(value, out.data() + i * sizeof(T));
+    if constexpr (std::is_integral_v<T>) {
+      for (std::size_t i = 0; i < labels.size(); ++i) {
+        const T value = static_cast<T>(labels[i]);
+        if (static_cast<RawLabel>(value) != labels[i]) return i;
+        store_little(value, out.data() + i * sizeof(T));
+      }
     }
     return labels.size();
   });

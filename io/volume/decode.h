@@ -1,22 +1,49 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Voxels of any integer type and byte order from bytes and to bytes.
+// Voxels of any type and byte order from bytes and to bytes.
 #pragma once
 
 #include <cstddef>
 #include <span>
+#include <string>
 
 #include "io/file/byte_order.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
 
-/// Decodes `count` voxels that lie one after the other at `bytes` to out[0], out[stride], ...;
-/// signed types are sign-extended.
-void decode_voxels(const std::byte* bytes, std::size_t count, VoxelType type, ByteOrder order,
-                   RawLabel* out, std::size_t stride);
+/// How stored numbers become labels: slope * stored + intercept (NIfTI).
+struct VoxelScaling {
+  double slope = 1;
+  double intercept = 0;
 
-/// Encodes labels, least significant byte first.  REQUIRES: out.size() == size of the voxels.
+  [[nodiscard]] bool is_identity() const { return slope == 1 && intercept == 0; }
+};
+
+/// How voxels are stored.
+struct VoxelCoding {
+  VoxelType type = VoxelType::kU8;
+  ByteOrder order = ByteOrder::kLittle;
+  VoxelScaling scaling{};
+};
+
+/// Decodes `count` voxels, `step` of them apart at `bytes`, to out[0], out[stride], ...; signed
+/// types are sign-extended, floats and scaled numbers must be whole and within 64 signed bits.
+/// ENSURES: returns the index of the first that is not, or count.
+[[nodiscard]] std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t step,
+                                        const VoxelCoding& coding, RawLabel* out,
+                                        std::size_t stride);
+
+/// Why the voxel at `bytes` is no label: "value 1.5 is not a whole number".
+[[nodiscard]] std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding);
+
+/// Throws mw::Error(kInput) for a voxel that is no label: "FILE: voxel (x, y, z): value 1.5 is not a
+/// whole number; WAY_OUT".
+[[noreturn]] void fail_voxel(std::string_view file, Index3 voxel, const std::byte* bytes,
+                             const VoxelCoding& coding);
+
+/// Encodes labels, least significant byte first.  REQUIRES: an integer type; out.size() == size of
+/// the voxels.
 /// ENSURES: returns the index of the first label that the type cannot hold (nothing is written
 /// from there on), or labels.size().
 [[nodiscard]] std::size_t encode_voxels(std::span<const RawLabel> labels, VoxelType type,

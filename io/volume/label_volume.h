@@ -4,30 +4,40 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 
+#include "io/volume/volume_space.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
 
 namespace mw::io {
 
-enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64 };
+enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 };
 
 [[nodiscard]] int byte_size(VoxelType type);
-[[nodiscard]] bool is_signed(VoxelType type);
-[[nodiscard]] const char* name(VoxelType type);  ///< "u8" .. "i64"
+[[nodiscard]] bool is_signed(VoxelType type);  ///< whether labels are: floats are
+[[nodiscard]] bool is_float(VoxelType type);   ///< labels stored as whole numbers in floats
+[[nodiscard]] const char* name(VoxelType type);  ///< "u8" .. "i64", "f32", "f64"
 
-/// Facts of a volume.  Arrays are (x, y, z); spacing > 0 and finite, in the file's physical unit;
-/// origin is the physical position of the first corner of the first voxel.
+/// Facts of a volume.  Arrays are (x, y, z).
 struct VolumeInfo {
   Index3 shape;
-  std::array<double, 3> spacing{1.0, 1.0, 1.0};
-  std::array<double, 3> origin{0.0, 0.0, 0.0};
-  VoxelType type = VoxelType::kU8;
-  std::string format;      ///< "npy", "nifti", "nrrd", "raw"
-  bool z_fastest = false;  ///< order in the file; whoever reads everything then goes along x
+  VolumeSpace space{};
+  VoxelType type = VoxelType::kU8;  ///< as stored
+  std::string format;               ///< "npy", "nifti", "nrrd", "raw" and so on
+  bool scaled = false;              ///< labels are slope * stored + intercept, hence signed
+  bool z_fastest = false;                    ///< order in the file; whoever reads everything goes along x
+  /// What is read at once anyhow: boxes that begin and end at multiples of it are the cheapest.  An
+  /// axis of 0: any.
+  Index3 chunk{0, 0, 0};
 };
+
+/// Whether labels of the volume are signed numbers.
+[[nodiscard]] inline bool has_signed_labels(const VolumeInfo& info) {
+  return info.scaled || is_signed(info.type);
+}
 
 /// A readable volume.  Thread safety: read() is const and may be called from many threads.
 class LabelVolume {
@@ -39,6 +49,12 @@ class LabelVolume {
   /// REQUIRES: box inside the volume; out.size() == box.voxels().
   /// ERRORS: mw::Error(kInput) naming the file when it is truncated or cannot be read.
   virtual void read(const Box3& box, std::span<RawLabel> out) const = 0;
+
+  /// The most that it holds between and during reads by so many threads at once, beside what a
+  /// reader of plain files takes (1 MiB a thread).
+  [[nodiscard]] virtual std::uint64_t buffer_bytes(int /*threads*/) const { return 0; }
+  /// Gives up what it holds between reads.
+  virtual void drop_buffers() const {}
 };
 
 }  // namespace mw::io

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "io/file/byte_order.h"
 #include "io/volume/label_volume.h"
@@ -19,10 +20,24 @@ struct RawLayout {
   ByteOrder order = ByteOrder::kLittle;
 };
 
+/// The world frame of coordinates.
+enum class FrameChoice {
+  kFile,   ///< the file's own
+  kRas,    ///< see WorldFrame
+  kLps,    ///< see WorldFrame
+  kVoxel,  ///< the array's axes: spacing * corner, the first corner at 0
+};
+
 struct OpenOptions {
   std::optional<RawLayout> raw;                  ///< read as raw, whatever the content
   std::optional<std::array<double, 3>> spacing;  ///< instead of the file's, which is not looked at
   std::optional<std::array<double, 3>> origin;   ///< instead of the file's, which is not looked at
+  FrameChoice frame = FrameChoice::kFile;
+  /// The array within a file or store that may hold several; empty: found by convention.
+  std::string dataset;
+  std::optional<int> scale;                  ///< resolution level, 0 the finest; empty: the finest
+  std::optional<Box3> crop;                  ///< part of the volume, voxels
+  std::uint64_t cache_bytes = 64ULL << 20U;  ///< of decoded chunks that a chunked volume may keep
 };
 
 }  // namespace mw::io

@@ -3,6 +3,7 @@
 // Opens a labelled volume of any format that is read here.
 #include "io/volume/open_volume.h"
 
+#include <array>
 #include <cmath>
 
 #include "io/file/errors.h"
@@ -20,25 +21,53 @@
 namespace mw::io {
 namespace {
 
-enum class Format { kUnknown, kNpy, kNifti, kNrrd };
+/// A format of one file.
+struct FileFormat {
+  const char* extensions;  ///< each with a dot, a blank between two; also in front of .gz
+  bool (*has_magic)(std::span<const std::byte> head);
+  std::unique_ptr<LabelVolume> (*open)(std::unique_ptr<ByteSource> source,
+                                       const std::filesystem::path& path,
+                                       const OpenOptions& options);
+};
 
-Format format_of_content(std::span<const std::byte> head) {
-  if (has_npy_magic(head)) return Format::kNpy;
-  if (has_nrrd_magic({reinterpret_cast<const char*>(head.data()), head.size()})) {
-    return Format::kNrrd;
-  }
-  if (has_nifti_magic(head)) return Format::kNifti;
-  return Format::kUnknown;
+bool has_nrrd_text(std::span<const std::byte> head) {
+  return has_nrrd_magic({reinterpret_cast<const char*>(head.data()), head.size()});
 }
 
-/// For files whose content says nothing, so that the right reader explains what is wrong.
-Format format_of_name(std::filesystem::path path) {
+constexpr std::array kFileFormats{
+    FileFormat{".npy", has_npy_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_npy(std::move(source), options);
+               }},
+    FileFormat{".nrrd .nhdr", has_nrrd_text, open_nrrd},
+    FileFormat{".nii", has_nifti_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_nifti(std::move(source), options);
+               }},
+};
+
+/// A format of a folder.
+struct FolderFormat {
+  bool (*is_one)(const std::filesystem::path& folder);
+  std::unique_ptr<LabelVolume> (*open)(const std::filesystem::path& folder,
+                                       const OpenOptions& options);
+};
+
+constexpr std::array<FolderFormat, 0> kFolderFormats{};
+
+/// By content, else by extension, so that the right reader explains what is wrong.
+const FileFormat* format_of(std::span<const std::byte> head, std::filesystem::path path) {
+  for (const FileFormat& format : kFileFormats) {
+    if (format.has_magic(head)) return &format;
+  }
   if (path.extension() == ".gz") path = path.stem();
   const std::string extension = path.extension().string();
-  if (extension == ".npy") return Format::kNpy;
-  if (extension == ".nii") return Format::kNifti;
-  if (extension == ".nrrd" || extension == ".nhdr") return Format::kNrrd;
-  return Format::kUnknown;
+  for (const FileFormat& format : kFileFormats) {
+    if (extension.empty()) break;
+    const std::string all = std::string(format.extensions) + " ";
+    if (all.find(extension + " ") != std::string::npos) return &format;
+  }
+  return nullptr;
 }
 
 void check_options(const OpenOptions& options) {
@@ -63,25 +92,25 @@ std::unique_ptr<ByteSource> open_raw_bytes(const std::filesystem::path& path,
   return open_bytes(path);
 }
 
+std::unique_ptr<LabelVolume> open_folder(const std::filesystem::path& path,
+                                         const OpenOptions& options) {
+  for (const FolderFormat& format : kFolderFormats) {
+    if (format.is_one(path)) return format.open(path, options);
+  }
+  fail_input(path.string(), "format", "the folder is no volume that is known here",
+             "give a file in it");
+}
+
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {
   check_options(options);
   if (options.raw) return open_raw(open_raw_bytes(path, *options.raw), options);
+  if (std::filesystem::is_directory(path)) return open_folder(path, options);
   std::unique_ptr<ByteSource> source = open_bytes(path);
-  Format format = format_of_content(read_prefix(*source, kNiftiHeaderBytes));
-  if (format == Format::kUnknown) format = format_of_name(path);
-  switch (format) {
-    case Format::kNpy:
-      return open_npy(std::move(source), options);
-    case Format::kNifti:
-      return open_nifti(std::move(source), options);
-    case Format::kNrrd:
-      return open_nrrd(std::move(source), path, options);
-    case Format::kUnknown:
-      break;
-  }
+  const FileFormat* format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
+  if (format != nullptr) return format->open(std::move(source), path, options);
   fail_input(path.string(), "format", "unknown by content and by extension",
              "supported are .npy, .nii, .nrrd and .nhdr, each also as .gz, and raw files with "
              "--shape and --dtype");

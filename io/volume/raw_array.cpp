@@ -45,6 +45,9 @@ class Rows {
   [[nodiscard]] std::size_t out_offset(std::int64_t row) const {
     return static_cast<std::size_t>(box_.offset(first_voxel(row)));
   }
+  [[nodiscard]] Index3 voxel(std::int64_t row, std::int64_t along) const {
+    return first_voxel(row) + (info_.z_fastest ? Index3{0, 0, along} : Index3{along, 0, 0});
+  }
 
  private:
   [[nodiscard]] Index3 first_voxel(std::int64_t row) const {
@@ -80,6 +83,7 @@ std::int64_t group_end(const Rows& rows, std::int64_t first) {
 void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
   const Rows rows(info_, place_, box);
+  const VoxelCoding coding{info_.type, place_.order, place_.scaling};
   std::vector<std::byte> scratch;
   for (std::int64_t first = 0; first < rows.count();) {
     const std::int64_t last = group_end(rows, first);
@@ -87,8 +91,12 @@ void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
     scratch.resize(rows.file_offset(last - 1) + rows.bytes() - start);
     source_->read_at(start, scratch);
     for (std::int64_t row = first; row < last; ++row) {
-      decode_voxels(scratch.data() + (rows.file_offset(row) - start), rows.length(), info_.type,
-                    place_.order, out.data() + rows.out_offset(row), rows.out_stride());
+      const std::byte* bytes = scratch.data() + (rows.file_offset(row) - start);
+      const std::size_t good = decode_voxels(bytes, rows.length(), 1, coding,
+                                             out.data() + rows.out_offset(row), rows.out_stride());
+      if (good == rows.length()) continue;
+      fail_voxel(source_->name(), rows.voxel(row, static_cast<std::int64_t>(good)),
+                 bytes + good * static_cast<std::size_t>(byte_size(info_.type)), coding);
     }
     first = last;
   }

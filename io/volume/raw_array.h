@@ -7,6 +7,7 @@
 
 #include "io/file/byte_order.h"
 #include "io/file/byte_source.h"
+#include "io/volume/decode.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
@@ -16,6 +17,7 @@ namespace mw::io {
 struct ArrayPlace {
   std::uint64_t offset = 0;
   ByteOrder order = ByteOrder::kLittle;
+  VoxelScaling scaling{};
 };
 
 class RawArrayVolume : public LabelVolume {

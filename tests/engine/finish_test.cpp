@@ -72,9 +72,9 @@ io::MeshData list_of_everything(FinalBlocks& blocks, const WindowGrid& grid,
   const io::VolumeInfo& info = volume.info();
   for (const auto& [id, p] : used) {
     row[id] = out.vertices.size();
-    out.vertices.push_back({info.origin[0] + info.spacing[0] * (p.x / 1024.0),
-                            info.origin[1] + info.spacing[1] * (p.y / 1024.0),
-                            info.origin[2] + info.spacing[2] * (p.z / 1024.0)});
+    out.vertices.push_back({info.space.origin[0] + info.space.spacing[0] * (p.x / 1024.0),
+                            info.space.origin[1] + info.space.spacing[1] * (p.y / 1024.0),
+                            info.space.origin[2] + info.space.spacing[2] * (p.z / 1024.0)});
   }
   for (const auto& [ids, label] : tets) {
     out.tets.push_back({row[ids[0]], row[ids[1]], row[ids[2]], row[ids[3]]});

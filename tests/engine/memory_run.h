@@ -30,8 +30,8 @@ class MemoryVolume : public io::LabelVolume {
  public:
   MemoryVolume(const SmallVolume& volume, const Frame& frame) : volume_(&volume) {
     info_.shape = volume.shape;
-    info_.spacing = frame.spacing;
-    info_.origin = frame.origin;
+    info_.space.spacing = frame.spacing;
+    info_.space.origin = frame.origin;
     info_.type = io::VoxelType::kU64;
     info_.format = "memory";
   }

@@ -17,10 +17,10 @@ struct Fields {
   int version;
   std::int32_t header_size;
   std::size_t magic, dim, datatype, pixdim, vox_offset, scl_slope, scl_inter;
-  std::size_t qform_code, sform_code, qoffset, srow;
+  std::size_t qform_code, sform_code, quatern, qoffset, srow, xyzt_units;
 };
-constexpr Fields kNifti1{1, 348, 344, 40, 70, 76, 108, 112, 116, 252, 254, 268, 280};
-constexpr Fields kNifti2{2, 540, 4, 16, 12, 104, 168, 176, 184, 344, 348, 376, 400};
+constexpr Fields kNifti1{1, 348, 344, 40, 70, 76, 108, 112, 116, 252, 254, 256, 268, 280, 123};
+constexpr Fields kNifti2{2, 540, 4, 16, 12, 104, 168, 176, 184, 344, 348, 352, 376, 400, 500};
 
 /// Typed access to the header's bytes.
 class View {
@@ -46,6 +46,11 @@ class View {
   /// A code that is int16 in version 1 and int32 in version 2.
   [[nodiscard]] std::int32_t code(std::size_t at) const {
     return fields_.version == 1 ? int16(at) : load<std::int32_t>(&bytes_[at], order_);
+  }
+  /// A byte in version 1, int32 in version 2.
+  [[nodiscard]] int units() const {
+    return fields_.version == 1 ? std::to_integer<int>(bytes_[fields_.xyzt_units])
+                                : load<std::int32_t>(&bytes_[fields_.xyzt_units], order_);
   }
   [[nodiscard]] double vox_offset() const {
     return fields_.version == 1
@@ -104,13 +109,11 @@ VoxelType parse_datatype(int code, std::string_view file) {
     case 1280:
       return VoxelType::kU64;
     case 16:
+      return VoxelType::kF32;
     case 64:
-    case 1536:
-      fail_input(file, text("datatype ", code),
-                 "voxels are floating point, labels must be integers",
-                 "convert to an integer type");
+      return VoxelType::kF64;
     default:
-      fail_input(file, text("datatype ", code), "unsupported", "use integers of 8 to 64 bits");
+      fail_input(file, text("datatype ", code), "unsupported", "use integers of 8 to 64 bits, or whole numbers in floats of 32 or 64");
   }
 }
 
@@ -128,13 +131,14 @@ Index3 parse_dim(const View& view, std::string_view file) {
   return checked_shape(file, "dim", {view.dim(1), view.dim(2), view.dim(3)});
 }
 
-void check_scaling(const View& view, std::string_view file) {
+VoxelScaling parse_scaling(const View& view, std::string_view file) {
   const double slope = view.real(view.fields().scl_slope);
   const double inter = view.real(view.fields().scl_inter);
   // A slope of 0 (or NaN, as some tools write) means that the voxels are not scaled.
-  if (slope == 0 || std::isnan(slope) || (slope == 1 && (inter == 0 || std::isnan(inter)))) return;
-  fail_input(file, "scl_slope, scl_inter",
-             text("voxels are scaled by ", slope, " and ", inter, ", labels must not be"),
+  if (slope == 0 || std::isnan(slope)) return {};
+  const VoxelScaling scaling{slope, std::isnan(inter) ? 0 : inter};
+  if (std::isfinite(slope) && std::isfinite(scaling.intercept)) return scaling;
+  fail_input(file, "scl_slope, scl_inter", text("voxels are scaled by ", slope, " and ", inter),
              "save the labels with slope 1 and intercept 0");
 }
 
@@ -148,15 +152,78 @@ std::uint64_t parse_vox_offset(const View& view, std::string_view file) {
   return static_cast<std::uint64_t>(offset);
 }
 
-std::optional<std::array<double, 3>> parse_centre(const View& view) {
+/// NIfTI-1, method 3: rows of the affine.
+FileSpace sform(const View& view) {
+  const std::size_t at = view.fields().srow;
+  FileSpace space{.steps_field = "sform", .first_field = "sform offset"};
+  Vector3 first{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < 3; ++i) space.steps[i][k] = view.real(at, 4 * k + i);
+    first[k] = view.real(at, 4 * k + 3);
+  }
+  space.first = first;
+  return space;
+}
+
+/// Columns of the rotation of a unit quaternion of which b, c and d are given, a >= 0.
+std::array<Vector3, 3> rotation(double b, double c, double d) {
+  const double square = 1 - (b * b + c * c + d * d);
+  double a = 0;
+  if (square > 1e-7) {
+    a = std::sqrt(square);
+  } else {  // half a turn: rounding may have made the three too long
+    const double length = std::hypot(b, c, d);
+    b /= length, c /= length, d /= length;
+  }
+  return {{{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
+           {2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b)},
+           {2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c}}};
+}
+
+/// NIfTI-1, method 2: a rotation, pixdim, and a flip of the third axis where pixdim[0] is negative.
+FileSpace qform(const View& view) {
   const Fields& f = view.fields();
-  if (view.code(f.sform_code) > 0) {
-    return std::array{view.real(f.srow, 3), view.real(f.srow, 7), view.real(f.srow, 11)};
+  FileSpace space{.steps_field = "qform, pixdim", .first_field = "qform offset"};
+  space.steps = rotation(view.real(f.quatern, 0), view.real(f.quatern, 1), view.real(f.quatern, 2));
+  const double flip = view.real(f.pixdim, 0) < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double length = std::abs(view.real(f.pixdim, i + 1)) * (i == 2 ? flip : 1);
+    for (double& x : space.steps[i]) x *= length;
   }
-  if (view.code(f.qform_code) > 0) {
-    return std::array{view.real(f.qoffset, 0), view.real(f.qoffset, 1), view.real(f.qoffset, 2)};
+  space.first = Vector3{view.real(f.qoffset, 0), view.real(f.qoffset, 1), view.real(f.qoffset, 2)};
+  return space;
+}
+
+/// NIfTI-1, method 1.
+FileSpace by_pixdim(const View& view) {
+  FileSpace space{.first = Vector3{0, 0, 0}, .steps_field = "pixdim"};
+  const std::size_t at = view.fields().pixdim;
+  space.steps = steps_of({std::abs(view.real(at, 1)), std::abs(view.real(at, 2)),
+                          std::abs(view.real(at, 3))});
+  return space;
+}
+
+std::string unit_name(int xyzt_units) {
+  constexpr int kSpatial = 7;
+  switch (xyzt_units & kSpatial) {
+    case 1:
+      return "m";
+    case 2:
+      return "mm";
+    case 3:
+      return "um";
+    default:
+      return {};
   }
-  return std::nullopt;
+}
+
+FileSpace parse_space(const View& view) {
+  const Fields& f = view.fields();
+  const bool by_sform = view.code(f.sform_code) > 0, by_qform = view.code(f.qform_code) > 0;
+  FileSpace space = by_sform ? sform(view) : by_qform ? qform(view) : by_pixdim(view);
+  if (by_sform || by_qform) space.frame = WorldFrame::kRas;
+  space.unit = unit_name(view.units());
+  return space;
 }
 
 }  // namespace
@@ -180,36 +247,15 @@ NiftiHeader parse_nifti_header(std::span<const std::byte> bytes, std::string_vie
                "get a whole copy of the file");
   }
   check_magic(*view, file);
-  check_scaling(*view, file);
   NiftiHeader header{.version = view->fields().version,
                      .order = view->order(),
                      .shape = {},
-                     .first_centre = parse_centre(*view)};
+                     .scaling = parse_scaling(*view, file),
+                     .space = parse_space(*view)};
   header.type = parse_datatype(view->int16(view->fields().datatype), file);
   header.shape = parse_dim(*view, file);
   header.data_offset = parse_vox_offset(*view, file);
-  for (std::size_t i = 0; i < 3; ++i) header.pixdim[i] = view->real(view->fields().pixdim, i + 1);
   return header;
-}
-
-std::array<double, 3> nifti_spacing(const NiftiHeader& header, std::string_view file) {
-  std::array<double, 3> spacing{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    spacing[i] = std::abs(header.pixdim[i]);
-    check_spacing(file, text("pixdim[", i + 1, "]"), spacing[i]);
-  }
-  return spacing;
-}
-
-std::array<double, 3> nifti_origin(const NiftiHeader& header, const std::array<double, 3>& spacing,
-                                   std::string_view file) {
-  std::array<double, 3> origin{};
-  if (!header.first_centre) return origin;
-  for (std::size_t i = 0; i < 3; ++i) {
-    origin[i] = (*header.first_centre)[i] - spacing[i] / 2;
-    check_origin(file, text("sform or qform offset[", i, "]"), origin[i]);
-  }
-  return origin;
 }
 
 }  // namespace mw::io

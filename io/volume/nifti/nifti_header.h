@@ -3,15 +3,14 @@
 // The header of a single-file NIfTI-1 or NIfTI-2 volume.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 
 #include "io/file/byte_order.h"
-#include "io/volume/label_volume.h"
+#include "io/volume/decode.h"
+#include "io/volume/file_space.h"
 
 namespace mw::io {
 
@@ -24,9 +23,10 @@ struct NiftiHeader {
   VoxelType type = VoxelType::kU8;
   Index3 shape;
   std::uint64_t data_offset = 0;
-  std::array<double, 3> pixdim{};  ///< pixdim[1..3] as stored, not yet checked
-  /// Centre of the first voxel: the translation of the sform, else of the qform, else none.
-  std::optional<std::array<double, 3>> first_centre;
+  VoxelScaling scaling{};
+  /// By the sform, else the qform (NIfTI-1 methods 3 and 2), in RAS; else by pixdim alone (method
+  /// 1), of an unknown orientation, the centre of the first voxel at 0.
+  FileSpace space;
 };
 
 /// Whether the bytes begin a NIfTI-1 or -2 header of either byte order, paired files included.
@@ -36,15 +36,5 @@ struct NiftiHeader {
 /// ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] NiftiHeader parse_nifti_header(std::span<const std::byte> bytes,
                                              std::string_view file);
-
-/// |pixdim|.  ERRORS: kInput naming pixdim[i] unless finite and not 0.
-[[nodiscard]] std::array<double, 3> nifti_spacing(const NiftiHeader& header, std::string_view file);
-
-/// The corner of the first voxel: its centre minus half a voxel along each axis; 0 when the file
-/// places nothing.  Axes stay those of the array: a rotation or flip in the file is not applied.
-/// ERRORS: kInput when not finite.
-[[nodiscard]] std::array<double, 3> nifti_origin(const NiftiHeader& header,
-                                                 const std::array<double, 3>& spacing,
-                                                 std::string_view file);
 
 }  // namespace mw::io

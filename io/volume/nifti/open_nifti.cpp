@@ -4,6 +4,7 @@
 #include "io/volume/nifti/open_nifti.h"
 
 #include "io/volume/checks.h"
+#include "io/volume/file_space.h"
 #include "io/volume/nifti/nifti_header.h"
 #include "io/volume/raw_array.h"
 
@@ -14,12 +15,13 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
   const std::string& file = source->name();
   const NiftiHeader header = parse_nifti_header(read_prefix(*source, kNiftiHeaderBytes), file);
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nifti"};
-  info.spacing = options.spacing ? *options.spacing : nifti_spacing(header, file);
-  info.origin = options.origin ? *options.origin : nifti_origin(header, info.spacing, file);
+  info.space = placed(file, header.space, options);
+  info.scaled = !header.scaling.is_identity();
   check_payload(file, info, header.data_offset, source->size(), false);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
-      ArrayPlace{.offset = header.data_offset, .order = header.order});
+      ArrayPlace{
+          .offset = header.data_offset, .order = header.order, .scaling = header.scaling});
 }
 
 }  // namespace mw::io

@@ -8,7 +8,6 @@
 
 namespace mw::io {
 
-/// Spacing and origin as nifti_spacing and nifti_origin say, unless the options replace them.
 /// Bytes behind the voxels are ignored.  ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
                                                       const OpenOptions& options);

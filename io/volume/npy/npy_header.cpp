@@ -49,15 +49,12 @@ void parse_descr(std::string_view descr, NpyHeader& header, std::string_view fil
   const char kind = descr.size() > 1 ? descr[1] : '?';
   const bool integer = (kind == 'u' || kind == 'i') && bytes != 0 && (bytes & (bytes - 1)) == 0;
   const bool boolean = kind == 'b' && bytes == 1;
-  if (kind == 'f' || kind == 'c') {
-    fail_input(file, field, "voxels are floating point, labels must be integers",
-               "convert the array, e.g. array.astype('u4')");
-  }
-  if ((!integer && !boolean) || std::string_view("<>|=").find(descr[0]) == std::string_view::npos ||
+  const bool floating = kind == 'f' && (bytes == 4 || bytes == 8);
+  if ((!integer && !boolean && !floating) || std::string_view("<>|=").find(descr[0]) == std::string_view::npos ||
       (descr[0] == '|' && bytes > 1)) {
-    fail_input(file, field, "unsupported type", "use integers of 8 to 64 bits");
+    fail_input(file, field, "unsupported type", "use integers of 8 to 64 bits, or whole numbers in floats of 32 or 64");
   }
-  header.type = integer_type(bytes, kind == 'i');
+  header.type = floating ? float_type(bytes) : integer_type(bytes, kind == 'i');
   header.order = descr[0] == '>' ? ByteOrder::kBig : ByteOrder::kLittle;
   if (descr[0] == '=') header.order = kHostOrder;
 }

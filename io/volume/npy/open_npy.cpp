@@ -5,6 +5,7 @@
 
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
+#include "io/volume/file_space.h"
 #include "io/volume/npy/npy_header.h"
 #include "io/volume/raw_array.h"
 
@@ -24,8 +25,7 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
   const NpyHeader header = parse_npy_dict(dict, source->name());
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "npy"};
   info.z_fastest = header.fortran_order;
-  info.spacing = options.spacing.value_or(info.spacing);
-  info.origin = options.origin.value_or(info.origin);
+  info.space = placed(source->name(), {}, options);
   check_payload(source->name(), info, offset, source->size(), false);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
                                           ArrayPlace{.offset = offset, .order = header.order});

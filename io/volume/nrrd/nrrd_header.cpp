@@ -68,6 +68,8 @@ const std::string& required(const FieldMap& fields, std::string_view key, std::s
 
 VoxelType parse_type(const std::string& value, std::string_view file) {
   static const std::map<std::string, VoxelType, std::less<>> types{
+      {"float", VoxelType::kF32},
+      {"double", VoxelType::kF64},
       {"signed char", VoxelType::kI8},
       {"int8", VoxelType::kI8},
       {"int8_t", VoxelType::kI8},
@@ -183,26 +185,64 @@ void parse_data_file(const FieldMap& fields, NrrdHeader& header, std::string_vie
   header.data_file = found->second;
 }
 
-std::optional<std::array<double, 3>> parse_spacing(const FieldMap& fields, std::string_view file) {
+Vector3 three_numbers(const std::string& value, std::string_view field, std::string_view file) {
+  const auto v = parse_numbers<double>(value, field, file);
+  if (v.size() != 3) fail_input(file, text("NRRD field '", field, "'"), "not three numbers");
+  return {v[0], v[1], v[2]};
+}
+
+void parse_steps(const FieldMap& fields, FileSpace& space, std::string_view file) {
   if (const auto found = fields.find("spacedirections"); found != fields.end()) {
     const auto v = parse_numbers<double>(found->second, "space directions", file);
     if (v.size() != 9) fail_input(file, "NRRD field 'space directions'", "not three 3-vectors");
-    return std::array{std::hypot(v[0], v[1], v[2]), std::hypot(v[3], v[4], v[5]),
-                      std::hypot(v[6], v[7], v[8])};
+    space.steps = {{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}}};
+  } else if (const auto spacings = fields.find("spacings"); spacings != fields.end()) {
+    space.steps = steps_of(three_numbers(spacings->second, "spacings", file));
   }
-  const auto found = fields.find("spacings");
-  if (found == fields.end()) return std::nullopt;
-  const auto v = parse_numbers<double>(found->second, "spacings", file);
-  if (v.size() != 3) fail_input(file, "NRRD field 'spacings'", "not three numbers");
-  return std::array{v[0], v[1], v[2]};
 }
 
-std::optional<std::array<double, 3>> parse_origin(const FieldMap& fields, std::string_view file) {
-  const auto found = fields.find("spaceorigin");
-  if (found == fields.end()) return std::nullopt;
-  const auto v = parse_numbers<double>(found->second, "space origin", file);
-  if (v.size() != 3) fail_input(file, "NRRD field 'space origin'", "not three numbers");
-  return std::array{v[0], v[1], v[2]};
+/// The world frame, and vectors of left-anterior-superior, which is no frame of ours, turned to RAS.
+void parse_frame(const FieldMap& fields, FileSpace& space) {
+  const auto found = fields.find("space");
+  if (found == fields.end()) return;
+  const std::string name = lower(found->second);
+  if (name == "right-anterior-superior" || name == "ras") space.frame = WorldFrame::kRas;
+  if (name == "left-posterior-superior" || name == "lps") space.frame = WorldFrame::kLps;
+  if (name == "left-anterior-superior" || name == "las") {
+    space.frame = WorldFrame::kRas;
+    for (Vector3& step : space.steps) step[0] = 0 - step[0];
+    if (space.first) (*space.first)[0] = 0 - (*space.first)[0];
+  }
+}
+
+/// "mm" of `"mm" "mm" "mm"`; nothing where axes differ.
+std::string parse_unit(const FieldMap& fields) {
+  auto found = fields.find("spaceunits");
+  if (found == fields.end()) found = fields.find("units");
+  if (found == fields.end()) return {};
+  std::string unit;
+  const std::string& value = found->second;
+  for (std::size_t at = value.find('"'); at != std::string::npos; at = value.find('"', at)) {
+    const std::size_t end = value.find('"', at + 1);
+    if (end == std::string::npos) return {};
+    const std::string one = value.substr(at + 1, end - at - 1);
+    if (!unit.empty() && one != unit) return {};
+    unit = one;
+    at = end + 1;
+  }
+  return unit;
+}
+
+FileSpace parse_space(const FieldMap& fields, std::string_view file) {
+  FileSpace space{.steps_field = "NRRD 'spacings' or 'space directions'",
+                  .first_field = "NRRD field 'space origin'"};
+  parse_steps(fields, space, file);
+  if (const auto found = fields.find("spaceorigin"); found != fields.end()) {
+    space.first = three_numbers(found->second, "space origin", file);
+  }
+  parse_frame(fields, space);
+  space.unit = parse_unit(fields);
+  return space;
 }
 
 }  // namespace
@@ -224,26 +264,8 @@ NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
   header.gzip = parse_encoding(fields, file);
   parse_skips(fields, header, file);
   parse_data_file(fields, header, file);
-  header.spacing = parse_spacing(fields, file);
-  header.space_origin = parse_origin(fields, file);
+  header.space = parse_space(fields, file);
   return header;
-}
-
-std::array<double, 3> nrrd_spacing(const NrrdHeader& header, std::string_view file) {
-  const std::array<double, 3> spacing = header.spacing.value_or(std::array{1.0, 1.0, 1.0});
-  for (const double s : spacing) check_spacing(file, "NRRD 'spacings' or 'space directions'", s);
-  return spacing;
-}
-
-std::array<double, 3> nrrd_origin(const NrrdHeader& header, const std::array<double, 3>& spacing,
-                                  std::string_view file) {
-  std::array<double, 3> origin{};
-  if (!header.space_origin) return origin;
-  for (std::size_t i = 0; i < 3; ++i) {
-    origin[i] = (*header.space_origin)[i] - spacing[i] / 2;
-    check_origin(file, "NRRD field 'space origin'", origin[i]);
-  }
-  return origin;
 }
 
 }  // namespace mw::io

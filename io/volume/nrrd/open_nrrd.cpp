@@ -9,6 +9,7 @@
 #include "io/file/file_source.h"
 #include "io/file/open_bytes.h"
 #include "io/volume/checks.h"
+#include "io/volume/file_space.h"
 #include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/raw_array.h"
 
@@ -44,8 +45,7 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   const std::string file = source->name();
   const NrrdHeader header = read_header(*source);
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nrrd"};
-  info.spacing = options.spacing ? *options.spacing : nrrd_spacing(header, file);
-  info.origin = options.origin ? *options.origin : nrrd_origin(header, info.spacing, file);
+  info.space = placed(file, header.space, options);
 
   std::unique_ptr<ByteSource> data = data_source(std::move(source), header, path);
   std::uint64_t offset = header.data_file.empty() ? header.bytes : 0;

@@ -10,8 +10,7 @@
 
 namespace mw::io {
 
-/// A detached `data file` is looked for relative to the folder of path.  Spacing and origin as
-/// nrrd_spacing and nrrd_origin say, unless the options replace them.  Bytes behind the voxels are
+/// A detached `data file` is looked for relative to the folder of path.  Bytes behind the voxels are
 /// ignored.  ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
                                                      const std::filesystem::path& path,

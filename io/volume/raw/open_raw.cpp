@@ -4,6 +4,7 @@
 #include "io/volume/raw/open_raw.h"
 
 #include "io/volume/checks.h"
+#include "io/volume/file_space.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {
@@ -14,8 +15,7 @@ std::unique_ptr<LabelVolume> open_raw(std::unique_ptr<ByteSource> source,
   VolumeInfo info{.shape = {}, .type = layout.type, .format = "raw"};
   info.shape =
       checked_shape(source->name(), "shape", {layout.shape.x, layout.shape.y, layout.shape.z});
-  info.spacing = options.spacing.value_or(info.spacing);
-  info.origin = options.origin.value_or(info.origin);
+  info.space = placed(source->name(), {}, options);
   check_payload(source->name(), info, 0, source->size(), true);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
                                           ArrayPlace{.offset = 0, .order = layout.order});

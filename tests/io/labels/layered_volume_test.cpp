@@ -79,8 +79,8 @@ TEST(LayeredVolume, KeepsTheFactsOfTheVolume) {
   const CountingVolume volume({4, 5, 6}, random);
   const LayeredVolume layered(volume, {1, 6, 5});
   EXPECT_EQ(layered.info().shape, (Index3{4, 30, 30}));
-  EXPECT_EQ(layered.info().spacing, (std::array{0.5, 0.5, 0.25}));
-  EXPECT_EQ(layered.info().origin, volume.info().origin);
+  EXPECT_EQ(layered.info().space.spacing, (std::array{0.5, 0.5, 0.25}));
+  EXPECT_EQ(layered.info().space.origin, volume.info().space.origin);
   EXPECT_EQ(layered.info().type, volume.info().type);
 }
 

@@ -98,7 +98,7 @@ TEST(VolumeErrors, OverridesReplaceBrokenGeometry) {
   NiftiSample sample{.pixdim = {1, 0, 0, 0}, .magic = {}};
   const auto path = dir.file("a.nii", sample.header() + std::string(60, 'a'));
   const OpenOptions options{.raw = {}, .spacing = std::array{1.0, 2.0, 3.0}, .origin = {}};
-  EXPECT_EQ(open_volume(path, options)->info().spacing, *options.spacing);
+  EXPECT_EQ(open_volume(path, options)->info().space.spacing, *options.spacing);
   const OpenOptions bad{.raw = {}, .spacing = std::array{1.0, -2.0, 3.0}, .origin = {}};
   expect_error(ErrorKind::kUsage, {"--spacing"},
                [&] { static_cast<void>(open_volume(path, bad)); });

@@ -119,8 +119,8 @@ TEST(Nifti, EveryTypeVersionAndByteOrder) {
         const auto file = sample.header() + voxel_bytes(labels, type, big) + "trailing";
         const auto volume = open_volume(dir.file("a.nii", file));
         EXPECT_EQ(volume->info().shape, kShape);
-        EXPECT_EQ(volume->info().spacing, (std::array{0.5, 2.0, 3.0}));
-        EXPECT_EQ(volume->info().origin, (std::array{0.0, 0.0, 0.0}));
+        EXPECT_EQ(volume->info().space.spacing, (std::array{0.5, 2.0, 3.0}));
+        EXPECT_EQ(volume->info().space.origin, (std::array{0.0, 0.0, 0.0}));
         EXPECT_EQ(read_all(*volume), labels) << name(type) << version << big;
         EXPECT_EQ(read_all(*open_volume(dir.file("a.nii.gz", gzip(file)))), labels);
       }
@@ -134,7 +134,7 @@ TEST(Nifti, OriginIsTheCornerOfTheFirstVoxel) {
     NiftiSample sample{.version = version, .dim = {4, 5, 4, 3, 1, 1, 1, 1}, .magic = {}};
     sample.sform_code = 1;
     const auto volume = open_volume(dir.file("a.nii", sample.header() + std::string(60, 'a')));
-    EXPECT_EQ(volume->info().origin, (std::array{9.75, 19.0, 28.5}));
+    EXPECT_EQ(volume->info().space.origin, (std::array{9.75, 19.0, 28.5}));
   }
 }
 
@@ -171,11 +171,11 @@ TEST(Nrrd, GeometryAndByteSkip) {
                                         "space directions: (3,4,0) (0,2,0) (0,0,1)\r\n"
                                         "space origin: (10,20,30)\r\nbyte skip: 3\r\n\r\nxxxAB");
   const auto volume = open_volume(a);
-  EXPECT_EQ(volume->info().spacing, (std::array{5.0, 2.0, 1.0}));
-  EXPECT_EQ(volume->info().origin, (std::array{7.5, 19.0, 29.5}));
+  EXPECT_EQ(volume->info().space.spacing, (std::array{5.0, 2.0, 1.0}));
+  EXPECT_EQ(volume->info().space.origin, (std::array{7.5, 19.0, 29.5}));
   EXPECT_EQ(read_all(*volume), (std::vector<RawLabel>{'A', 'B'}));
   const auto b = dir.file("b.nrrd", head + "spacings: 1 2 4\r\nbyteskip: -1\r\n\r\nxxxxxCD");
-  EXPECT_EQ(open_volume(b)->info().spacing, (std::array{1.0, 2.0, 4.0}));
+  EXPECT_EQ(open_volume(b)->info().space.spacing, (std::array{1.0, 2.0, 4.0}));
   EXPECT_EQ(read_all(*open_volume(b)), (std::vector<RawLabel>{'C', 'D'}));
 }
 
@@ -189,8 +189,8 @@ TEST(Raw, BothByteOrdersAndOverrides) {
                               .spacing = std::array{1.0, 2.0, 3.0},
                               .origin = std::array{-1.0, 0.0, 7.0}};
     const auto volume = open_volume(path, options);
-    EXPECT_EQ(volume->info().spacing, *options.spacing);
-    EXPECT_EQ(volume->info().origin, *options.origin);
+    EXPECT_EQ(volume->info().space.spacing, *options.spacing);
+    EXPECT_EQ(volume->info().space.origin, *options.origin);
     EXPECT_EQ(read_all(*volume), labels);
   }
 }

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Checks what a file says of its place, and makes it a VolumeSpace.
+#include "io/volume/file_space.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "io/file/errors.h"
+#include "io/volume/checks.h"
+
+namespace mw::io {
+namespace {
+
+/// Largest cosine between two axes.  Headers in float are off by 1e-7, the sums of some tools by
+/// 1e-5; over a thousand voxels 1e-4 is a tenth of one.
+constexpr double kMostShear = 1e-4;
+
+bool is_direction(const Vector3& step) {
+  const double length = std::hypot(step[0], step[1], step[2]);
+  return std::isfinite(length) && length > 0;
+}
+
+double dot(const Vector3& a, const Vector3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+void check_steps(std::string_view file, const FileSpace& space) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3& step = space.steps[i];
+    const std::string field =
+        text(space.steps_field, " (", std::string_view("xyz").substr(i, 1), ")");
+    check_spacing(file, field, std::hypot(step[0], step[1], step[2]));
+  }
+}
+
+/// The nearest axes at right angles: half-way to the inverse of the transpose, again and again, by
+/// Higham (SIAM J. Sci. Stat. Comput. 7, 1986); signed permutations stay as they are to the bit.
+std::array<Vector3, 3> straightened(const std::array<Vector3, 3>& axes) {
+  Eigen::Matrix3d m;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      m(i, k) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+    }
+  }
+  constexpr int kSteps = 6;  // each squares the error
+  for (int step = 0; step < kSteps; ++step) m = 0.5 * (m + m.inverse().transpose()).eval();
+  std::array<Vector3, 3> out{};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      out[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] = m(i, k);
+    }
+  }
+  return out;
+}
+
+std::array<Vector3, 3> axes_of(std::string_view file, const FileSpace& space) {
+  std::array<Vector3, 3> axes = space.steps;
+  for (Vector3& axis : axes) {
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    for (double& x : axis) x /= length;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double cosine = dot(axes[i], axes[(i + 1) % 3]);
+    if (std::abs(cosine) <= kMostShear) continue;
+    fail_input(file, space.steps_field,
+               text("the axes ", std::string_view("xyz").substr(i, 1), " and ",
+                    std::string_view("xyz").substr((i + 1) % 3, 1),
+                    " of the array are not at right angles in the world (cosine ", cosine,
+                    "): a sheared volume has no quality or distance that could be promised"),
+               "resample it onto a grid with right angles, or give --frame voxel");
+  }
+  return straightened(axes);
+}
+
+/// Turns what a file of kRas says into kLps and back.
+void turn(VolumeSpace& space) {
+  for (const std::size_t k : {0U, 1U}) {
+    for (Vector3& axis : space.axes) axis[k] = 0 - axis[k];
+    space.origin[k] = 0 - space.origin[k];
+  }
+}
+
+void choose_frame(std::string_view file, VolumeSpace& space, FrameChoice choice) {
+  if (choice == FrameChoice::kFile) return;
+  const WorldFrame wanted = choice == FrameChoice::kRas ? WorldFrame::kRas : WorldFrame::kLps;
+  if (space.frame == WorldFrame::kOwn) {
+    throw Error(ErrorKind::kUsage,
+                text("--frame ", name(wanted), ": ", file,
+                     " does not say how its axes lie in a patient; take its own with --frame file"));
+  }
+  if (space.frame != wanted) turn(space);
+  space.frame = wanted;
+}
+
+}  // namespace
+
+std::array<Vector3, 3> steps_of(const Vector3& spacing) {
+  return {{{spacing[0], 0, 0}, {0, spacing[1], 0}, {0, 0, spacing[2]}}};
+}
+
+VolumeSpace placed(std::string_view file, const FileSpace& space, const OpenOptions& options) {
+  VolumeSpace out{.unit = space.unit, .frame = space.frame};
+  const bool has_directions = std::all_of(space.steps.begin(), space.steps.end(), is_direction);
+  if (!options.spacing) check_steps(file, space);
+  if (has_directions && options.frame != FrameChoice::kVoxel) {
+    out.axes = axes_of(file, space);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3& step = space.steps[i];
+    out.spacing[i] =
+        options.spacing ? (*options.spacing)[i] : std::hypot(step[0], step[1], step[2]);
+  }
+  if (options.spacing) out.unit.clear();
+  if (options.frame == FrameChoice::kVoxel) {
+    out.frame = WorldFrame::kOwn;
+  } else {
+    if (space.first && !options.origin) {
+      for (const double x : *space.first) check_origin(file, space.first_field, x);
+      out.origin = *space.first;
+      if (space.first_is_centre) out.origin = to_world(out, {-0.5, -0.5, -0.5});
+    }
+    choose_frame(file, out, options.frame);
+  }
+  if (options.origin) out.origin = *options.origin;
+  return out;
+}
+
+}  // namespace mw::io

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a file says of its place, and what the caller says against it, made into a VolumeSpace.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "io/volume/open_options.h"
+#include "io/volume/volume_space.h"
+
+namespace mw::io {
+
+/// As a header has it, not checked.
+struct FileSpace {
+  /// steps[i]: the way from a voxel to its neighbour along axis i of the array (x, y, z).
+  std::array<Vector3, 3> steps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  /// Where the first voxel is; empty: the file places nothing, and its first corner is at 0.
+  std::optional<Vector3> first;
+  bool first_is_centre = true;  ///< `first` is the centre of that voxel, else its first corner
+  std::string unit;
+  WorldFrame frame = WorldFrame::kOwn;
+  const char* steps_field = "spacing";  ///< what errors call the two
+  const char* first_field = "origin";
+};
+
+/// Steps along the axes of the array, of these lengths.
+[[nodiscard]] std::array<Vector3, 3> steps_of(const Vector3& spacing);
+
+/// The options' spacing replaces the lengths of the steps, their origin the first corner, their
+/// frame the axes: in kRas and kLps a file of the other turns its x and y; kVoxel keeps nothing but
+/// the spacing.  What the options replace is not looked at.
+/// ERRORS: mw::Error(kInput) naming file and field for steps that are not finite, 0, or not at
+/// right angles (beyond 1e-4: coordinates are kept in float by many tools; within it the axes are
+/// straightened); kUsage when the frame that is asked for is none that the file's can be turned to.
+[[nodiscard]] VolumeSpace placed(std::string_view file, const FileSpace& space,
+                                 const OpenOptions& options);
+
+}  // namespace mw::io

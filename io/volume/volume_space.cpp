@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// From voxels to the world and back.
+#include "io/volume/volume_space.h"
+
+namespace mw::io {
+namespace {
+
+double determinant(const std::array<Vector3, 3>& m) {
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+}  // namespace
+
+const char* name(WorldFrame frame) {
+  return frame == WorldFrame::kRas ? "ras" : frame == WorldFrame::kLps ? "lps" : "own";
+}
+
+bool is_upright(const VolumeSpace& space) {
+  return space.axes == VolumeSpace{}.axes;
+}
+
+bool is_mirrored(const VolumeSpace& space) {
+  return determinant(space.axes) < 0;
+}
+
+Vector3 to_corner(const VolumeSpace& space, const Vector3& world) {
+  Vector3 out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double along = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      along += space.axes[i][k] * (world[k] - space.origin[k]);
+    }
+    out[i] = along / space.spacing[i];
+  }
+  return out;
+}
+
+VolumeSpace moved_to(const VolumeSpace& space, Index3 first) {
+  VolumeSpace out = space;
+  out.origin = to_world(space, {static_cast<double>(first.x), static_cast<double>(first.y),
+                                static_cast<double>(first.z)});
+  return out;
+}
+
+}  // namespace mw::io

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where a volume lies: from voxels to the world.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "kernels/core/index.h"
+
+namespace mw::io {
+
+using Vector3 = std::array<double, 3>;
+
+/// A world frame that files name: x to the patient's right or left, y to the front or back, z up.
+enum class WorldFrame {
+  kOwn,  ///< the file names none; its axes are all that is known
+  kRas,  ///< right, anterior, superior: NIfTI
+  kLps,  ///< left, posterior, superior: DICOM, ITK
+};
+[[nodiscard]] const char* name(WorldFrame frame);  ///< "own", "ras", "lps"
+
+/// world = origin + sum over i of axes[i] * spacing[i] * corner[i], corners of voxels in (x, y, z)
+/// of the array; the centre of voxel v is corner v + 1/2.
+struct VolumeSpace {
+  Vector3 spacing{1.0, 1.0, 1.0};  ///< edges of a voxel, finite and positive, in `unit`
+  Vector3 origin{0.0, 0.0, 0.0};   ///< first corner of the first voxel
+  /// Directions of the array's axes, of unit length and at right angles to each other: rotations,
+  /// flips and permutations.
+  std::array<Vector3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  std::string unit;  ///< "mm", "um", "nm", "m" and so on; empty: unknown
+  WorldFrame frame = WorldFrame::kOwn;
+};
+
+/// Whether the array's axes are those of the world: then coordinates are origin + spacing * corner.
+[[nodiscard]] bool is_upright(const VolumeSpace& space);
+/// Whether the world sees the array in a mirror: what is positive in one is negative in the other.
+[[nodiscard]] bool is_mirrored(const VolumeSpace& space);
+
+/// A point of the array, in voxels from the first corner, in the world.  Three products a
+/// coordinate, of which upright spaces have one that is not 0: there it is origin + spacing *
+/// corner to the bit.
+[[nodiscard]] inline Vector3 to_world(const VolumeSpace& space, const Vector3& corner) {
+  Vector3 out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    out[k] = space.origin[k] + (space.axes[0][k] * (space.spacing[0] * corner[0]) +
+                                space.axes[1][k] * (space.spacing[1] * corner[1]) +
+                                space.axes[2][k] * (space.spacing[2] * corner[2]));
+  }
+  return out;
+}
+
+/// The other way round, to rounding.
+[[nodiscard]] Vector3 to_corner(const VolumeSpace& space, const Vector3& world);
+
+/// The space of a box of the volume: it begins at the corner `first`.
+[[nodiscard]] VolumeSpace moved_to(const VolumeSpace& space, Index3 first);
+
+}  // namespace mw::io
