@@ -190,7 +190,7 @@ void InterfaceShape::finish(const OpenEdge& edge, const std::array<std::uint32_t
                   {place(edge.apexes[0]), edge.turned[0]}, {place(edge.apexes[1]), edge.turned[1]});
 }
 
-io::Position InterfaceShape::place(Point p) const {
+io::Vector3 InterfaceShape::place(Point p) const {
   return physical(p, info_.space);
 }
 

@@ -96,7 +96,7 @@ class InterfaceShape {
   [[nodiscard]] VertexId id(std::uint32_t row) const { return block_->vertices[row].id; }
   [[nodiscard]] Point point(std::uint32_t row) const { return block_->vertices[row].position; }
   /// In the array's own axes: turned and mirrored shapes measure the same.
-  [[nodiscard]] io::Position place(Point p) const;
+  [[nodiscard]] io::Vector3 place(Point p) const;
   [[nodiscard]] Label label(const Face& face) const { return block_->tets[face.tet].label; }
   [[nodiscard]] bool on_box(const Face& face) const;
   [[nodiscard]] bool points_out(const Face& face) const;

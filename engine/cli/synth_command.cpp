@@ -45,7 +45,9 @@ io::VoxelType type_for(std::uint64_t labels) {
 io::VoxelType type_of(const SynthJob& job) {
   if (job.type.empty()) return type_for(job.labels);
   const std::optional<io::VoxelType> type = io::parse_voxel_type(job.type);
-  if (!type) throw Error(ErrorKind::kUsage, "--dtype " + job.type + ": expected u8 to u64");
+  if (!type || io::is_float(*type)) {
+    throw Error(ErrorKind::kUsage, "--dtype " + job.type + ": expected u8 to u64");
+  }
   return *type;
 }
 
@@ -54,7 +56,10 @@ int run_synth(const SynthJob& job) {
   if (std::filesystem::path(job.output).extension() != ".npy") {
     throw Error(ErrorKind::kUsage, "-o " + job.output + ": volumes are written as .npy");
   }
-  io::NpyWriter writer(job.output, {.shape = spec.shape, .type = type_of(job), .format = "npy"});
+  io::VolumeInfo info;
+  info.shape = spec.shape;
+  info.type = type_of(job);
+  io::NpyWriter writer(job.output, info);
   const std::int64_t plane = spec.shape.x * spec.shape.y;
   const std::int64_t planes = std::max<std::int64_t>(1, kSlabVoxels / plane);
   std::vector<RawLabel> slab;
