@@ -22,6 +22,15 @@ bool is_direction(const Vector3& step) {
   return std::isfinite(length) && length > 0;
 }
 
+double length_of(const FileSpace& space, std::size_t axis) {
+  constexpr double kAgree = 1e-5;  // of floats, or of texts with six digits
+  const Vector3& step = space.steps[axis];
+  const double length = std::hypot(step[0], step[1], step[2]);
+  if (!space.lengths) return length;
+  const double stated = (*space.lengths)[axis];
+  return std::abs(stated - length) <= kAgree * length ? stated : length;
+}
+
 double dot(const Vector3& a, const Vector3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -86,9 +95,10 @@ void choose_frame(std::string_view file, VolumeSpace& space, FrameChoice choice)
   if (choice == FrameChoice::kFile) return;
   const WorldFrame wanted = choice == FrameChoice::kRas ? WorldFrame::kRas : WorldFrame::kLps;
   if (space.frame == WorldFrame::kOwn) {
-    throw Error(ErrorKind::kUsage,
-                text("--frame ", name(wanted), ": ", file,
-                     " does not say how its axes lie in a patient; take its own with --frame file"));
+    throw Error(
+        ErrorKind::kUsage,
+        text("--frame ", name(wanted), ": ", file,
+             " does not say how its axes lie in a patient; take its own with --frame file"));
   }
   if (space.frame != wanted) turn(space);
   space.frame = wanted;
@@ -108,9 +118,7 @@ VolumeSpace placed(std::string_view file, const FileSpace& space, const OpenOpti
     out.axes = axes_of(file, space);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3& step = space.steps[i];
-    out.spacing[i] =
-        options.spacing ? (*options.spacing)[i] : std::hypot(step[0], step[1], step[2]);
+    out.spacing[i] = options.spacing ? (*options.spacing)[i] : length_of(space, i);
   }
   if (options.spacing) out.unit.clear();
   if (options.frame == FrameChoice::kVoxel) {
