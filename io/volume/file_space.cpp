@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "io/file/errors.h"
@@ -22,13 +24,25 @@ bool is_direction(const Vector3& step) {
   return std::isfinite(length) && length > 0;
 }
 
+/// Rounded to 14 digits, as lengths of turned steps are good to no more: 1.25 for a rotation of
+/// 1.25, so that a volume is meshed the same in all its directions.
+double tidied(double length) {
+  std::array<char, 32> text{};
+  const char* end = std::to_chars(text.data(), text.data() + text.size(), length,
+                                  std::chars_format::scientific, 13)
+                        .ptr;
+  double out = length;
+  std::from_chars(text.data(), end, out);
+  return out;
+}
+
 double length_of(const FileSpace& space, std::size_t axis) {
   constexpr double kAgree = 1e-5;  // of floats, or of texts with six digits
   const Vector3& step = space.steps[axis];
   const double length = std::hypot(step[0], step[1], step[2]);
-  if (!space.lengths) return length;
-  const double stated = (*space.lengths)[axis];
-  return std::abs(stated - length) <= kAgree * length ? stated : length;
+  if (std::count(step.begin(), step.end(), 0.0) == 2) return length;
+  const double stated = space.lengths ? (*space.lengths)[axis] : length;
+  return tidied(std::abs(stated - length) <= kAgree * length ? stated : length);
 }
 
 double dot(const Vector3& a, const Vector3& b) {
