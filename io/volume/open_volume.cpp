@@ -10,6 +10,7 @@
 #include "io/file/file_source.h"
 #include "io/file/open_bytes.h"
 #include "io/volume/checks.h"
+#include "io/volume/n5/open_n5.h"
 #include "io/volume/nifti/nifti_header.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/npy_header.h"
@@ -56,6 +57,7 @@ struct FolderFormat {
 
 constexpr std::array kFolderFormats{
     FolderFormat{is_precomputed, open_precomputed},
+    FolderFormat{is_n5, open_n5},
 };
 
 /// By content, else by extension, so that the right reader explains what is wrong.
