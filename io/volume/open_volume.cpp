@@ -16,6 +16,7 @@
 #include "io/volume/npy/open_npy.h"
 #include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/nrrd/open_nrrd.h"
+#include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw/open_raw.h"
 
 namespace mw::io {
@@ -53,7 +54,9 @@ struct FolderFormat {
                                        const OpenOptions& options);
 };
 
-constexpr std::array<FolderFormat, 0> kFolderFormats{};
+constexpr std::array kFolderFormats{
+    FolderFormat{is_precomputed, open_precomputed},
+};
 
 /// By content, else by extension, so that the right reader explains what is wrong.
 const FileFormat* format_of(std::span<const std::byte> head, std::filesystem::path path) {
