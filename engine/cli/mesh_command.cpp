@@ -126,6 +126,15 @@ void print_lattice(const engine::LatticeFacts& lattice) {
             << " layers\n";
 }
 
+/// Says what the coordinates are, where the file does.
+void print_space(const io::VolumeSpace& space) {
+  std::string what;
+  if (space.frame != io::WorldFrame::kOwn) what = name(space.frame);
+  if (!space.unit.empty()) what += (what.empty() ? "" : ", ") + space.unit;
+  if (!is_upright(space)) what += (what.empty() ? "" : ", ") + std::string("axes turned");
+  if (!what.empty()) std::cout << "coordinates " << what << "\n";
+}
+
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
   const double seconds = run.resources.wall_seconds;
   const Index3 shape = run.volume.shape;
@@ -134,6 +143,7 @@ void print_summary(const FinishedRun& run, const MeshRequest& request) {
             << " % of the voxel corners)\n"
             << "tets        " << run.engine.tets << "\n";
   print_lattice(run.engine.lattice);
+  print_space(run.volume.space);
   std::cout << "seconds     " << format_fixed(seconds, 2) << "\n"
             << "voxels/s    " << format_fixed(static_cast<double>(shape.product()) / seconds, 0)
             << "\n"
