@@ -10,12 +10,14 @@
 #include "io/file/file_source.h"
 #include "io/file/open_bytes.h"
 #include "io/volume/checks.h"
+#include "io/volume/n5/open_n5.h"
 #include "io/volume/nifti/nifti_header.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/npy_header.h"
 #include "io/volume/npy/open_npy.h"
 #include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/nrrd/open_nrrd.h"
+#include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw/open_raw.h"
 
 namespace mw::io {
@@ -53,7 +55,10 @@ struct FolderFormat {
                                        const OpenOptions& options);
 };
 
-constexpr std::array<FolderFormat, 0> kFolderFormats{};
+constexpr std::array kFolderFormats{
+    FolderFormat{is_precomputed, open_precomputed},
+    FolderFormat{is_n5, open_n5},
+};
 
 /// By content, else by extension, so that the right reader explains what is wrong.
 const FileFormat* format_of(std::span<const std::byte> head, std::filesystem::path path) {

@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Promise 6 for the sinks: memory does not grow with the mesh.
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
 #include "tests/io/test_files.h"
+#include "tests/peak_growth.h"
 #include "tests/sanitizers.h"
 
 namespace mw::io {
@@ -41,42 +38,12 @@ void stream_into(MeshSink& sink) {
   sink.finish();
 }
 
-long peak_kib() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  return used.ru_maxrss;
-}
-
-/// Growth of the peak in a process of its own that does `action`; -1 when that failed.
-template <class Action>
-long growth_of(Action action) {
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return -1;
-  const pid_t child = fork();
-  if (child == 0) {
-    const long before = peak_kib();
-    long growth = -1;
-    try {
-      action();
-      growth = peak_kib() - before;
-    } catch (const std::exception&) {
-    }
-    _exit(write(ends[1], &growth, sizeof growth) == sizeof growth ? 0 : 1);
-  }
-  long growth = -1;
-  close(ends[1]);
-  const bool told = read(ends[0], &growth, sizeof growth) == sizeof growth;
-  close(ends[0]);
-  waitpid(child, nullptr, 0);
-  return told ? growth : -1;
-}
-
 TEST(Promise6BoundedMemory, OfEverySink) {
   if (!mw::test::kResidentMemoryIsOurs) GTEST_SKIP() << "resident memory is a sanitizer's";
   const TempDir dir;
   for (const char* name : {"m.vtkhdf", "m.vtu", "m.mesh"}) {
     const auto path = dir.path() / name;
-    const long growth = growth_of([&] { stream_into(*open_mesh_sink(path)); });
+    const long growth = test::growth_of([&] { stream_into(*open_mesh_sink(path)); });
     EXPECT_GE(growth, 0) << name;
     EXPECT_LE(growth, kRoomKib) << name;
     EXPECT_GT(std::filesystem::file_size(path), 150U << 20) << name;
@@ -84,7 +51,7 @@ TEST(Promise6BoundedMemory, OfEverySink) {
     if (path.extension() != ".vtkhdf") std::filesystem::remove(path);
   }
   // Reading it back, too, takes no more.
-  const long growth = growth_of([&] {
+  const long growth = test::growth_of([&] {
     DigestSink digest(dir.path());
     copy_mesh(dir.path() / "m.vtkhdf", digest);
     static_cast<void>(digest.digest());

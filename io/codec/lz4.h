@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Unpacks LZ4 in the two framings that volumes come in, by liblz4.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace mw::io {
+
+/// numcodecs' framing (Zarr): the unpacked size in 4 bytes, least significant first, and one block.
+/// name: what errors call the bytes.  Memory: at most `most` bytes.  Thread safety: any.
+/// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
+[[nodiscard]] std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t most,
+                                                std::string_view name);
+
+/// The framing of lz4-java's LZ4BlockOutputStream (N5): blocks with magic, sizes and a checksum.
+[[nodiscard]] std::vector<std::byte> unpack_lz4_java(std::span<const std::byte> packed,
+                                                     std::size_t most, std::string_view name);
+
+}  // namespace mw::io

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The loop around libraries that unpack piece by piece.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "io/codec/damage.h"
+
+namespace mw::io {
+
+/// A library's decompressor at some place of its stream.
+class StreamDecoder {
+ public:
+  /// What a step did.
+  struct Step {
+    std::size_t taken = 0;        ///< bytes of the packed ones
+    std::size_t given = 0;        ///< bytes unpacked
+    bool ended = false;           ///< the stream came to its end
+    const char* wrong = nullptr;  ///< why the bytes are damaged
+  };
+
+  virtual ~StreamDecoder() = default;
+  /// Unpacks from `packed` to `out`, as much as it likes.  A step that does nothing wants more
+  /// input. REQUIRES: out not empty; at most kMostStreamStep bytes each.
+  [[nodiscard]] virtual Step step(std::span<const std::byte> packed, std::span<std::byte> out) = 0;
+  /// Makes ready for another stream that follows the one that ended.
+  virtual void restart() = 0;
+};
+
+/// Libraries count bytes in 32 bits.
+inline constexpr std::size_t kMostStreamStep = std::size_t{1} << 30U;
+
+/// Unpacks one or several streams, behind which zeros may fill up.
+/// Memory: follows what really comes out, at most `most` bytes and one.
+/// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
+[[nodiscard]] std::vector<std::byte> unpack_streams(StreamDecoder& decoder,
+                                                    std::span<const std::byte> packed,
+                                                    std::size_t most, const PackedName& name);
+
+}  // namespace mw::io

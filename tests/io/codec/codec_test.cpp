@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Every codec gives back what was packed, and refuses what is damaged, cut or too much.
+#include "io/codec/codec.h"
+
+#include <random>
+#include <thread>
+
+#include "io/codec/crc32c.h"
+#include "io/codec/xxhash32.h"
+#include "tests/io/codec/packers.h"
+#include "tests/peak_growth.h"
+#include "tests/sanitizers.h"
+
+namespace mw::io {
+namespace {
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+std::string unpacked(Codec codec, const std::string& packed, std::size_t most) {
+  const auto bytes = unpack(codec, bytes_of(packed), most, "chunk 7");
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+constexpr std::uint32_t kSeed = 0x9747b28c;
+
+/// A block of lz4-java, by its documentation.
+std::string java_block(const std::string& plain, bool stored) {
+  const std::string body = stored ? plain : lz4_block(plain);
+  return "LZ4Block" + std::string(1, stored ? '\x16' : '\x26') +
+         number_bytes(body.size(), 4, false) + number_bytes(plain.size(), 4, false) +
+         number_bytes(xxhash32(bytes_of(plain), kSeed) & 0xfffffffU, 4, false) + body;
+}
+const std::string kJavaEnd = "LZ4Block" + std::string("\x16", 1) + std::string(12, '\0');
+
+std::string java_packed(const std::string& plain) {
+  std::string packed;
+  for (std::size_t at = 0; at < plain.size(); at += 1000) {
+    packed += java_block(plain.substr(at, 1000), at % 3000 == 0);
+  }
+  return packed + kJavaEnd;
+}
+
+struct Packer {
+  Codec codec;
+  std::string (*pack)(const std::string& plain);
+  bool has_checksum;  ///< against flips of what is packed
+};
+
+const std::vector<Packer> kPackers{
+    {Codec::kNone, [](const std::string& s) { return s; }, false},
+    {Codec::kGzip, gzip, true},
+    {Codec::kGzip, [](const std::string& s) { return gzip(s.substr(0, 9)) + gzip(s.substr(9)); },
+     true},
+    {Codec::kZlib, zlib_packed, true},
+    {Codec::kZstd, [](const std::string& s) { return zstd_packed(s); }, true},
+    {Codec::kZstd, [](const std::string& s) { return zstd_packed(s, true); }, true},
+    {Codec::kZstd,
+     [](const std::string& s) { return zstd_packed(s.substr(0, 9)) + zstd_packed(s.substr(9)); },
+     true},
+    {Codec::kBlosc, [](const std::string& s) { return blosc_packed(s, "blosclz", 1, 4); }, false},
+    {Codec::kBlosc, [](const std::string& s) { return blosc_packed(s, "lz4", 1, 8); }, false},
+    {Codec::kBlosc, [](const std::string& s) { return blosc_packed(s, "lz4hc", 2, 2); }, false},
+    {Codec::kBlosc, [](const std::string& s) { return blosc_packed(s, "zlib", 0, 1); }, false},
+    {Codec::kBlosc, [](const std::string& s) { return blosc_packed(s, "zstd", 2, 4); }, false},
+    {Codec::kLz4, lz4_packed, false},
+    {Codec::kLz4Java, java_packed, true},
+    {Codec::kBzip2, bzip2_packed, true},
+    {Codec::kBzip2,
+     [](const std::string& s) { return bzip2_packed(s.substr(0, 9)) + bzip2_packed(s.substr(9)); },
+     true},
+    {Codec::kXz, [](const std::string& s) { return xz_packed(s); }, true},
+    {Codec::kXz, [](const std::string& s) { return xz_packed(s, 9); }, true},
+};
+
+/// Bytes with runs, as labels have; at least 9.
+std::string some_bytes(std::mt19937& random, std::size_t size) {
+  std::string out;
+  while (out.size() < size) out.append(random() % 50, static_cast<char>(random()));
+  out.resize(size);
+  return out;
+}
+
+TEST(Codec, RoundTripsOfAllSizes) {
+  std::mt19937 random(1);
+  for (const Packer& packer : kPackers) {
+    for (const std::size_t size : {9U, 10U, 100U, 127U, 128U, 4096U, 300000U, 3000000U}) {
+      const std::string plain = some_bytes(random, size);
+      const std::string packed = packer.pack(plain);
+      EXPECT_EQ(unpacked(packer.codec, packed, size), plain) << name(packer.codec) << " " << size;
+      EXPECT_EQ(unpacked(packer.codec, packed, size + 5), plain) << name(packer.codec);
+    }
+    const std::string noise = [&] {
+      std::string out(70000, '\0');
+      for (char& c : out) c = static_cast<char>(random());
+      return out;
+    }();
+    EXPECT_EQ(unpacked(packer.codec, packer.pack(noise), noise.size()), noise)
+        << name(packer.codec);
+  }
+}
+
+TEST(Codec, MoreThanTheMostIsRefused) {
+  std::mt19937 random(2);
+  for (const Packer& packer : kPackers) {
+    for (const std::size_t size : {200U, 300000U}) {
+      const std::string packed = packer.pack(some_bytes(random, size));
+      for (const std::size_t most : {std::size_t{0}, std::size_t{10}, size - 1}) {
+        expect_error(ErrorKind::kInput, {"chunk 7", name(packer.codec), std::to_string(most)},
+                     [&] { static_cast<void>(unpacked(packer.codec, packed, most)); });
+      }
+    }
+  }
+}
+
+TEST(Codec, EveryTruncationIsRefused) {
+  std::mt19937 random(3);
+  for (const Packer& packer : kPackers) {
+    if (packer.codec == Codec::kNone) continue;
+    const std::string plain = some_bytes(random, 2500);
+    const std::string packed = packer.pack(plain);
+    for (std::size_t size = 0; size < packed.size(); ++size) {
+      try {
+        // Several members that end where one ends are whole for the codec; their bytes are too few.
+        EXPECT_LT(unpacked(packer.codec, packed.substr(0, size), plain.size()).size(), plain.size())
+            << name(packer.codec) << " " << size << " of " << packed.size();
+      } catch (const Error& error) {
+        ASSERT_EQ(error.kind(), ErrorKind::kInput);
+        ASSERT_NE(std::string(error.what()).find("get a whole copy"), std::string::npos);
+      }
+    }
+  }
+}
+
+TEST(Codec, FlipsAreRefusedOrHarmless) {
+  std::mt19937 random(4);
+  for (const Packer& packer : kPackers) {
+    const std::string plain = some_bytes(random, 2500);
+    const std::string packed = packer.pack(plain);
+    for (std::size_t bit = 0; bit < 8 * packed.size(); ++bit) {
+      std::string bent = packed;
+      bent[bit / 8] = static_cast<char>(bent[bit / 8] ^ (1 << (bit % 8)));
+      try {
+        const std::string got = unpacked(packer.codec, bent, plain.size());
+        if (packer.has_checksum) {
+          // What a flip in a header may not matter to, or cut a member off, but not change a byte.
+          EXPECT_EQ(got, plain.substr(0, got.size())) << name(packer.codec) << " bit " << bit;
+        }
+      } catch (const Error& error) {
+        ASSERT_EQ(error.kind(), ErrorKind::kInput) << error.what();
+      }
+    }
+  }
+}
+
+TEST(Codec, NoiseIsRefused) {
+  std::mt19937 random(5);
+  for (const Packer& packer : kPackers) {
+    if (packer.codec == Codec::kNone) continue;
+    for (int round = 0; round < 300; ++round) {
+      std::string noise(random() % 200, '\0');
+      for (char& c : noise) c = static_cast<char>(random());
+      try {
+        EXPECT_LE(unpacked(packer.codec, noise, 1000).size(), 1000U);
+      } catch (const Error& error) {
+        ASSERT_EQ(error.kind(), ErrorKind::kInput) << error.what();
+      }
+    }
+  }
+}
+
+/// Zeros that take packed a thousandth of their bytes or less.
+std::vector<std::pair<Codec, std::string>> bombs() {
+  const std::string zeros(std::size_t{16} << 20U, '\0');
+  std::vector<std::pair<Codec, std::string>> out;
+  for (const Packer& packer : kPackers) {
+    if (packer.codec != Codec::kNone) out.emplace_back(packer.codec, packer.pack(zeros));
+  }
+  return out;
+}
+
+TEST(Codec, BombsTakeNoMemory) {
+  if (!test::kResidentMemoryIsOurs) GTEST_SKIP() << "resident memory is a sanitizer's";
+  const auto packed = bombs();
+  const long growth = test::growth_of([&] {
+    for (const auto& [codec, bomb] : packed) {
+      expect_error(ErrorKind::kInput, {name(codec), "more than"},
+                   [&] { static_cast<void>(unpacked(codec, bomb, 1 << 20)); });
+    }
+  });
+  EXPECT_GE(growth, 0);
+  EXPECT_LE(growth, 12 * 1024);
+}
+
+// A few bytes that claim as much as there may be.
+TEST(Codec, ClaimsTakeNoMemory) {
+  if (!test::kResidentMemoryIsOurs) GTEST_SKIP() << "resident memory is a sanitizer's";
+  const std::size_t most = std::size_t{2} << 30U;
+  const std::string size = number_bytes(0x7e000000, 4, false);
+  const std::string block = "LZ4Block" + std::string("\x26") + number_bytes(5, 4, false) + size;
+  const long growth = test::growth_of([&] {
+    expect_error(ErrorKind::kInput, {"lz4", "too short"},
+                 [&] { static_cast<void>(unpacked(Codec::kLz4, size + "abcdef", most)); });
+    expect_error(ErrorKind::kInput, {"lz4", "too short"}, [&] {
+      static_cast<void>(unpacked(Codec::kLz4Java, block + "sum." + "abcde" + kJavaEnd, most));
+    });
+    for (const Packer& packer : kPackers) {
+      EXPECT_EQ(unpacked(packer.codec, packer.pack("123456789"), most), "123456789");
+    }
+  });
+  EXPECT_GE(growth, 0);
+  EXPECT_LE(growth, 24 * 1024);
+}
+
+TEST(Codec, ManyThreadsAtOnce) {
+  std::mt19937 random(6);
+  const std::string plain = some_bytes(random, 100000);
+  std::vector<std::thread> threads;
+  for (const Packer& packer : kPackers) {
+    threads.emplace_back([&, packed = packer.pack(plain)] {
+      for (int round = 0; round < 10; ++round) {
+        EXPECT_EQ(unpacked(packer.codec, packed, plain.size()), plain);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(Checksums, KnownValues) {
+  EXPECT_EQ(crc32c(bytes_of("123456789")), 0xe3069283U);              // the check of the CRC
+  EXPECT_EQ(crc32c(bytes_of(std::string(32, '\0'))), 0x8a9136aaU);    // RFC 3720, B.4
+  EXPECT_EQ(crc32c(bytes_of(std::string(32, '\xff'))), 0x62a8ab43U);  // RFC 3720, B.4
+  std::mt19937 random(8);
+  for (std::size_t size = 1; size < 200; ++size) {
+    const std::string plain = some_bytes(random, size);
+    EXPECT_EQ(xxhash32(bytes_of(plain), 0), xxhash_of_frame(plain)) << size;
+  }
+}
+
+}  // namespace
+}  // namespace mw::io
