@@ -19,6 +19,7 @@
 #include "io/volume/nrrd/open_nrrd.h"
 #include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw/open_raw.h"
+#include "io/volume/zarr/open_zarr.h"
 
 namespace mw::io {
 namespace {
@@ -58,6 +59,7 @@ struct FolderFormat {
 constexpr std::array kFolderFormats{
     FolderFormat{is_precomputed, open_precomputed},
     FolderFormat{is_n5, open_n5},
+    FolderFormat{is_zarr, open_zarr},
 };
 
 /// By content, else by extension, so that the right reader explains what is wrong.
