@@ -4,7 +4,7 @@
 #include <map>
 
 #include "io/mesh/open_mesh.h"
-#include "io/mesh/vtkhdf/hdf5_handle.h"
+#include "io/hdf5/hdf5_handle.h"
 #include "tests/io/mesh/sample_mesh.h"
 
 namespace mw::io {
