@@ -41,11 +41,10 @@ struct FinishedMesh {
 
 /// Reads every block twice in raster order, first for counts and uses of vertices, then to write.
 /// Vertices ascend by the first block that references them, then by id; tets by block and canonical
-/// order inside it.  Coordinates are origin + spacing * voxel corner of the volume, and exactly
-/// that on corners, whatever the layers.
-/// grid: of the lattice, layers times the volume's shape.
-/// Memory: one block, what VertexRows and InterfaceShape remember, 16 bytes a label and the sink's
-/// buffers.
+/// order inside it.  Coordinates are those of the volume's space (to_world), on corners of its
+/// voxels whatever the layers; tets are positive in them. grid: of the lattice, layers times the
+/// volume's shape. Memory: one block, what VertexRows and InterfaceShape remember, 16 bytes a label
+/// and the sink's buffers.
 FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::DenseVolume& volume,
                     io::MeshSink& sink, const OutputOptions& options = {});
 

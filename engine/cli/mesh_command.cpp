@@ -17,6 +17,7 @@
 #include "engine/cli/run_report.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
+#include "engine/label_scan.h"
 #include "engine/resident_memory.h"
 #include "engine/voxel_lattice.h"
 #include "io/mesh/digest.h"
@@ -126,6 +127,15 @@ void print_lattice(const engine::LatticeFacts& lattice) {
             << " layers\n";
 }
 
+/// Says what the coordinates are, where the file does.
+void print_space(const io::VolumeSpace& space) {
+  std::string what;
+  if (space.frame != io::WorldFrame::kOwn) what = name(space.frame);
+  if (!space.unit.empty()) what += (what.empty() ? "" : ", ") + space.unit;
+  if (!is_upright(space)) what += (what.empty() ? "" : ", ") + std::string("axes turned");
+  if (!what.empty()) std::cout << "coordinates " << what << "\n";
+}
+
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
   const double seconds = run.resources.wall_seconds;
   const Index3 shape = run.volume.shape;
@@ -134,6 +144,7 @@ void print_summary(const FinishedRun& run, const MeshRequest& request) {
             << " % of the voxel corners)\n"
             << "tets        " << run.engine.tets << "\n";
   print_lattice(run.engine.lattice);
+  print_space(run.volume.space);
   std::cout << "seconds     " << format_fixed(seconds, 2) << "\n"
             << "voxels/s    " << format_fixed(static_cast<double>(shape.product()) / seconds, 0)
             << "\n"
@@ -160,7 +171,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   engine::check(opened->info(), request.settings);
   const InterruptibleVolume volume(*opened);
   const FingerprintVolume fingerprint(volume);
-  const io::LabelTable table = io::collect_labels(fingerprint);
+  const io::LabelTable table = engine::collect_labels(fingerprint, request.threads);
   FinishedRun run{.volume = volume.info(), .labels = table};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());

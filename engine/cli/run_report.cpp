@@ -20,6 +20,9 @@ ordered_json input_json(const FinishedRun& run) {
           {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
           {"spacing_xyz", info.space.spacing},
           {"origin_xyz", info.space.origin},
+          {"axes_xyz", info.space.axes},
+          {"frame", io::name(info.space.frame)},
+          {"unit", info.space.unit.empty() ? ordered_json() : ordered_json(info.space.unit)},
           {"labels", run.labels.size()},
           {"voxels", info.shape.product()}};
 }

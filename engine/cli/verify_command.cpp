@@ -14,8 +14,10 @@
 #include "engine/cli/shape_facts.h"
 #include "engine/cli/values.h"
 #include "engine/cli/volume_options.h"
+#include "io/mesh/array_axes.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/audit/audit.h"
+#include "kernels/audit/kept_orientation.h"
 #include "kernels/core/error.h"
 #include "kernels/core/layers.h"
 
@@ -116,21 +118,43 @@ std::vector<std::string> changed_labels(const audit::AuditReport& audit,
   return out;
 }
 
+/// Audits in the array's axes a mesh that lies in another direction, and that the file's
+/// coordinates are as positive as those.
+audit::AuditReport audit_turned(const audit::VoxelLabels& subject, std::size_t label_count,
+                                io::MeshData mesh, std::span<const Label> labels,
+                                const io::VolumeSpace& space, const audit::AuditOptions& options) {
+  const std::vector<io::Position> written = mesh.vertices;
+  turn_to_array(mesh, space, layers_of(space.spacing));
+  const audit::AuditMesh turned = audit_view(mesh, labels);
+  audit::AuditReport report =
+      audit::audit(subject, label_count, turned, {.spacing = space.spacing, .origin = {}}, options);
+  if (report.checks.front().passed) {
+    report.checks.push_back(audit::check_kept_orientation(turned, written, is_mirrored(space)));
+  }
+  return report;
+}
+
 Verdict judge(const VerifyJob& job) {
   const std::unique_ptr<io::LabelVolume> volume = open(job.volume);
   io::LabelTable table = io::collect_labels(*volume);
   const io::VolumeInfo& info = volume->info();
   std::vector<Label> voxels(static_cast<std::size_t>(info.shape.product()));
   io::DenseVolume(*volume, table).read({{0, 0, 0}, info.shape}, voxels);
-  const io::MeshData mesh = io::read_mesh(job.mesh);
+  io::MeshData mesh = io::read_mesh(job.mesh);
   const std::vector<Label> labels = dense_labels(mesh, table);
   Verdict verdict;
   audit::AuditOptions options = job.audit;
   if (job.in_layers) options.layers = layers_of(info.space.spacing);
   verdict.layers = options.layers;
-  verdict.audit =
-      audit::audit({.shape = info.shape, .labels = voxels}, table.size(), audit_view(mesh, labels),
-                   {.spacing = info.space.spacing, .origin = info.space.origin}, options);
+  const audit::VoxelLabels subject{.shape = info.shape, .labels = voxels};
+  if (is_upright(info.space)) {
+    verdict.audit =
+        audit::audit(subject, table.size(), audit_view(mesh, labels),
+                     {.spacing = info.space.spacing, .origin = info.space.origin}, options);
+  } else {
+    verdict.audit =
+        audit_turned(subject, table.size(), std::move(mesh), labels, info.space, options);
+  }
   verdict.labels_changed = changed_labels(verdict.audit, table);
   verdict.table = std::move(table);
   return verdict;

@@ -41,10 +41,12 @@ const char* optimizer_name(Optimizer optimizer) {
 
 std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& s) {
   const Index3 shape = volume.shape;
-  return io::text("shape = ", shape.x, ",", shape.y, ",", shape.z, "\n",              //
-                  "type = ", io::name(volume.type), "\n",                             //
-                  "spacing = ", triple(volume.space.spacing), "\n",                         //
-                  "origin = ", triple(volume.space.origin), "\n",                           //
+  return io::text("shape = ", shape.x, ",", shape.y, ",", shape.z, "\n",  //
+                  "type = ", io::name(volume.type), "\n",                 //
+                  "spacing = ", triple(volume.space.spacing), "\n",       //
+                  "axes = ", triple(volume.space.axes[0]), " ", triple(volume.space.axes[1]), " ",
+                  triple(volume.space.axes[2]), "\n",                                 //
+                  "origin = ", triple(volume.space.origin), "\n",                     //
                   "window = ", s.window, "\n",                                        //
                   "marches = ", s.marches, "\n",                                      //
                   "order = ", s.order == Order::kColour ? "colour" : "raster", "\n",  //

@@ -10,7 +10,7 @@
 
 namespace mw::engine {
 
-/// A line "name = value" for shape, spacing and origin of the volume and for each setting.
+/// A line "name = value" for shape, type and space of the volume and for each setting.
 [[nodiscard]] std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& settings);
 
 }  // namespace mw::engine

@@ -18,8 +18,9 @@ namespace {
 class CountingVolume : public LabelVolume {
  public:
   CountingVolume(Index3 shape, std::mt19937& random) {
-    info_ = {
-        .shape = shape, .spacing = {0.5, 3, 1.25}, .origin = {-1, 2, 0.25}, .format = "memory"};
+    info_ = {.shape = shape,
+             .space = {.spacing = {0.5, 3, 1.25}, .origin = {-1, 2, 0.25}},
+             .format = "memory"};
     for (std::int64_t i = 0; i < shape.product(); ++i) labels_.push_back(random());
   }
 

@@ -46,7 +46,8 @@ TEST(VolumeErrors, Npy) {
   expect_refused(dir, "a.npy", "\x93NUMPY\1", {"header", "truncated"});
   expect_refused(dir, "a.npy", npy("|u1", "(2, 2, 2)").substr(0, 40), {"header", "truncated"});
   expect_refused(dir, "a.npy", "something else", {"magic"});
-  expect_refused(dir, "a.npy", npy("<f4", "(2, 2, 2)"), {"descr", "floating point"});
+  expect_refused(dir, "a.npy", npy("<f2", "(2, 2, 2)"), {"descr", "floats of 32"});
+  expect_refused(dir, "a.npy", npy("<c8", "(2, 2, 2)"), {"descr", "unsupported"});
   expect_refused(dir, "a.npy", npy("<u3", "(2, 2, 2)"), {"descr", "unsupported"});
   expect_refused(dir, "a.npy", npy("<U4", "(2, 2, 2)"), {"descr", "unsupported"});
   expect_refused(dir, "a.npy", npy("|u1", "(8,)"), {"shape", "1 axes"});
@@ -77,19 +78,20 @@ TEST(VolumeErrors, Nifti) {
       change(bad);
       refuse(bad, std::move(pieces));
     };
-    bend([](NiftiSample& s) { s.datatype = 16; }, {"datatype 16", "floating point"});
+    bend([](NiftiSample& s) { s.datatype = 1536; }, {"datatype 1536", "floats of 32"});
     bend([](NiftiSample& s) { s.datatype = 128; }, {"datatype 128", "unsupported"});
     bend([](NiftiSample& s) { s.dim[0] = 2; }, {"dim[0]"});
     bend([](NiftiSample& s) { s.dim = {4, 5, 4, 3, 2, 1, 1, 1}; }, {"dim[4]"});
     bend([](NiftiSample& s) { s.dim[2] = 0; }, {"dim", "(y)"});
     bend([](NiftiSample& s) { s.dim[1] = -5; }, {"dim", "(x)"});
-    bend([](NiftiSample& s) { s.pixdim[2] = 0; }, {"pixdim[2]", "--spacing"});
-    bend([&](NiftiSample& s) { s.pixdim[3] = nan; }, {"pixdim[3]", "--spacing"});
-    bend([](NiftiSample& s) { s.slope = 2; }, {"scl_slope"});
-    bend([](NiftiSample& s) { s.inter = 1; }, {"scl_inter"});
+    bend([](NiftiSample& s) { s.pixdim[2] = 0; }, {"pixdim (y)", "--spacing"});
+    bend([&](NiftiSample& s) { s.pixdim[3] = nan; }, {"pixdim (z)", "--spacing"});
+    bend([&](NiftiSample& s) { s.slope = std::numeric_limits<double>::infinity(); }, {"scl_slope"});
+    bend([&](NiftiSample& s) { s.inter = -std::numeric_limits<double>::infinity(); },
+         {"scl_inter"});
     bend([](NiftiSample& s) { s.vox_offset = 100; }, {"vox_offset"});
     bend([](NiftiSample& s) { s.magic = s.version == 1 ? "ni1" : "ni2"; }, {"magic", ".img"});
-    bend([&](NiftiSample& s) { s.sform_code = 1, s.translation[1] = nan; }, {"offset[1]"});
+    bend([&](NiftiSample& s) { s.sform_code = 1, s.translation[1] = nan; }, {"sform offset"});
   }
 }
 
@@ -112,7 +114,7 @@ TEST(VolumeErrors, Nrrd) {
   const std::string sizes = "dimension: 3\nsizes: 2 2 2\n";
   const std::string good = "type: uchar\nencoding: raw\n" + sizes;
   refuse("encoding: raw\n" + sizes, {"type", "missing"});
-  refuse("type: float\nencoding: raw\n" + sizes, {"float", "integers"});
+  refuse("type: block\nencoding: raw\n" + sizes, {"block", "integers"});
   refuse("type: short\nencoding: raw\n" + sizes, {"endian", "missing"});
   refuse("type: uchar\nencoding: ascii\n" + sizes, {"encoding", "ascii"});
   refuse("type: uchar\nencoding: gzip\n" + sizes, {"gzip"});

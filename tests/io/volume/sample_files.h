@@ -27,8 +27,13 @@ struct NiftiSample {
   double vox_offset = 0;  ///< 0: the least
   double slope = 1;
   double inter = 0;
+  int qform_code = 0;
   int sform_code = 0;
+  std::array<double, 3> quaternion{0, 0, 0};
+  std::array<double, 3> qoffset{-1, -2, -3};
+  std::array<std::array<double, 3>, 3> matrix{{{0.5, 0, 0}, {0, 2, 0}, {0, 0, 3}}};
   std::array<double, 3> translation{10, 20, 30};
+  int xyzt_units = 0;
   std::string magic;
 
   [[nodiscard]] std::string header() const {
@@ -51,7 +56,14 @@ struct NiftiSample {
     real(h, one ? 112 : 176, slope);
     real(h, one ? 116 : 184, inter);
     put(h, one ? 254 : 348, number_bytes(static_cast<std::uint64_t>(sform_code), one ? 2 : 4, big));
+    put(h, one ? 252 : 344, number_bytes(static_cast<std::uint64_t>(qform_code), one ? 2 : 4, big));
+    put(h, one ? 123 : 500, number_bytes(static_cast<std::uint64_t>(xyzt_units), one ? 1 : 4, big));
     for (std::size_t i = 0; i < 3; ++i) {
+      real(h, one ? 256 + 4 * i : 352 + 8 * i, quaternion[i]);
+      real(h, one ? 268 + 4 * i : 376 + 8 * i, qoffset[i]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        real(h, one ? 280 + 16 * i + 4 * k : 400 + 32 * i + 8 * k, matrix[i][k]);
+      }
       real(h, one ? 280 + 16 * i + 12 : 400 + 32 * i + 24, translation[i]);
     }
     return h;
