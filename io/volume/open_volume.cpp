@@ -10,6 +10,7 @@
 #include "io/file/file_source.h"
 #include "io/file/open_bytes.h"
 #include "io/volume/checks.h"
+#include "io/volume/hdf5/open_hdf5.h"
 #include "io/volume/n5/open_n5.h"
 #include "io/volume/nifti/nifti_header.h"
 #include "io/volume/nifti/open_nifti.h"
@@ -43,6 +44,10 @@ constexpr std::array kFileFormats{
                  return open_npy(std::move(source), options);
                }},
     FileFormat{".nrrd .nhdr", has_nrrd_text, open_nrrd},
+    FileFormat{".h5 .hdf5 .hdf .he5 .h5ad .dream3d", has_hdf5_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_hdf5(std::move(source), options);
+               }},
     FileFormat{".nii", has_nifti_magic,
                [](auto source, const auto&, const auto& options) {
                  return open_nifti(std::move(source), options);
@@ -119,7 +124,7 @@ std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
   const FileFormat* format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
   if (format != nullptr) return format->open(std::move(source), path, options);
   fail_input(path.string(), "format", "unknown by content and by extension",
-             "supported are .npy, .nii, .nrrd and .nhdr, each also as .gz, and raw files with "
+             "supported are .npy, .nii, .nrrd, .nhdr and .h5, each also as .gz, and raw files with "
              "--shape and --dtype");
 }
 
