@@ -10,10 +10,14 @@
 #include "io/file/file_source.h"
 #include "io/file/open_bytes.h"
 #include "io/volume/checks.h"
+#include "io/volume/metaimage/metaimage_header.h"
+#include "io/volume/metaimage/open_metaimage.h"
 #include "io/volume/nifti/nifti_header.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/npy_header.h"
 #include "io/volume/npy/open_npy.h"
+#include "io/volume/npz/open_npz.h"
+#include "io/volume/npz/zip_directory.h"
 #include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/nrrd/open_nrrd.h"
 #include "io/volume/raw/open_raw.h"
@@ -39,7 +43,12 @@ constexpr std::array kFileFormats{
                [](auto source, const auto&, const auto& options) {
                  return open_npy(std::move(source), options);
                }},
+    FileFormat{".npz", has_zip_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_npz(std::move(source), options);
+               }},
     FileFormat{".nrrd .nhdr", has_nrrd_text, open_nrrd},
+    FileFormat{".mha .mhd", has_metaimage_magic, open_metaimage},
     FileFormat{".nii", has_nifti_magic,
                [](auto source, const auto&, const auto& options) {
                  return open_nifti(std::move(source), options);
