@@ -170,7 +170,7 @@ TEST(MetaImage, WhatIsWrongIsNamed) {
   refuse(with("ObjectType = Tube\n"), {"ObjectType", "Tube"});
   refuse(with("BinaryData = False\n"), {"BinaryData"});
   refuse(with("DimSize = 5 4\n"), {"DimSize"});
-  refuse(with("DimSize = 5 0 3\n"), {"DimSize (y)", "not positive"});
+  refuse(with("DimSize = 5 0 3\n"), {"DimSize' (y)", "not positive"});
   refuse(with("DimSize = 5 4 4\n"), {"80 bytes", "holds 60"});
   refuse(with("DimSize = 1048576 1048576 1048576\n"), {"holds 60"});
   refuse(with("NDims = 99\n"), {"NDims"});
