@@ -21,6 +21,7 @@
 #include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/nrrd/open_nrrd.h"
 #include "io/volume/raw/open_raw.h"
+#include "io/volume/tiff/open_tiff.h"
 
 namespace mw::io {
 namespace {
@@ -49,6 +50,10 @@ constexpr std::array kFileFormats{
                }},
     FileFormat{".nrrd .nhdr", has_nrrd_text, open_nrrd},
     FileFormat{".mha .mhd", has_metaimage_magic, open_metaimage},
+    FileFormat{".tif .tiff", has_tiff_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_tiff(std::move(source), options);
+               }},
     FileFormat{".nii", has_nifti_magic,
                [](auto source, const auto&, const auto& options) {
                  return open_nifti(std::move(source), options);
