@@ -20,7 +20,10 @@
 #include "io/volume/npz/zip_directory.h"
 #include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/nrrd/open_nrrd.h"
+#include "io/volume/png/open_png.h"
+#include "io/volume/png/png_file.h"
 #include "io/volume/raw/open_raw.h"
+#include "io/volume/slices/slice_folder.h"
 #include "io/volume/tiff/open_tiff.h"
 
 namespace mw::io {
@@ -54,6 +57,10 @@ constexpr std::array kFileFormats{
                [](auto source, const auto&, const auto& options) {
                  return open_tiff(std::move(source), options);
                }},
+    FileFormat{".png", has_png_magic,
+               [](auto, const auto& path, const auto& options) {
+                 return open_png_slices({path}, options);
+               }},
     FileFormat{".nii", has_nifti_magic,
                [](auto source, const auto&, const auto& options) {
                  return open_nifti(std::move(source), options);
@@ -67,7 +74,10 @@ struct FolderFormat {
                                        const OpenOptions& options);
 };
 
-constexpr std::array<FolderFormat, 0> kFolderFormats{};
+/// Slices come last: other stores may hold pictures too.
+constexpr std::array kFolderFormats{
+    FolderFormat{is_slice_folder, open_slice_folder},
+};
 
 /// By content, else by extension, so that the right reader explains what is wrong.
 const FileFormat* format_of(std::span<const std::byte> head, std::filesystem::path path) {
