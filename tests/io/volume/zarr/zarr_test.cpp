@@ -69,16 +69,18 @@ TEST(Zarr, ManyThreadsReadWhatIsThere) {
     const TempDir dir;
     ZarrSample sample = random_sample(random, 9);
     sample.shape = {40, 31, 29};
+    sample.leading = 1;
+    sample.chunk = {1, 6, 7, 5};
     sample.labels = random_labels(random, sample.shape, sample.type);
     sample.packing = {"zstd", "crc32c"};
     if (sharded) make_shards(random, sample);
     sample.write_v3(dir.path());
     const auto volume = open_volume(dir.path(), {.cache_bytes = 2000});
     std::vector<std::thread> threads;
-    for (unsigned seed = 0; seed < 8; ++seed) {
+    for (unsigned seed = 0; seed < 6; ++seed) {
       threads.emplace_back([&, seed] {
         Random own(seed);
-        for (int i = 0; i < 3; ++i) expect_regions(own, *volume, sample.shape, sample.labels);
+        for (int i = 0; i < 2; ++i) expect_regions(own, *volume, sample.shape, sample.labels);
       });
     }
     for (std::thread& thread : threads) thread.join();
