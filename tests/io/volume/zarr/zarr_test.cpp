@@ -186,6 +186,33 @@ TEST(Zarr, FillValuesThatAreNoLabelsMatterOnlyWhereTheyAreRead) {
   }
 }
 
+TEST(ZarrV2, SeparatorThatIsNotSaid) {
+  Random random(5);
+  for (const char separator : {'.', '/'}) {
+    const TempDir dir;
+    ZarrSample sample{.shape = {7, 6, 5}, .chunk = {2, 3, 4}, .separator = separator};
+    sample.labels = random_labels(random, sample.shape, sample.type);
+    sample.write_v2(dir.path());
+    Json json = sample.v2_metadata();
+    json.erase("dimension_separator");
+    write_file(dir.path() / ".zarray", json.dump());
+    EXPECT_EQ(read_all(*open_volume(dir.path())), sample.labels);
+  }
+}
+
+// Chunks of several entries along an axis that has one.
+TEST(Zarr, MemoryCountsWholeChunks) {
+  Random random(6);
+  const TempDir dir;
+  ZarrSample sample{.shape = {4, 4, 4}, .leading = 1, .chunk = {5, 2, 2, 2}};
+  sample.labels = random_labels(random, sample.shape, sample.type);
+  sample.write_v2(dir.path());
+  const auto wide = open_volume(dir.path())->buffer_bytes(1);
+  sample.chunk = {1, 2, 2, 2};
+  sample.write_v2(dir.path());
+  EXPECT_GE(wide, open_volume(dir.path())->buffer_bytes(1) + 4 * 8);
+}
+
 // Booleans, floats, and consolidated metadata that are wrong and nobody reads.
 TEST(ZarrV2, OtherTypesAndFilesBeside) {
   const TempDir dir;
