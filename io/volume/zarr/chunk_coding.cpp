@@ -58,14 +58,17 @@ std::uint64_t most_packed(const ZarrArray& array) {
   return most_packed_bytes(chunk_bytes(array));
 }
 
-std::uint64_t unpack_scratch(const ZarrArray& array) {
+std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes) {
   const std::uint64_t size = chunk_bytes(array);
+  const std::uint64_t used = static_cast<std::uint64_t>(axes.pick(array.chunk.shape, 1).product()) *
+                             static_cast<std::uint64_t>(byte_size(array.type));
   std::uint64_t library = 0;
   for (const PackStep& step : array.chunk.steps) {
     if (!step.is_crc32c) library = std::max(library, most_scratch(step.codec, size));
   }
   // What goes into a step, and what comes out of it when another follows.
-  return most_packed(array) * std::clamp<std::uint64_t>(array.chunk.steps.size(), 1, 2) + library;
+  return most_packed(array) * std::clamp<std::uint64_t>(array.chunk.steps.size(), 1, 2) + library +
+         (size - used);
 }
 
 }  // namespace mw::io

@@ -23,7 +23,8 @@ void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
 
 /// The most that a packed chunk may have.
 [[nodiscard]] std::uint64_t most_packed(const ZarrArray& array);
-/// The most that reading and unpacking a chunk takes beside its voxels.
-[[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array);
+/// The most that reading and unpacking a chunk takes beside its voxels that are in the volume: axes
+/// of one entry may have chunks of more.
+[[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes);
 
 }  // namespace mw::io

@@ -37,8 +37,15 @@ std::string way_out_of_image(const std::vector<std::string>& labels) {
 }
 
 ZarrArray parse_array(const ZarrNode& node) {
-  return node.version == 3 ? parse_zarr_v3(node.metadata, node.metadata_file)
-                           : parse_zarr_v2(node.metadata, node.metadata_file);
+  if (node.version == 3) return parse_zarr_v3(node.metadata, node.metadata_file);
+  ZarrArray array = parse_zarr_v2(node.metadata, node.metadata_file);
+  // Early writers of OME-NGFF left the separator out; "." would find no chunk and read fill values.
+  std::error_code ignored;
+  if (!node.metadata.contains("dimension_separator") &&
+      std::filesystem::is_directory(node.folder / "0", ignored)) {
+    array.keys.separator = '/';
+  }
+  return array;
 }
 
 std::vector<std::string> axis_names(const ZarrNode& node, const ZarrArray& array,

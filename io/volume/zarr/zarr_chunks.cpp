@@ -59,7 +59,9 @@ class ChunkFiles : public ZarrChunks {
     if (!file) return fill_of(chunk);
     return unpack_chunk(array(), axes(), read_rest(*file, 0, most_packed(array())), file->name());
   }
-  [[nodiscard]] std::uint64_t scratch_bytes() const override { return unpack_scratch(array()); }
+  [[nodiscard]] std::uint64_t scratch_bytes() const override {
+    return unpack_scratch(array(), axes());
+  }
 };
 
 class ShardFiles : public ZarrChunks {
@@ -83,7 +85,7 @@ class ShardFiles : public ZarrChunks {
     return unpack_chunk(array(), axes(), read_range(path, *range, chunk), name_of(chunk));
   }
   [[nodiscard]] std::uint64_t scratch_bytes() const override {
-    return unpack_scratch(array()) + indices_.most_bytes();
+    return unpack_scratch(array(), axes()) + indices_.most_bytes();
   }
 
  private:

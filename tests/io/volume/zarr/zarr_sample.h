@@ -201,7 +201,7 @@ struct ZarrSample {
     return json;
   }
   void write_v2(const std::filesystem::path& folder) const {
-    write_file(folder / ".zarray", v2_metadata().dump(1));
+    write_file(folder / ".zarray", v2_metadata().dump());
     write_chunks(folder, "");
   }
 
@@ -252,7 +252,7 @@ struct ZarrSample {
     return (is_float(type) ? "float" : is_signed(type) ? "int" : "uint") + bits;
   }
   void write_v3(const std::filesystem::path& folder) const {
-    write_file(folder / "zarr.json", v3_metadata().dump(1));
+    write_file(folder / "zarr.json", v3_metadata().dump());
     write_chunks(folder, v2_keys ? "" : std::string("c") + separator);
   }
 };
