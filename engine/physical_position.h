@@ -9,7 +9,7 @@
 
 namespace mw::engine {
 
-/// Where a point of a lattice that cuts a volume's voxels into layers is in the volume's space.  One
+/// Where a point of a lattice that cuts a volume's voxels into layers is in the volume's space. One
 /// division a coordinate, so that corners of the volume's voxels stay whole numbers.
 [[nodiscard]] inline io::Position physical(Point p, const io::VolumeSpace& space,
                                            Index3 layers = {1, 1, 1}) {

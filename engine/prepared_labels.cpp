@@ -4,7 +4,9 @@
 #include "engine/prepared_labels.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "engine/reading_tiles.h"
 #include "engine/tbb_for.h"
 #include "kernels/coarsen/carrier_faces.h"
 #include "kernels/coarsen/coarsen.h"
@@ -14,8 +16,6 @@ namespace mw::engine {
 namespace {
 
 constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
-/// Bricks that are read from the volume at once, along x: long rows, bounded memory.
-constexpr std::int64_t kBricksPerRead = 32;
 /// Bricks along an axis of a tile that is coarsened at once; the halo is one brick.
 constexpr std::int64_t kBricksPerTile = 4;
 static_assert(kCoarsenHalo <= kBrick);
@@ -60,7 +60,8 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
                                int threads, const std::filesystem::path& folder)
     : original_(volume.info().shape, volume.table().size(), folder),
       label_voxels_(volume.table().size()) {
-  read_bricks(volume);
+  read_bricks(volume, threads);
+  volume.raw().drop_buffers();  // it is not read again
   // Coarsening keeps the topology of labels, not that of interfaces.
   if (settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder);
@@ -77,32 +78,36 @@ LabelBox PreparedLabels::shape(const Box3& box) const {
   return read(shapes(), box);
 }
 
-void PreparedLabels::read_bricks(const io::DenseVolume& volume) {
-  const Index3 bricks = original_.bricks();
-  std::vector<Label> one;
-  each_index(
-      Index3{(bricks.x + kBricksPerRead - 1) / kBricksPerRead, bricks.y, bricks.z},
-      [&](Index3 run) {
-        const Index3 first{run.x * kBricksPerRead, run.y, run.z};
-        const Index3 last{std::min(first.x + kBricksPerRead, bricks.x), run.y + 1, run.z + 1};
-        LabelBox labels{clipped({scaled(first, kBrick), scaled(last, kBrick)}, original_.shape()),
-                        {}};
-        labels.labels.resize(static_cast<std::size_t>(labels.box.voxels()));
-        volume.read(labels.box, labels.labels);
-        each_index(Box3{first, last}, [&](Index3 brick) {
-          cut_brick(labels, original_.box_of(brick), one);
-          original_.write(brick, one);
-          count(brick, one);
-        });
-      });
+void PreparedLabels::read_bricks(const io::DenseVolume& volume, int threads) {
+  const ReadingTiles tiles(volume.info());
+  tbb_each_index(threads, tiles.count(), [&](Index3 tile) { read_tile(volume, tiles.box(tile)); });
 }
 
+void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) {
+  LabelBox labels{tile, std::vector<Label>(static_cast<std::size_t>(tile.voxels()))};
+  volume.read(tile, labels.labels);
+  const auto bricks = [](std::int64_t voxels) { return (voxels + kBrick - 1) / kBrick; };
+  const Index3 first{tile.lo.x / kBrick, tile.lo.y / kBrick, tile.lo.z / kBrick};
+  const Index3 last{bricks(tile.hi.x), bricks(tile.hi.y), bricks(tile.hi.z)};
+  std::vector<Label> one;
+  each_index(Box3{first, last}, [&](Index3 brick) {
+    cut_brick(labels, original_.box_of(brick), one);
+    original_.write(brick, one);
+    count(brick, one);
+  });
+}
+
+/// Sums of whole numbers: the same whichever thread adds first.
 void PreparedLabels::count(Index3 brick, std::span<const Label> voxels) {
+  const auto add = [&](Label label, std::uint64_t more) {
+    std::atomic_ref(label_voxels_[label]).fetch_add(more, std::memory_order_relaxed);
+  };
   const Label only = original_.uniform_label(brick);
-  if (only != kExterior) {
-    label_voxels_[only] += voxels.size();
-  } else {
-    for (const Label label : voxels) ++label_voxels_[label];
+  if (only != kExterior) return add(only, voxels.size());
+  for (auto run = voxels.begin(); run != voxels.end();) {
+    const auto end = std::find_if(run, voxels.end(), [&](Label l) { return l != *run; });
+    add(*run, static_cast<std::uint64_t>(end - run));
+    run = end;
   }
 }
 

@@ -16,8 +16,8 @@ namespace mw::engine {
 /// Thread safety: const members may be called from many threads.
 class PreparedLabels {
  public:
-  /// Reads the volume once, and coarsens it when the start mesh asks for that.
-  /// folder: where temporary files go.  threads: of all but the reading; they change nothing.
+  /// Reads the volume once, drops its buffers, and coarsens it when the start mesh asks for that.
+  /// folder: where temporary files go.  threads: they change nothing.
   /// ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
   /// Memory while it works: preparation_bytes() a thread; 8 bytes a label stay.
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
@@ -32,7 +32,8 @@ class PreparedLabels {
   [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return label_voxels_; }
 
  private:
-  void read_bricks(const io::DenseVolume& volume);
+  void read_bricks(const io::DenseVolume& volume, int threads);
+  void read_tile(const io::DenseVolume& volume, const Box3& tile);
   void count(Index3 brick, std::span<const Label> voxels);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);

@@ -145,12 +145,13 @@ void require_least(const RunLayout& layout, const io::DenseVolume& volume,
                    const MemoryBudget& budget) {
   const std::uint64_t always = program_bytes(volume.table().size(), threads) +
                                prepared_label_bytes(volume.info().shape) + index_bytes(layout);
-  const std::uint64_t least = always + std::max(preparation_bytes(settings), sink.buffer_bytes());
+  const std::uint64_t reading = preparation_bytes(settings) + volume.raw().buffer_bytes(1);
+  const std::uint64_t least = always + std::max(reading, sink.buffer_bytes());
   if (least > budget.limit()) budget.fail(least);
 }
 
 /// Reads and coarsens the labels; their memory is `room`, and more while they are made: on so many
-/// threads that this stays below a quarter of the budget.
+/// threads that this stays below a quarter of the budget, and what the volume keeps of its file.
 PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settings, int threads,
                        const StoreOptions& options, RunStore& store,
                        MemoryBudget::Reservation& room) {
@@ -158,10 +159,11 @@ PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settin
   const std::uint64_t each = preparation_bytes(settings);
   const std::uint64_t at_once =
       std::clamp<std::uint64_t>(options.memory / 4 / each, 1, static_cast<std::uint64_t>(threads));
-  const auto scratch = store.reserve(Purpose::kLabels, at_once * each);
+  const int workers = static_cast<int>(at_once);
+  const auto scratch =
+      store.reserve(Purpose::kLabels, at_once * each + volume.raw().buffer_bytes(workers));
   const std::filesystem::path& folder = options.workdir;
-  return {volume, settings, static_cast<int>(at_once),
-          folder.empty() ? io::scratch_folder() : folder};
+  return {volume, settings, workers, folder.empty() ? io::scratch_folder() : folder};
 }
 
 /// Writes what the last march left; memory for that comes first, blocks are spilled to make room.

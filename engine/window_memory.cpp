@@ -27,7 +27,7 @@ constexpr std::uint64_t kBytesPerLabel = 96;
 
 // Places of a brick of the input and of a coarsened one, and its large cells.
 constexpr std::uint64_t kBytesPerBrick = 20;
-// A tile and its halo before and after coarsening, or a row of bricks as raw labels.
+// A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
 

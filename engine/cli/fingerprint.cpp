@@ -21,7 +21,7 @@ std::uint64_t mixed(std::uint64_t v) {
 }  // namespace
 
 void FingerprintVolume::read(const Box3& box, std::span<RawLabel> out) const {
-  volume_->read(box, out);
+  below().read(box, out);
   const Box3 all{{0, 0, 0}, info().shape};
   std::uint64_t sum = 0;
   std::size_t next = 0;

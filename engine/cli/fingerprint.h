@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "io/volume/label_volume.h"
+#include "io/volume/volume_view.h"
 
 namespace mw::cli {
 
@@ -13,17 +13,15 @@ namespace mw::cli {
 /// whatever boxes they are read in.  Content rather than name, size and time of the file: a copy
 /// or a conversion is the same input, a file edited in place is not; and all labels are read once
 /// at the start of a run anyway.  It guards against mistakes, not against malice.
-class FingerprintVolume : public io::LabelVolume {
+class FingerprintVolume : public io::VolumeView {
  public:
-  explicit FingerprintVolume(const io::LabelVolume& volume) : volume_(&volume) {}
-  [[nodiscard]] const io::VolumeInfo& info() const override { return volume_->info(); }
+  using VolumeView::VolumeView;
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
   /// 16 hexadecimal digits.  REQUIRES: every voxel has been read exactly once.
   [[nodiscard]] std::string text() const;
 
  private:
-  const io::LabelVolume* volume_;
   mutable std::atomic<std::uint64_t> sum_ = 0;
 };
 

@@ -3,7 +3,7 @@
 // Ctrl-C and SIGTERM end a run between two steps, so that partial files are removed.
 #pragma once
 
-#include "io/volume/label_volume.h"
+#include "io/volume/volume_view.h"
 
 namespace mw::cli {
 
@@ -20,17 +20,13 @@ void watch_interrupts();
 void stop_if_interrupted();
 
 /// A volume whose reading can be interrupted.
-class InterruptibleVolume : public io::LabelVolume {
+class InterruptibleVolume : public io::VolumeView {
  public:
-  explicit InterruptibleVolume(const io::LabelVolume& volume) : volume_(&volume) {}
-  [[nodiscard]] const io::VolumeInfo& info() const override { return volume_->info(); }
+  using VolumeView::VolumeView;
   void read(const Box3& box, std::span<RawLabel> out) const override {
     stop_if_interrupted();
-    volume_->read(box, out);
+    below().read(box, out);
   }
-
- private:
-  const io::LabelVolume* volume_;
 };
 
 }  // namespace mw::cli

@@ -17,6 +17,7 @@
 #include "engine/cli/run_report.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
+#include "engine/label_scan.h"
 #include "engine/resident_memory.h"
 #include "engine/voxel_lattice.h"
 #include "io/mesh/digest.h"
@@ -170,7 +171,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   engine::check(opened->info(), request.settings);
   const InterruptibleVolume volume(*opened);
   const FingerprintVolume fingerprint(volume);
-  const io::LabelTable table = io::collect_labels(fingerprint);
+  const io::LabelTable table = engine::collect_labels(fingerprint, request.threads);
   FinishedRun run{.volume = volume.info(), .labels = table};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());

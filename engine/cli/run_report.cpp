@@ -22,7 +22,7 @@ ordered_json input_json(const FinishedRun& run) {
           {"origin_xyz", info.space.origin},
           {"axes_xyz", info.space.axes},
           {"frame", io::name(info.space.frame)},
-          {"unit", info.space.unit.empty() ? ordered_json(nullptr) : info.space.unit},
+          {"unit", info.space.unit.empty() ? ordered_json() : ordered_json(info.space.unit)},
           {"labels", run.labels.size()},
           {"voxels", info.shape.product()}};
 }

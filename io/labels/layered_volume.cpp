@@ -36,18 +36,19 @@ void spread(const RawLabel* from, std::int64_t lo, std::int64_t hi, std::int64_t
 }  // namespace
 
 LayeredVolume::LayeredVolume(const LabelVolume& volume, Index3 layers)
-    : volume_(&volume), layers_(layers), info_(volume.info()) {
+    : VolumeView(volume), layers_(layers), info_(volume.info()) {
   info_.shape = layered_shape(info_.shape, layers);
   info_.space.spacing = layered_spacing(info_.space.spacing, layers);
+  info_.chunk = layered_shape(info_.chunk, layers);
 }
 
 void LayeredVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
   if (out.empty()) return;
-  if (layers_ == Index3{1, 1, 1}) return volume_->read(box, out);
-  const Box3 below = voxels_below(box, layers_);
-  std::vector<RawLabel> labels(static_cast<std::size_t>(below.voxels()));
-  volume_->read(below, labels);
+  if (layers_ == Index3{1, 1, 1}) return below().read(box, out);
+  const Box3 under = voxels_below(box, layers_);
+  std::vector<RawLabel> labels(static_cast<std::size_t>(under.voxels()));
+  below().read(under, labels);
   const std::int64_t row = box.shape().x, plane = row * box.shape().y;
   RawLabel* to = out.data();
   for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
@@ -60,8 +61,8 @@ void LayeredVolume::read(const Box3& box, std::span<RawLabel> out) const {
         std::copy_n(to - row, row, to);
         continue;
       }
-      const Index3 first{below.lo.x, y / layers_.y, z / layers_.z};
-      spread(labels.data() + below.offset(first), box.lo.x, box.hi.x, layers_.x, to);
+      const Index3 first{under.lo.x, y / layers_.y, z / layers_.z};
+      spread(labels.data() + under.offset(first), box.lo.x, box.hi.x, layers_.x, to);
     }
   }
 }

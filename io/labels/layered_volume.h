@@ -3,14 +3,14 @@
 // A volume of thick slices, seen as thin ones.
 #pragma once
 
-#include "io/volume/label_volume.h"
+#include "io/volume/volume_view.h"
 
 namespace mw::io {
 
 /// A volume whose voxels are cut into layers as they are read: the shape is `layers` times larger,
 /// the spacing as much smaller, everything else the same.
 /// Thread safety: as the volume below, which must outlive it.
-class LayeredVolume : public LabelVolume {
+class LayeredVolume : public VolumeView {
  public:
   /// REQUIRES: layers from 1 to kMaxLayers (kernels/core/layers.h).
   LayeredVolume(const LabelVolume& volume, Index3 layers);
@@ -22,7 +22,6 @@ class LayeredVolume : public LabelVolume {
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
  private:
-  const LabelVolume* volume_;
   Index3 layers_;
   VolumeInfo info_;
 };

@@ -107,9 +107,8 @@ std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t
 }
 
 std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding) {
-  const double value = with_type(coding.type, [&]<class T>(T) {
-    return static_cast<double>(load<T>(bytes, coding.order));
-  });
+  const double value = with_type(
+      coding.type, [&]<class T>(T) { return static_cast<double>(load<T>(bytes, coding.order)); });
   const VoxelScaling& scaling = coding.scaling;
   std::string what = text("value ", value);
   if (!scaling.is_identity()) {

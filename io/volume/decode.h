@@ -37,8 +37,8 @@ struct VoxelCoding {
 /// Why the voxel at `bytes` is no label: "value 1.5 is not a whole number".
 [[nodiscard]] std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding);
 
-/// Throws mw::Error(kInput) for a voxel that is no label: "FILE: voxel (x, y, z): value 1.5 is not a
-/// whole number; WAY_OUT".
+/// Throws mw::Error(kInput) for a voxel that is no label: "FILE: voxel (x, y, z): value 1.5 is not
+/// a whole number; WAY_OUT".
 [[noreturn]] void fail_voxel(std::string_view file, Index3 voxel, const std::byte* bytes,
                              const VoxelCoding& coding);
 

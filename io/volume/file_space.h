@@ -15,6 +15,9 @@ namespace mw::io {
 struct FileSpace {
   /// steps[i]: the way from a voxel to its neighbour along axis i of the array (x, y, z).
   std::array<Vector3, 3> steps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  /// The lengths of the steps where the file has them by themselves as well: they are taken where
+  /// both agree, as those of turned steps are rounded (to 14 digits if nothing else is known).
+  std::optional<Vector3> lengths;
   /// Where the first voxel is; empty: the file places nothing, and its first corner is at 0.
   std::optional<Vector3> first;
   bool first_is_centre = true;  ///< `first` is the centre of that voxel, else its first corner

@@ -17,8 +17,8 @@ namespace mw::io {
 enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 };
 
 [[nodiscard]] int byte_size(VoxelType type);
-[[nodiscard]] bool is_signed(VoxelType type);  ///< whether labels are: floats are
-[[nodiscard]] bool is_float(VoxelType type);   ///< labels stored as whole numbers in floats
+[[nodiscard]] bool is_signed(VoxelType type);    ///< whether labels are: floats are
+[[nodiscard]] bool is_float(VoxelType type);     ///< labels stored as whole numbers in floats
 [[nodiscard]] const char* name(VoxelType type);  ///< "u8" .. "i64", "f32", "f64"
 
 /// Facts of a volume.  Arrays are (x, y, z).
@@ -28,7 +28,7 @@ struct VolumeInfo {
   VoxelType type = VoxelType::kU8;  ///< as stored
   std::string format;               ///< "npy", "nifti", "nrrd", "raw" and so on
   bool scaled = false;              ///< labels are slope * stored + intercept, hence signed
-  bool z_fastest = false;                    ///< order in the file; whoever reads everything goes along x
+  bool z_fastest = false;           ///< order in the file; whoever reads everything goes along x
   /// What is read at once anyhow: boxes that begin and end at multiples of it are the cheapest.  An
   /// axis of 0: any.
   Index3 chunk{0, 0, 0};

@@ -8,7 +8,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::array<const char*, 10> kNames{"u8", "u16", "u32", "u64", "i8",
+constexpr std::array<const char*, 10> kNames{"u8",  "u16", "u32", "u64", "i8",
                                              "i16", "i32", "i64", "f32", "f64"};
 
 }  // namespace

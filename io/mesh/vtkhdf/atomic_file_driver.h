@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "io/file/atomic_file.h"
-#include "io/mesh/vtkhdf/hdf5_handle.h"
+#include "io/hdf5/hdf5_handle.h"
 
 namespace mw::io {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "io/mesh/vtkhdf/hdf5_handle.h"
+#include "io/hdf5/hdf5_handle.h"
 
 namespace mw::io {
 

@@ -3,6 +3,8 @@
 // The header of a single-file NIfTI-1 or NIfTI-2 volume.
 #include "io/volume/nifti/nifti_header.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -35,9 +37,8 @@ class View {
   }
   /// A number that is float in version 1 and double in version 2.
   [[nodiscard]] double real(std::size_t base, std::size_t index = 0) const {
-    return fields_.version == 1
-               ? static_cast<double>(load<float>(&bytes_[base + 4 * index], order_))
-               : load<double>(&bytes_[base + 8 * index], order_);
+    return fields_.version == 1 ? meant(load<float>(&bytes_[base + 4 * index], order_))
+                                : load<double>(&bytes_[base + 8 * index], order_);
   }
   [[nodiscard]] std::int64_t dim(std::size_t index) const {
     return fields_.version == 1 ? int16(fields_.dim + 2 * index)
@@ -62,6 +63,17 @@ class View {
   }
 
  private:
+  /// The shortest decimal that a float stands for: 1.2, not 1.2000000476837158, so that a volume
+  /// has the spacing that its other files have.
+  static double meant(float value) {
+    if (!std::isfinite(value)) return static_cast<double>(value);
+    std::array<char, 32> text{};
+    const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    double out = 0;
+    std::from_chars(text.data(), end, out);
+    return out;
+  }
+
   std::span<const std::byte> bytes_;
   const Fields& fields_;
   ByteOrder order_;
@@ -113,7 +125,8 @@ VoxelType parse_datatype(int code, std::string_view file) {
     case 64:
       return VoxelType::kF64;
     default:
-      fail_input(file, text("datatype ", code), "unsupported", "use integers of 8 to 64 bits, or whole numbers in floats of 32 or 64");
+      fail_input(file, text("datatype ", code), "unsupported",
+                 "use integers of 8 to 64 bits, or whole numbers in floats of 32 or 64");
   }
 }
 
@@ -198,8 +211,8 @@ FileSpace qform(const View& view) {
 FileSpace by_pixdim(const View& view) {
   FileSpace space{.first = Vector3{0, 0, 0}, .steps_field = "pixdim"};
   const std::size_t at = view.fields().pixdim;
-  space.steps = steps_of({std::abs(view.real(at, 1)), std::abs(view.real(at, 2)),
-                          std::abs(view.real(at, 3))});
+  space.steps = steps_of(
+      {std::abs(view.real(at, 1)), std::abs(view.real(at, 2)), std::abs(view.real(at, 3))});
   return space;
 }
 
@@ -222,6 +235,8 @@ FileSpace parse_space(const View& view) {
   const bool by_sform = view.code(f.sform_code) > 0, by_qform = view.code(f.qform_code) > 0;
   FileSpace space = by_sform ? sform(view) : by_qform ? qform(view) : by_pixdim(view);
   if (by_sform || by_qform) space.frame = WorldFrame::kRas;
+  space.lengths = Vector3{std::abs(view.real(f.pixdim, 1)), std::abs(view.real(f.pixdim, 2)),
+                          std::abs(view.real(f.pixdim, 3))};
   space.unit = unit_name(view.units());
   return space;
 }

@@ -20,8 +20,7 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
   check_payload(file, info, header.data_offset, source->size(), false);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
-      ArrayPlace{
-          .offset = header.data_offset, .order = header.order, .scaling = header.scaling});
+      ArrayPlace{.offset = header.data_offset, .order = header.order, .scaling = header.scaling});
 }
 
 }  // namespace mw::io

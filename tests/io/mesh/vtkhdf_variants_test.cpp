@@ -3,8 +3,8 @@
 // .vtkhdf files as other tools write them, and what ours hold.
 #include <map>
 
+#include "io/hdf5/hdf5_handle.h"
 #include "io/mesh/open_mesh.h"
-#include "io/mesh/vtkhdf/hdf5_handle.h"
 #include "tests/io/mesh/sample_mesh.h"
 
 namespace mw::io {

@@ -76,6 +76,12 @@ TEST(FileSpace, FlipsAndPermutationsAreExact) {
   EXPECT_FALSE(is_upright(space));
 }
 
+TEST(FileSpace, StatedLengthsAreTakenWhereTheyAgree) {
+  FileSpace file{.steps = {{{0.6000001, 0.8, 0}, {-1.6, 1.2, 0}, {0, 0, 3}}},
+                 .lengths = Vector3{1, 2.1, 3}};
+  EXPECT_EQ(placed(kFile, file, {}).spacing, (Vector3{1, 2, 3}));
+}
+
 TEST(FileSpace, AFileThatPlacesNothingBeginsAtZero) {
   const VolumeSpace space = placed(kFile, {.steps = steps_of({2, 3, 4})}, {});
   EXPECT_EQ(space.origin, (Vector3{0, 0, 0}));
@@ -201,6 +207,11 @@ TEST(NiftiSpace, SformThenQformThenPixdim) {
     sample.sform_code = 2;
     sample.matrix = {{{0, 0, -3}, {0.5, 0, 0}, {0, 2, 0}}};
     expect_centre({10 - 6, 20 + 0.5, 30 + 4});
+    if (version == 1) {
+      sample.matrix = {{{0, 0, -3}, {0.3, 0, 0}, {0, 2, 0}}};
+      static_cast<void>(centre_of(dir, sample));
+      EXPECT_EQ(space().spacing[0], 0.3) << "not the float nearest to it";
+    }
     sample.xyzt_units = 2 + 8;
     static_cast<void>(centre_of(dir, sample));
     EXPECT_EQ(space().unit, "mm");

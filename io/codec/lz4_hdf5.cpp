@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Unpacks LZ4 in the framing of HDF5's registered filter (32004).
+#include "io/codec/lz4_hdf5.h"
+
+#include <lz4.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "io/codec/damage.h"
+#include "io/file/byte_order.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 12;
+/// What a packed byte unpacks to at most.
+constexpr std::size_t kMostRatio = 255;
+
+void append_block(std::vector<std::byte>& out, std::span<const std::byte> block, std::size_t size,
+                  const PackedName& name) {
+  if (block.size() == size) {
+    out.insert(out.end(), block.begin(), block.end());
+    return;
+  }
+  // Nothing is allocated before the claim is possible.
+  if (size / kMostRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
+      block.size() > LZ4_MAX_INPUT_SIZE) {
+    fail_packed(name, "damaged or truncated: it is too short for the size that it claims");
+  }
+  const std::size_t first = out.size();
+  out.resize(first + size);
+  const int count = LZ4_decompress_safe(reinterpret_cast<const char*>(block.data()),
+                                        reinterpret_cast<char*>(out.data()) + first,
+                                        static_cast<int>(block.size()), static_cast<int>(size));
+  if (count < 0 || static_cast<std::size_t>(count) != size) {
+    fail_packed(name, "damaged or truncated");
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed, std::size_t most,
+                                       std::string_view name) {
+  const PackedName named{"lz4", name};
+  if (packed.size() < kHeaderBytes) fail_packed(named, "truncated: no whole header");
+  const auto size = load<std::uint64_t>(packed.data(), ByteOrder::kBig);
+  const auto block_size = load<std::uint32_t>(packed.data() + 8, ByteOrder::kBig);
+  if (size > most) fail_too_much(named, most);
+  if (size > 0 && block_size == 0) fail_packed(named, "damaged: its blocks are empty");
+  packed = packed.subspan(kHeaderBytes);
+  std::vector<std::byte> out;
+  while (out.size() < size) {
+    if (packed.size() < 4) fail_packed(named, "truncated between blocks");
+    const auto length = load<std::uint32_t>(packed.data(), ByteOrder::kBig);
+    packed = packed.subspan(4);
+    if (length > packed.size()) fail_packed(named, "truncated inside a block");
+    append_block(out, packed.first(length), std::min<std::size_t>(block_size, size - out.size()),
+                 named);
+    packed = packed.subspan(length);
+  }
+  return out;
+}
+
+}  // namespace mw::io

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Work in a process of its own, for libraries that damaged input can crash.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace mw::io {
+
+struct ApartLimits {
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30U;  ///< beyond what this process has now
+  std::uint64_t cpu_seconds = 30;                        ///< waiting for a disk does not count
+  std::size_t answer_bytes = std::size_t{1} << 20U;
+};
+
+/// What came of the work.
+struct ApartAnswer {
+  std::optional<std::string> bytes;  ///< what the work returned, unless it died
+  std::string death;                 ///< otherwise how: "it crashed (signal 11)"
+};
+
+/// Runs work in a child of this process: whatever it breaks, runs into or leaves open goes with the
+/// child.  Its output and error streams lead nowhere.
+/// REQUIRES: work starts no threads and needs no lock that another thread may hold.
+/// ERRORS: the mw::Error that work throws; kResource when there can be no child.
+[[nodiscard]] ApartAnswer run_apart(const ApartLimits& limits,
+                                    const std::function<std::string()>& work);
+
+/// Inside of work: lets it take so many seconds of a processor from its start on.
+void allow_cpu_seconds(std::uint64_t seconds);
+
+}  // namespace mw::io

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Finds x, y and z among the axes of an HDF5 array.
+#include "io/volume/hdf5/axes.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "io/file/errors.h"
+#include "io/volume/hdf5/catalogue.h"
+
+namespace mw::io {
+namespace {
+
+[[noreturn]] void fail(const Hdf5Description& description, std::string_view file,
+                       std::string_view reason) {
+  fail_input(file, text("data set ", description.path), reason,
+             "write the one volume of it that is meant, as [z, y, x]");
+}
+
+/// The key of each axis: "zyxc"; empty when the text is no list of axes.
+std::string keys_of(const std::string& axistags) {
+  const auto json = nlohmann::json::parse(axistags, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) return {};
+  std::string keys;
+  for (const auto& axis : json["axes"]) {
+    if (!axis.is_object() || !axis.contains("key") || !axis["key"].is_string()) return {};
+    const auto& key = axis["key"].get_ref<const std::string&>();
+    keys += key.size() == 1 ? key[0] : '?';
+  }
+  return keys;
+}
+
+Hdf5Axes tagged_axes(const Hdf5Description& description, const std::string& keys,
+                     std::string_view file) {
+  if (keys.size() != description.shape.size()) {
+    fail(description, file,
+         text("its axistags name ", keys.size(), " axes ('", keys, "'), it has ",
+              description.shape.size()));
+  }
+  Hdf5Axes axes;
+  for (std::size_t d = 0; d < keys.size(); ++d) {
+    const std::size_t i = std::string_view("xyz").find(keys[d]);
+    if (i != std::string_view::npos && !axes[i]) {
+      axes[i] = d;
+    } else if (description.shape[d] != 1) {
+      fail(description, file,
+           text("axis '", keys.substr(d, 1), "' of '", keys, "' has ", description.shape[d],
+                " elements, a volume has one"));
+    }
+  }
+  return axes;
+}
+
+/// Leaves out axes of one element, in this order, until three are left.
+std::vector<std::size_t> three_of(const Hdf5Description& description, bool last_first) {
+  std::vector<std::size_t> left(description.shape.size());
+  for (std::size_t d = 0; d < left.size(); ++d) left[d] = d;
+  if (last_first) std::reverse(left.begin(), left.end());
+  for (auto axis = left.begin(); axis != left.end() && left.size() > 3;) {
+    axis = description.shape[*axis] == 1 ? left.erase(axis) : axis + 1;
+  }
+  std::sort(left.begin(), left.end());
+  return left;
+}
+
+}  // namespace
+
+Hdf5Axes find_axes(const Hdf5Description& description, std::string_view file) {
+  const std::string keys = keys_of(description.axistags);
+  if (!keys.empty()) return tagged_axes(description, keys, file);
+  const bool of_dream3d = description.numbers.contains("SPACING");
+  const std::vector<std::size_t> left = three_of(description, of_dream3d);
+  if (left.size() == 2) return {left[1], left[0], std::nullopt};
+  if (left.size() != 3) {
+    fail(description, file,
+         text("its shape is ", shape_text(description.shape), ", a volume has 3 axes"));
+  }
+  return {left[2], left[1], left[0]};
+}
+
+}  // namespace mw::io

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes of NIfTI volumes lie where nibabel says: all axis orders and flips, rotations, both forms.
+
+Every mesh is, vertex by vertex, the mesh of the bare array moved by nibabel's affine; its tets are
+positive in the world; and verify accepts it there and nowhere else.
+"""
+import itertools
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import nibabel
+    import numpy
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+PROGRAM = os.environ["MW_PROGRAM"]
+SPACING = numpy.array([1.25, 1.0, 1.5])
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout
+
+
+def read_medit(path):
+    with open(path) as file:
+        words = file.read().split()
+    at = words.index("Vertices")
+    count = int(words[at + 1])
+    vertices = numpy.array(words[at + 2 : at + 2 + 4 * count], float).reshape(count, 4)[:, :3]
+    at = words.index("Tetrahedra")
+    count = int(words[at + 1])
+    tets = numpy.array(words[at + 2 : at + 2 + 5 * count], numpy.int64).reshape(count, 5)
+    return vertices, tets[:, :4] - 1, tets[:, 4]
+
+
+def organs():
+    """A volume in (x, y, z) that looks different from every side."""
+    x, y, z = numpy.indices((14, 16, 12))
+    labels = numpy.zeros(x.shape, numpy.uint16)
+    labels[(x - 5) ** 2 + (y - 6) ** 2 + (z - 6) ** 2 < 17] = 3
+    labels[(x > 8) & (y > 9) & (z < 5)] = 700
+    return labels
+
+
+def turn(axis, degrees):
+    angle = numpy.deg2rad(degrees)
+    matrix = numpy.eye(3)
+    i, j = [k for k in range(3) if k != axis]
+    matrix[i, i] = matrix[j, j] = numpy.cos(angle)
+    matrix[i, j] = -numpy.sin(angle)
+    matrix[j, i] = numpy.sin(angle)
+    return matrix
+
+
+def affine(rotation):
+    out = numpy.eye(4)
+    out[:3, :3] = rotation * SPACING
+    out[:3, 3] = [-20.5, 7.25, 100]
+    return out
+
+
+class Places(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        os.chdir(cls.folder.name)
+        cls.labels = organs()
+        numpy.save("array.npy", cls.labels.transpose(2, 1, 0))
+        run("mesh", "array.npy", "--spacing", ",".join(map(str, SPACING)), "-o", "array.mesh")
+        cls.vertices, cls.tets, cls.tet_labels = read_medit("array.mesh")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def check(self, image, verified=True):
+        nibabel.save(image, "turned.nii")
+        matrix = nibabel.load("turned.nii").affine
+        run("mesh", "turned.nii", "-o", "turned.mesh")
+        vertices, tets, labels = read_medit("turned.mesh")
+        centres = self.vertices / SPACING - 0.5
+        expected = centres @ matrix[:3, :3].T + matrix[:3, 3]
+        self.assertLess(abs(vertices - expected).max(), 2e-5)
+        numpy.testing.assert_array_equal(numpy.sort(tets), numpy.sort(self.tets))
+        numpy.testing.assert_array_equal(labels, self.tet_labels)
+        corners = vertices[tets]
+        edges = corners[:, 1:] - corners[:, :1]
+        self.assertGreater(numpy.linalg.det(edges).min(), 0)
+        if verified:
+            run("verify", "turned.nii", "turned.mesh", "--max-distance", "1.5", "--quality-floor", "0.2")
+        return matrix
+
+    def test_all_orders_and_flips(self):
+        seen = set()
+        for order in itertools.permutations(range(3)):
+            for signs in itertools.product((1, -1), repeat=3):
+                rotation = numpy.zeros((3, 3))
+                rotation[list(order), range(3)] = signs
+                matrix = self.check(nibabel.Nifti1Image(self.labels, affine(rotation)))
+                seen.add("".join(nibabel.aff2axcodes(matrix)))
+        self.assertEqual(len(seen), 48)
+
+    def test_rotations(self):
+        for degrees in ((23, 0, 0), (0, 23, 0), (0, 0, 23), (10, -40, 77), (180, 3, 0)):
+            rotation = turn(0, degrees[0]) @ turn(1, degrees[1]) @ turn(2, degrees[2])
+            self.check(nibabel.Nifti1Image(self.labels, affine(rotation)))
+            self.check(nibabel.Nifti2Image(self.labels, affine(-rotation)))
+
+    def test_qform_alone(self):
+        for rotation in (turn(2, 23) @ turn(0, 50), -turn(1, 180), numpy.diag([-1, 1, 1])):
+            image = nibabel.Nifti1Image(self.labels, affine(rotation))
+            image.set_qform(affine(rotation), code=1)
+            image.set_sform(None, code=0)
+            self.check(image)
+
+    def test_sform_goes_before_qform(self):
+        image = nibabel.Nifti1Image(self.labels, affine(turn(2, 23)))
+        image.set_sform(affine(turn(2, 23)), code=2)
+        image.set_qform(affine(turn(0, 90)), code=1)
+        numpy.testing.assert_allclose(self.check(image), affine(turn(2, 23)), atol=1e-5)
+
+    def test_another_place_is_told(self):
+        nibabel.save(nibabel.Nifti1Image(self.labels, affine(turn(2, 23))), "a.nii")
+        nibabel.save(nibabel.Nifti1Image(self.labels, affine(turn(2, 24))), "b.nii")
+        run("mesh", "a.nii", "-o", "a.vtu")
+        run("verify", "a.nii", "a.vtu")
+        run("verify", "b.nii", "a.vtu", code=5)
+
+    def test_shear_is_refused(self):
+        matrix = affine(numpy.eye(3))
+        matrix[0, 1] = 0.2
+        nibabel.save(nibabel.Nifti1Image(self.labels, matrix), "sheared.nii")
+        run("mesh", "sheared.nii", "-o", "sheared.vtu", code=3)
+
+    def test_labels_in_floats(self):
+        image = nibabel.Nifti1Image(self.labels.astype(numpy.float32), affine(numpy.eye(3)))
+        self.check(image)
+        scaled = nibabel.Nifti1Image(self.labels, affine(numpy.eye(3)))
+        scaled.header.set_slope_inter(1, 0)
+        self.check(scaled)
+
+
+if __name__ == "__main__":
+    unittest.main()
