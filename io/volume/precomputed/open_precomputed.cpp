@@ -29,14 +29,15 @@ bool stays_in_store(const std::filesystem::path& key) {
 
 std::filesystem::path folder_of(const std::filesystem::path& root, const PrecomputedScale& scale) {
   const std::string info = (root / "info").string();
-  const std::string field = scale.field + ".key";
   if (!stays_in_store(scale.key)) {
-    fail_input(info, field, "the key leads out of the store", "the file is damaged or not sound");
+    fail_input(info, scale.key_field, "the key leads out of the store",
+               "the file is damaged or not sound");
   }
   std::filesystem::path folder = root / scale.key;
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored)) {
-    fail_input(info, field, text("the folder of the chunks, ", folder.string(), ", is missing"),
+    fail_input(info, scale.key_field,
+               text("the folder of the chunks, ", folder.string(), ", is missing"),
                "get a whole copy of the store, or choose a scale that is there with --scale");
   }
   return folder;

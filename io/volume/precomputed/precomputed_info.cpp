@@ -214,8 +214,7 @@ PrecomputedScale parse_precomputed_info(const nlohmann::json& json, std::string_
               "give the folder of the volume");
   }
   const JsonFields fields = wanted_scale(info, options);
-  PrecomputedScale out{.key = fields.text("key"), .field = fields.name_of("")};
-  out.field.pop_back();
+  PrecomputedScale out{.key = fields.text("key"), .key_field = fields.name_of("key")};
   out.type = type_of(info);
   out.shape = checked_shape(file, fields.name_of("size"), fields.integers3("size"));
   out.offset = offset_of(fields);

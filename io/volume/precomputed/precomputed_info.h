@@ -16,8 +16,8 @@ namespace mw::io {
 
 /// Sizes in voxels.
 struct PrecomputedScale {
-  std::string key;    ///< folder of the chunks, relative to that of `info`
-  std::string field;  ///< what errors call the scale: "scales[0]"
+  std::string key;        ///< folder of the chunks, relative to that of `info`
+  std::string key_field;  ///< what errors call it: "scales[0].key"
   VoxelType type = VoxelType::kU8;
   Index3 shape;
   Index3 offset;  ///< of the first voxel in the names of chunks

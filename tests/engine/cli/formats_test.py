@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 import zlib
 
 try:
@@ -234,14 +235,19 @@ class Formats(unittest.TestCase):
         self.check("v3.zarr", *PLACE)
 
     def test_n5(self):
-        zarr = needs("zarr")
-        store = zarr.N5Store("a.n5")
-        array = zarr.create(self.labels.shape, chunks=(8, 10, 6), dtype="u4", store=store,
-                            path="seg", compressor=None)
-        array[:] = self.labels
-        array.attrs["resolution"] = list(SPACING)
-        array.attrs["offset"] = list(CORNER)
-        self.check("a.n5")
+        zarr, packers = needs("zarr"), needs("numcodecs")
+        for packer in (None, packers.GZip(), packers.Zlib(), packers.BZ2(), packers.LZMA(preset=1),
+                       packers.LZ4(), packers.Zstd(), packers.Blosc(cname="zstd")):
+            name = f"{type(packer).__name__}.n5"
+            store = zarr.N5Store(name)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # not all programs know blosc
+                array = zarr.create(self.labels.shape, chunks=(8, 10, 6), dtype="u4", store=store,
+                                    path="seg", compressor=packer)
+            array[:] = self.labels
+            array.attrs["resolution"] = list(SPACING)
+            array.attrs["offset"] = list(CORNER)
+            self.check(name)
 
     def test_precomputed(self):
         os.makedirs("pre/full")

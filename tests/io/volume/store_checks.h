@@ -22,9 +22,11 @@ inline Index3 pick_shape(Random& random, std::int64_t most) {
   return {pick(random, 1, most), pick(random, 1, most), pick(random, 1, most)};
 }
 
-/// Makes the folders above the file, too.
+/// Makes the folders above the file, too.  A file that is there is removed first: what is cut and
+/// written again goes to the disk at once on some file systems.
 inline void write_file(const std::filesystem::path& path, const std::string& content) {
   std::filesystem::create_directories(path.parent_path());
+  std::filesystem::remove(path);
   std::ofstream(path, std::ios::binary) << content;
 }
 

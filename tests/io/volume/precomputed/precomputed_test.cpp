@@ -22,7 +22,7 @@ PrecomputedSample random_sample(Random& random) {
                               VoxelType::kI8, VoxelType::kI16, VoxelType::kI32, VoxelType::kI64};
   PrecomputedSample out;
   out.shape = pick_shape(random, 30);
-  out.chunk = pick_shape(random, 12);
+  out.chunk = pick_shape(random, 10) + Index3{2, 2, 2};
   out.offset = {pick(random, -50, 50), pick(random, -50, 50), pick(random, 0, 1) << 40};
   out.type = kTypes[random() % kTypes.size()];
   const bool segmentation = out.type == VoxelType::kU32 || out.type == VoxelType::kU64;
