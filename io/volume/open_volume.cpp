@@ -11,13 +11,24 @@
 #include "io/file/open_bytes.h"
 #include "io/volume/checks.h"
 #include "io/volume/hdf5/open_hdf5.h"
+#include "io/volume/metaimage/metaimage_header.h"
+#include "io/volume/metaimage/open_metaimage.h"
+#include "io/volume/n5/open_n5.h"
 #include "io/volume/nifti/nifti_header.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/npy_header.h"
 #include "io/volume/npy/open_npy.h"
+#include "io/volume/npz/open_npz.h"
+#include "io/volume/npz/zip_directory.h"
 #include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/nrrd/open_nrrd.h"
+#include "io/volume/png/open_png.h"
+#include "io/volume/png/png_file.h"
+#include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw/open_raw.h"
+#include "io/volume/slices/slice_folder.h"
+#include "io/volume/tiff/open_tiff.h"
+#include "io/volume/zarr/open_zarr.h"
 
 namespace mw::io {
 namespace {
@@ -40,10 +51,23 @@ constexpr std::array kFileFormats{
                [](auto source, const auto&, const auto& options) {
                  return open_npy(std::move(source), options);
                }},
+    FileFormat{".npz", has_zip_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_npz(std::move(source), options);
+               }},
     FileFormat{".nrrd .nhdr", has_nrrd_text, open_nrrd},
     FileFormat{".h5 .hdf5 .hdf .he5 .h5ad .dream3d", has_hdf5_magic,
                [](auto source, const auto&, const auto& options) {
                  return open_hdf5(std::move(source), options);
+               }},
+    FileFormat{".mha .mhd", has_metaimage_magic, open_metaimage},
+    FileFormat{".tif .tiff", has_tiff_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_tiff(std::move(source), options);
+               }},
+    FileFormat{".png", has_png_magic,
+               [](auto, const auto& path, const auto& options) {
+                 return open_png_slices({path}, options);
                }},
     FileFormat{".nii", has_nifti_magic,
                [](auto source, const auto&, const auto& options) {
@@ -58,7 +82,13 @@ struct FolderFormat {
                                        const OpenOptions& options);
 };
 
-constexpr std::array<FolderFormat, 0> kFolderFormats{};
+/// Slices come last: other stores may hold pictures too.
+constexpr std::array kFolderFormats{
+    FolderFormat{is_precomputed, open_precomputed},
+    FolderFormat{is_n5, open_n5},
+    FolderFormat{is_zarr, open_zarr},
+    FolderFormat{is_slice_folder, open_slice_folder},
+};
 
 /// By content, else by extension, so that the right reader explains what is wrong.
 const FileFormat* format_of(std::span<const std::byte> head, std::filesystem::path path) {

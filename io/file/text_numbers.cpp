@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Words and numbers of text headers.
+#include "io/file/text_numbers.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace mw::io {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+template <class T>
+std::optional<T> parse(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  T number{};
+  const auto [stop, verdict] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (verdict != std::errc{} || stop != word.data() + word.size()) return std::nullopt;
+  return number;
+}
+
+template <class T>
+std::optional<std::vector<T>> parse_all(std::string_view text) {
+  std::vector<T> numbers;
+  for (const std::string_view word : words_of(text)) {
+    const std::optional<T> number = parse<T>(word);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = text.find_first_not_of(kBlanks, end);
+  }
+  return words;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view word) {
+  return parse<std::int64_t>(word);
+}
+
+std::optional<double> parse_real(std::string_view word) {
+  return parse<double>(word);
+}
+
+std::optional<std::vector<std::int64_t>> parse_integers(std::string_view text) {
+  return parse_all<std::int64_t>(text);
+}
+
+std::optional<std::vector<double>> parse_reals(std::string_view text) {
+  return parse_all<double>(text);
+}
+
+}  // namespace mw::io

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Words and numbers of text headers.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace mw::io {
+
+/// The text without blanks (space, tab, carriage return, line feed) at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// What blanks part.
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view text);
+
+/// A decimal number that takes the whole word, a + in front allowed; empty when it is none or does
+/// not fit.  Reals may be "nan" and "inf".
+[[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
+[[nodiscard]] std::optional<double> parse_real(std::string_view word);
+
+/// The same of all words; empty when one is no number.
+[[nodiscard]] std::optional<std::vector<std::int64_t>> parse_integers(std::string_view text);
+[[nodiscard]] std::optional<std::vector<double>> parse_reals(std::string_view text);
+
+}  // namespace mw::io

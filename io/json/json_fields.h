@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Fields of a JSON object with the types that a format demands.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mw::io {
+
+/// Looks at an object in a document; both must outlive it.
+/// ERRORS (all members but has): mw::Error(kInput) naming file and field, "scales[0].size", when
+/// the field is missing or of another type.
+class JsonFields {
+ public:
+  /// where: what errors call the object; empty for the whole document.
+  JsonFields(const nlohmann::json& object, std::string file, std::string where = {});
+
+  [[nodiscard]] const std::string& file() const { return file_; }
+  /// What errors call a field.
+  [[nodiscard]] std::string name_of(std::string_view key) const;
+  /// Whether the field is there, and not null.
+  [[nodiscard]] bool has(std::string_view key) const;
+  [[nodiscard]] bool is_array(std::string_view key) const;
+
+  [[nodiscard]] std::string text(std::string_view key) const;
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key) const;
+  [[nodiscard]] bool flag(std::string_view key) const;
+  /// Whole numbers may be written as 1.0; they must fit into 64 signed bits.
+  [[nodiscard]] std::int64_t integer(std::string_view key) const;
+  [[nodiscard]] std::vector<std::int64_t> integers(std::string_view key) const;
+  [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
+  /// Three numbers.
+  [[nodiscard]] std::array<std::int64_t, 3> integers3(std::string_view key) const;
+  [[nodiscard]] std::array<double, 3> numbers3(std::string_view key) const;
+
+  [[nodiscard]] JsonFields object(std::string_view key) const;
+  /// Of an array of objects: how many, and one.  REQUIRES: index < count(key).
+  [[nodiscard]] std::size_t count(std::string_view key) const;
+  [[nodiscard]] JsonFields element(std::string_view key, std::size_t index) const;
+  /// The first of an array of arrays of three numbers.
+  [[nodiscard]] std::array<std::int64_t, 3> first_integers3(std::string_view key) const;
+
+  /// Throws mw::Error(kInput) about the field.
+  [[noreturn]] void fail(std::string_view key, std::string_view reason,
+                         std::string_view way_out = {}) const;
+
+ private:
+  [[nodiscard]] const nlohmann::json& at(std::string_view key) const;
+  [[nodiscard]] const nlohmann::json& array_at(std::string_view key) const;
+  [[nodiscard]] std::vector<std::int64_t> integers_in(const nlohmann::json& array,
+                                                      std::string_view name) const;
+  [[nodiscard]] std::array<std::int64_t, 3> integers3_in(const nlohmann::json& array,
+                                                         std::string_view name) const;
+  [[noreturn]] void fail_type(std::string_view name, std::string_view wanted,
+                              const nlohmann::json& found) const;
+
+  const nlohmann::json* object_;
+  std::string file_;
+  std::string where_;
+};
+
+}  // namespace mw::io

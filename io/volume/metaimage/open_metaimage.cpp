@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Opens a MetaImage file as a volume.
+#include "io/volume/metaimage/open_metaimage.h"
+
+#include <algorithm>
+
+#include "io/file/errors.h"
+#include "io/file/file_source.h"
+#include "io/file/inflater.h"
+#include "io/file/joined_files.h"
+#include "io/file/named_beside.h"
+#include "io/volume/checks.h"
+#include "io/volume/metaimage/metaimage_header.h"
+#include "io/volume/metaimage/slice_files.h"
+#include "io/volume/raw_array.h"
+
+namespace mw::io {
+namespace {
+
+constexpr const char* kDataField = "MetaImage field 'ElementDataFile'";
+
+/// Bytes, and where the voxels (packed or not) begin in them.
+struct Placed {
+  std::unique_ptr<ByteSource> source;
+  std::uint64_t offset = 0;
+};
+
+Placed one_file(std::unique_ptr<ByteSource> source, const MetaImageHeader& header,
+                const std::filesystem::path& path, std::uint64_t needed) {
+  const bool local =
+      header.data_file == "LOCAL" || header.data_file == "Local" || header.data_file == "local";
+  Placed data{std::move(source), local ? header.bytes : 0};
+  if (!local) {
+    data.source = std::make_unique<FileSource>(named_beside(path, kDataField, header.data_file));
+  }
+  const std::uint64_t size = data.source->size();
+  if (header.header_size > 0) data.offset = static_cast<std::uint64_t>(header.header_size);
+  if (header.header_size < 0 && size >= data.offset + needed) data.offset = size - needed;
+  return data;
+}
+
+std::unique_ptr<ByteSource> many_files(const MetaImageHeader& header, std::string_view behind,
+                                       const std::filesystem::path& path, std::uint64_t needed) {
+  if (header.compressed) {
+    fail_input(path.string(), "MetaImage field 'CompressedData'",
+               "compressed slices in files of their own are not supported",
+               "save as one file, or uncompressed");
+  }
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name :
+       slice_names(header.data_file, behind, header.shape.z, path.string())) {
+    files.push_back(named_beside(path, kDataField, name));
+  }
+  const std::uint64_t slice = needed / static_cast<std::uint64_t>(header.shape.z);
+  return std::make_unique<JoinedFiles>(std::move(files), header.header_size, slice, path.string());
+}
+
+void inflate(Placed& data, const MetaImageHeader& header, std::uint64_t needed) {
+  const std::uint64_t size = data.source->size();
+  const std::uint64_t offset = std::min(data.offset, size);
+  const std::uint64_t held = size - offset;
+  const DeflatedBytes place{.offset = offset,
+                            .end = offset + std::min(held, header.packed_bytes.value_or(held)),
+                            .framing = DeflateFraming::kZlibOrGzip,
+                            .field = "compressed voxel data"};
+  data = {inflate_to_scratch(*data.source, place, needed), 0};
+}
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_metaimage(std::unique_ptr<ByteSource> source,
+                                            const std::filesystem::path& path,
+                                            const OpenOptions& options) {
+  std::string head(std::min<std::uint64_t>(source->size(), kMaxMetaImageBytes), '\0');
+  source->read_at(0, std::as_writable_bytes(std::span(head)));
+  const MetaImageHeader header = parse_metaimage_header(head, source->name());
+  VolumeInfo info{.shape = header.shape, .type = header.type, .format = "metaimage"};
+  info.space = placed(source->name(), header.space, options);
+  const std::uint64_t needed = payload_bytes(info);
+  Placed data;
+  if (names_many_files(header.data_file)) {
+    data.source = many_files(header, std::string_view(head).substr(header.bytes), path, needed);
+  } else {
+    data = one_file(std::move(source), header, path, needed);
+    if (header.compressed) inflate(data, header, needed);
+  }
+  check_payload(data.source->name(), info, data.offset, data.source->size(), false);
+  return std::make_unique<RawArrayVolume>(std::move(data.source), std::move(info),
+                                          ArrayPlace{.offset = data.offset, .order = header.order});
+}
+
+}  // namespace mw::io

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Finds a chunk by the index of its shard, then by that of its minishard.
+#include "io/volume/precomputed/shard_folder.h"
+
+#include <array>
+#include <cstring>
+
+#include "io/chunks/chunk_bytes.h"
+#include "io/codec/codec.h"
+#include "io/file/byte_order.h"
+#include "io/file/errors.h"
+
+namespace mw::io {
+namespace {
+
+/// Enough for the minishards around a window: one of 512 chunks takes 12 KiB.
+constexpr std::uint64_t kKeptIndexBytes = 4ULL << 20U;
+
+/// Chunks of a minishard come in any order: the differences between them may wrap.
+std::optional<ShardEntry> entry_of(const Chunk& index, std::uint64_t chunk) {
+  ShardEntry entry;
+  for (std::size_t at = 0; at < index.bytes.size(); at += sizeof entry) {
+    std::memcpy(&entry, index.bytes.data() + at, sizeof entry);
+    if (entry.chunk == chunk) return entry;
+  }
+  return std::nullopt;
+}
+
+/// Before 2019 a shard was two files, <shard>.index and <shard>.data.
+void refuse_old_shard(std::filesystem::path path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path.replace_extension(".index"), ignored)) return;
+  fail_input(path.string(), {}, "the shard is of an old form, an index and data apart",
+             "join the two to a file with .shard instead of .index");
+}
+
+std::vector<std::byte> read_part(const ByteSource& file, std::uint64_t offset, std::uint64_t size) {
+  std::vector<std::byte> bytes(size);
+  file.read_at(offset, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+ShardFolder::ShardFolder(std::filesystem::path folder, const Sharding& sharding, Index3 grid)
+    : folder_(std::move(folder)),
+      sharding_(sharding),
+      most_index_bytes_(sizeof(ShardEntry) * most_in_minishard(sharding, grid)),
+      indices_(kKeptIndexBytes) {}
+
+std::filesystem::path ShardFolder::path_of(std::uint64_t chunk) const {
+  return folder_ / shard_file_name(sharding_, place_of(sharding_, chunk).shard);
+}
+
+std::optional<std::vector<std::byte>> ShardFolder::read(std::uint64_t chunk,
+                                                        std::uint64_t most) const {
+  const ShardPlace place = place_of(sharding_, chunk);
+  const std::filesystem::path path = path_of(chunk);
+  const std::uint64_t number =
+      place.shard << static_cast<unsigned>(sharding_.minishard_bits) | place.minishard;
+  const auto index = indices_.get(number, [&] { return load_index(path, place.minishard); });
+  if (!index) return std::nullopt;
+  const auto entry = entry_of(*index, chunk);
+  if (!entry) return std::nullopt;
+  if (entry->size > most) {
+    fail_input(path.string(), text("chunk ", chunk),
+               text("the chunk has ", entry->size, " bytes, and its voxels need at most ", most),
+               "get a whole copy of the store");
+  }
+  return read_part(FileSource(path), shard_index_bytes(sharding_) + entry->offset, entry->size);
+}
+
+std::optional<Chunk> ShardFolder::load_index(const std::filesystem::path& path,
+                                             std::uint64_t minishard) const {
+  const auto file = open_if_there(path);
+  if (!file) {
+    refuse_old_shard(path);
+    return std::nullopt;
+  }
+  const std::uint64_t start = shard_index_bytes(sharding_);
+  std::array<std::byte, 16> place{};
+  file->read_at(place.size() * minishard, place);
+  const auto begin = load<std::uint64_t>(place.data(), ByteOrder::kLittle);
+  const auto end = load<std::uint64_t>(place.data() + 8, ByteOrder::kLittle);
+  if (begin == end) return std::nullopt;
+  const std::string name = text(path.string(), ": minishard ", minishard);
+  const std::uint64_t data_bytes = file->size() > start ? file->size() - start : 0;
+  if (begin > end || end > data_bytes) {
+    fail_input(name, "shard index",
+               text("bytes ", begin, " to ", end, " are not in the ", data_bytes, " of the shard"),
+               "get a whole copy of the store");
+  }
+  const std::uint64_t most =
+      sharding_.packed_index ? most_packed_bytes(most_index_bytes_) : most_index_bytes_;
+  if (end - begin > most) {
+    fail_input(name, "shard index",
+               text("an index of ", end - begin, " bytes, and all its chunks need at most ", most),
+               "get a whole copy of the store");
+  }
+  std::vector<std::byte> bytes = read_part(*file, start + begin, end - begin);
+  if (sharding_.packed_index) bytes = unpack(Codec::kGzip, bytes, most_index_bytes_, name);
+  const auto entries = parse_minishard_index(bytes, data_bytes, name);
+  const auto raw = std::as_bytes(std::span(entries));
+  return Chunk{.bytes = {raw.begin(), raw.end()}};
+}
+
+std::uint64_t ShardFolder::scratch_bytes() const {
+  return kKeptIndexBytes + most_packed_bytes(most_index_bytes_) + 3 * most_index_bytes_ +
+         most_scratch(Codec::kGzip, most_index_bytes_);
+}
+
+}  // namespace mw::io

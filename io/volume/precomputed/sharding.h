@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where chunks are in "neuroglancer_uint64_sharded_v1": which shard, and where in it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/core/index.h"
+
+namespace mw::io {
+
+/// The member "sharding" of a scale (Neuroglancer, src/datasource/precomputed/sharded.md).
+struct Sharding {
+  bool hashed = false;        ///< by murmurhash3_x86_128, else by the identity
+  int preshift_bits = 0;      ///< 0 to 64; low bits of a chunk's number that choose nothing
+  int minishard_bits = 0;     ///< 0 to 32
+  int shard_bits = 0;         ///< 0 to 64 - minishard_bits
+  bool packed_index = false;  ///< minishard indices are gzipped
+  bool packed_data = false;   ///< chunks are
+};
+
+/// The number of the chunk at a place of the grid: the "compressed Morton code" (volume.md), bits
+/// of x, y and z in turn, an axis left out where the grid has no more bits of it.
+/// REQUIRES: cell inside the grid; grid extents at most 2^20.
+[[nodiscard]] std::uint64_t morton_code(Index3 cell, Index3 grid);
+
+struct ShardPlace {
+  std::uint64_t shard = 0;
+  std::uint64_t minishard = 0;
+};
+[[nodiscard]] ShardPlace place_of(const Sharding& sharding, std::uint64_t chunk);
+
+/// "0a.shard"
+[[nodiscard]] std::string shard_file_name(const Sharding& sharding, std::uint64_t shard);
+
+/// Bytes of the index that a shard begins with; offsets in the shard count from its end.
+[[nodiscard]] std::uint64_t shard_index_bytes(const Sharding& sharding);
+
+/// The most chunks of the grid that one minishard can hold.  By murmurhash3: eight times as many as
+/// there are on average and 64 groups, which is more than chance will ever bring.
+[[nodiscard]] std::uint64_t most_in_minishard(const Sharding& sharding, Index3 grid);
+
+/// A chunk in a shard.
+struct ShardEntry {
+  std::uint64_t chunk = 0;
+  std::uint64_t offset = 0;  ///< in bytes from the end of the shard's index
+  std::uint64_t size = 0;
+};
+
+/// Decodes a minishard's index: three rows of n numbers, of which chunks and offsets are coded as
+/// differences.  data_bytes: the shard's bytes behind its index.
+/// ENSURES: every entry lies within them.
+/// ERRORS: mw::Error(kInput) naming `name` when not.
+[[nodiscard]] std::vector<ShardEntry> parse_minishard_index(std::span<const std::byte> bytes,
+                                                            std::uint64_t data_bytes,
+                                                            std::string_view name);
+
+}  // namespace mw::io

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Finds the slices, and lends handles that stand at them.
+#include "io/volume/tiff/tiff_stack.h"
+
+#include <algorithm>
+
+#include "io/file/errors.h"
+#include "io/file/file_source.h"
+#include "io/volume/checks.h"
+
+namespace mw::io {
+namespace {
+
+/// Handles kept open between reads: about as many as threads work at once.
+constexpr std::size_t kMostIdle = 16;
+
+std::shared_ptr<const ByteSource> open_file(const std::filesystem::path& path) {
+  auto file = std::make_shared<FileSource>(path);
+  if (file->size() == 0) fail_input(file->name(), {}, "the file is empty", "check how it was made");
+  return file;
+}
+
+}  // namespace
+
+TiffStack::TiffStack(std::shared_ptr<const ByteSource> file)
+    : file_(std::move(file)), name_(file_->name()) {
+  const TiffHandle handle(file_);
+  std::int64_t pages = 0;
+  while (true) {
+    add_page(handle, text("page ", ++pages));
+    if (slices() > kMaxAxisVoxels) {
+      fail_input(name_, "pages", text("more than ", kMaxAxisVoxels), "cut the volume into parts");
+    }
+    if (TIFFLastDirectory(handle.get()) != 0) break;
+    if (TIFFReadDirectory(handle.get()) != 1) {
+      handle.fail(text("page ", pages + 1), "cannot be read");
+    }
+  }
+  if (places_.empty()) {
+    fail_input(name_, "pages", "there are only smaller copies of others", "save whole pages");
+  }
+}
+
+TiffStack::TiffStack(std::vector<std::filesystem::path> files)
+    : files_(std::move(files)), name_(files_.front().parent_path().string()) {
+  for (const std::filesystem::path& path : files_) {
+    const TiffHandle handle(open_file(path));
+    add_page(handle, "page 1");
+    if (TIFFLastDirectory(handle.get()) == 0 || places_.empty()) {
+      fail_input(path.string(), "pages", "it has several, or none that is a slice",
+                 "a folder's files are one slice each: give a file of many pages by its name");
+    }
+  }
+}
+
+void TiffStack::add_page(const TiffHandle& handle, const std::string& place) {
+  const TiffPage page = read_tiff_page(handle, place);
+  if (page.smaller_copy) return;
+  if (places_.empty()) {
+    first_ = page;
+    const char* description = nullptr;
+    if (TIFFGetField(handle.get(), TIFFTAG_IMAGEDESCRIPTION, &description) == 1) {
+      description_ = description;
+    }
+    float x = 0, y = 0;
+    if (TIFFGetField(handle.get(), TIFFTAG_XRESOLUTION, &x) == 1)
+      resolution_[0] = static_cast<double>(x);
+    if (TIFFGetField(handle.get(), TIFFTAG_YRESOLUTION, &y) == 1)
+      resolution_[1] = static_cast<double>(y);
+  }
+  if (!page.is_like(first_)) {
+    fail_input(handle.file(), place, text(page.words(), ", the first slice is ", first_.words()),
+               "save all slices of one size and type");
+  }
+  largest_block_ = std::max(largest_block_, page.block_bytes());
+  places_.push_back(TIFFCurrentDirOffset(handle.get()));
+}
+
+std::string TiffStack::name_of(std::int64_t slice) const {
+  if (!files_.empty()) return files_[static_cast<std::size_t>(slice)].string();
+  return text(name_, ": slice ", slice + 1);
+}
+
+/// One that stands there, else any other of the same file, else a new one.
+std::unique_ptr<TiffHandle> TiffStack::take(std::int64_t slice) const {
+  {
+    const std::lock_guard lock(mutex_);
+    auto found = std::find_if(idle_.begin(), idle_.end(),
+                              [&](const Idle& idle) { return idle.slice == slice; });
+    if (found == idle_.end() && files_.empty() && !idle_.empty()) found = idle_.end() - 1;
+    if (found != idle_.end()) {
+      auto handle = std::move(found->handle);
+      idle_.erase(found);
+      return handle;
+    }
+  }
+  if (files_.empty()) return std::make_unique<TiffHandle>(file_);
+  return std::make_unique<TiffHandle>(open_file(files_[static_cast<std::size_t>(slice)]));
+}
+
+void TiffStack::give_back(std::int64_t slice, std::unique_ptr<TiffHandle> handle) const {
+  const std::lock_guard lock(mutex_);
+  if (idle_.size() == kMostIdle) idle_.erase(idle_.begin());
+  idle_.push_back({slice, std::move(handle)});
+}
+
+TiffStack::Lease::Lease(const TiffStack& stack, std::int64_t slice)
+    : stack_(stack), slice_(slice), handle_(stack.take(slice)) {
+  handle_->go_to(stack.places_[static_cast<std::size_t>(slice)]);
+}
+
+TiffStack::Lease::~Lease() {
+  if (handle_) stack_.give_back(slice_, std::move(handle_));
+}
+
+}  // namespace mw::io

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The slices of a volume: pages of one TIFF file, or files of one page each.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "io/volume/tiff/tiff_handle.h"
+#include "io/volume/tiff/tiff_page.h"
+
+namespace mw::io {
+
+/// Thread safety: const members may be called from many threads.
+class TiffStack {
+ public:
+  /// The pages of one file, in its order, but for smaller copies.
+  /// Cost: each directory is read once; 8 bytes a page are kept.
+  /// ERRORS: mw::Error(kInput) naming file and page for one that cannot be read, is no labels, or
+  /// is not like the first.
+  explicit TiffStack(std::shared_ptr<const ByteSource> file);
+  /// The only pages of these files, in this order.  REQUIRES: at least one.
+  /// ERRORS: the same, also for a file of several pages.
+  explicit TiffStack(std::vector<std::filesystem::path> files);
+
+  [[nodiscard]] std::int64_t slices() const { return static_cast<std::int64_t>(places_.size()); }
+  /// All are like the first, but for their blocks.
+  [[nodiscard]] const TiffPage& first() const { return first_; }
+  /// Most bytes of a block of any slice.
+  [[nodiscard]] std::uint64_t largest_block() const { return largest_block_; }
+  /// ImageDescription of the first slice; empty when it has none.
+  [[nodiscard]] const std::string& description() const { return description_; }
+  /// XResolution, YResolution of the first slice, pixels a unit; 0 when it has none.
+  [[nodiscard]] std::array<double, 2> resolution() const { return resolution_; }
+  /// The file, or the folder of the files.
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// "FILE: page 3", or the file of the slice.
+  [[nodiscard]] std::string name_of(std::int64_t slice) const;
+
+  /// A handle that stands at the slice, for one thread until it goes.
+  class Lease {
+   public:
+    Lease(const TiffStack& stack, std::int64_t slice);
+    ~Lease();
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
+    [[nodiscard]] TiffHandle& operator*() const { return *handle_; }
+
+   private:
+    const TiffStack& stack_;
+    std::int64_t slice_;
+    std::unique_ptr<TiffHandle> handle_;
+  };
+
+ private:
+  /// A handle that nobody has, and the slice where it stands.
+  struct Idle {
+    std::int64_t slice;
+    std::unique_ptr<TiffHandle> handle;
+  };
+
+  void add_page(const TiffHandle& handle, const std::string& place);
+  [[nodiscard]] std::unique_ptr<TiffHandle> take(std::int64_t slice) const;
+  void give_back(std::int64_t slice, std::unique_ptr<TiffHandle> handle) const;
+
+  std::shared_ptr<const ByteSource> file_;    ///< empty for many files
+  std::vector<std::filesystem::path> files_;  ///< empty for one
+  std::vector<std::uint64_t> places_;         ///< of each slice's directory in its file
+  std::string name_;
+  TiffPage first_;
+  std::uint64_t largest_block_ = 0;
+  std::string description_;
+  std::array<double, 2> resolution_{};
+  mutable std::mutex mutex_;
+  mutable std::vector<Idle> idle_;  ///< the one used last at the end
+};
+
+}  // namespace mw::io

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Undoes the steps in which a chunk was packed.
+#include "io/volume/zarr/chunk_coding.h"
+
+#include <algorithm>
+
+#include "io/chunks/chunk_bytes.h"
+#include "io/codec/crc32c.h"
+#include "io/codec/damage.h"
+#include "io/file/errors.h"
+
+namespace mw::io {
+namespace {
+
+/// How many voxels further in memory the next along each axis is.
+std::vector<std::int64_t> strides_of(const ChunkCoding& coding) {
+  std::vector<std::int64_t> strides(coding.shape.size());
+  std::int64_t stride = 1;
+  for (auto axis = coding.order.rbegin(); axis != coding.order.rend(); ++axis) {
+    strides[*axis] = stride;
+    stride *= coding.shape[*axis];
+  }
+  return strides;
+}
+
+}  // namespace
+
+void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name) {
+  const PackedName named{"crc32c", name};
+  if (bytes.size() < 4) fail_packed(named, "truncated: no whole checksum");
+  const auto end = std::span(bytes).last<4>();
+  const auto sum = load<std::uint32_t>(end.data(), ByteOrder::kLittle);
+  bytes.resize(bytes.size() - 4);
+  if (crc32c(bytes) != sum) fail_packed(named, "damaged: the checksum is wrong");
+}
+
+Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes, std::vector<std::byte> packed,
+                   std::string_view name) {
+  const std::uint64_t size = chunk_bytes(array);
+  const std::vector<PackStep>& steps = array.chunk.steps;
+  for (std::size_t i = steps.size(); i-- > 0;) {
+    if (steps[i].is_crc32c) {
+      strip_crc32c(packed, name);
+    } else {
+      packed = unpack(steps[i].codec, packed, i == 0 ? size : most_packed_bytes(size), name);
+    }
+  }
+  if (packed.size() != size) {
+    fail_input(name, {},
+               text("has ", packed.size(), " bytes of voxels, and the chunk needs ", size),
+               "get a whole copy of the store");
+  }
+  return {.bytes = std::move(packed), .strides = axes.pick(strides_of(array.chunk), 0)};
+}
+
+std::uint64_t most_packed(const ZarrArray& array) {
+  return most_packed_bytes(chunk_bytes(array));
+}
+
+std::uint64_t unpack_scratch(const ZarrArray& array) {
+  const std::uint64_t size = chunk_bytes(array);
+  std::uint64_t library = 0;
+  for (const PackStep& step : array.chunk.steps) {
+    if (!step.is_crc32c) library = std::max(library, most_scratch(step.codec, size));
+  }
+  // What goes into a step, and what comes out of it when another follows.
+  return most_packed(array) * std::clamp<std::uint64_t>(array.chunk.steps.size(), 1, 2) + library;
+}
+
+}  // namespace mw::io

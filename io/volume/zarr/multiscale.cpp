@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Parses multiscales of OME-NGFF.
+#include "io/volume/zarr/multiscale.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "io/file/errors.h"
+#include "io/json/json_fields.h"
+#include "io/volume/zarr/zarr_array.h"
+
+namespace mw::io {
+namespace {
+
+/// From 0.5 on everything is in "ome".
+const nlohmann::json& ome_of(const nlohmann::json& attributes) {
+  const auto found = attributes.find("ome");
+  return found != attributes.end() && found->is_object() ? *found : attributes;
+}
+
+std::string where_of(const nlohmann::json& attributes) {
+  return &ome_of(attributes) == &attributes ? "" : "ome";
+}
+
+void check_version(const JsonFields& fields) {
+  if (!fields.has("version")) return;
+  const std::string version = fields.text("version").substr(0, 30);
+  for (const char* known : {"0.1", "0.2", "0.3", "0.4", "0.5"}) {
+    if (version.rfind(known, 0) == 0) return;
+  }
+  fields.fail("version", "OME-NGFF '" + version + "' is not known here",
+              "write the image in version 0.4 or 0.5");
+}
+
+/// In the words of the rest of the program; others stay as they are.
+std::string short_unit(const std::string& unit) {
+  constexpr std::array kUnits{
+      std::pair{"picometer", "pm"}, std::pair{"nanometer", "nm"},  std::pair{"micrometer", "um"},
+      std::pair{"micron", "um"},    std::pair{"millimeter", "mm"}, std::pair{"centimeter", "cm"},
+      std::pair{"decimeter", "dm"}, std::pair{"meter", "m"},       std::pair{"kilometer", "km"},
+  };
+  for (const auto& [known, as_short] : kUnits) {
+    if (unit == known) return as_short;
+  }
+  return unit.substr(0, 30);
+}
+
+/// Versions before 0.4 have names only.
+void add_axis(const nlohmann::json& axis, const JsonFields& fields, std::size_t index,
+              std::vector<bool>& spatial, Multiscale& out) {
+  if (axis.is_string()) {
+    out.axis_names.push_back(axis.get<std::string>());
+    out.axis_units.emplace_back();
+    spatial.push_back(false);
+    return;
+  }
+  const JsonFields one = fields.element("axes", index);
+  out.axis_names.push_back(one.text("name"));
+  out.axis_units.push_back(one.has("unit") ? short_unit(one.text("unit")) : "");
+  spatial.push_back(one.has("type") && one.text("type") == "space");
+}
+
+/// Axes of space that are not called x, y and z are z, y, x in this order.
+void name_axes(const std::vector<bool>& spatial, std::vector<std::string>& names) {
+  const bool has_names = std::find(names.begin(), names.end(), "x") != names.end() &&
+                         std::find(names.begin(), names.end(), "y") != names.end();
+  const auto count = static_cast<std::size_t>(std::count(spatial.begin(), spatial.end(), true));
+  if (has_names || count < 2 || count > 3) return;
+  std::size_t next = 3 - count;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (spatial[i]) names[i] = std::string("zyx").substr(next++, 1);
+  }
+}
+
+void parse_axes(const nlohmann::json& multiscale, const JsonFields& fields, Multiscale& out) {
+  if (!fields.has("axes")) return;
+  const std::size_t count = fields.count("axes");
+  check_axes(fields.file(), fields.name_of("axes"), count);
+  std::vector<bool> spatial;
+  for (std::size_t i = 0; i < count; ++i) {
+    add_axis(multiscale.at("axes")[i], fields, i, spatial, out);
+  }
+  name_axes(spatial, out.axis_names);
+}
+
+/// Makes one vector out of none, and checks that all are as long.
+void match_length(std::vector<double>& numbers, std::size_t count, double start,
+                  const JsonFields& fields, const char* key) {
+  if (numbers.empty()) numbers.assign(count, start);
+  if (numbers.size() == count) return;
+  fields.fail(key, text("has ", count, " numbers, and another transform ", numbers.size()),
+              "the file is damaged");
+}
+
+/// Applies one transformation to what the ones before it make of an index.
+void add_transform(const JsonFields& step, LevelTransform& all, bool& has_place) {
+  const std::string type = step.text("type");
+  if (type == "identity") return;
+  if (type != "scale" && type != "translation") {
+    step.fail("type", "'" + type.substr(0, 60) + "' is not known here",
+              "give the place with --spacing and --origin");
+  }
+  if (step.has("path")) {
+    step.fail("path", "transformations in files of their own are not read",
+              "give the place with --spacing and --origin");
+  }
+  const std::vector<double> numbers = step.numbers(type);
+  match_length(all.scale, numbers.size(), 1, step, type.c_str());
+  match_length(all.translation, numbers.size(), 0, step, type.c_str());
+  has_place = has_place || type == "translation";
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (type == "scale") {
+      all.scale[i] *= numbers[i];
+      all.translation[i] *= numbers[i];
+    } else {
+      all.translation[i] += numbers[i];
+    }
+  }
+}
+
+void add_transforms(const JsonFields& holder, LevelTransform& all, bool& has_place) {
+  constexpr const char* kKey = "coordinateTransformations";
+  if (!holder.has(kKey)) return;
+  for (std::size_t i = 0; i < holder.count(kKey); ++i) {
+    add_transform(holder.element(kKey, i), all, has_place);
+  }
+}
+
+std::string common_unit(const Multiscale& multiscale, const AxisMap& axes, std::string_view file) {
+  if (multiscale.axis_units.empty()) return {};
+  std::string unit = multiscale.axis_units[*axes.axes[0]];
+  for (const auto& axis : axes.axes) {
+    if (!axis || multiscale.axis_units[*axis] == unit) continue;
+    fail_input(
+        file, "axes",
+        text("the units of x, y and z differ ('", unit, "', '", multiscale.axis_units[*axis], "')"),
+        "give the size of a voxel in one unit with --spacing");
+  }
+  return unit;
+}
+
+}  // namespace
+
+bool has_multiscale(const nlohmann::json& attributes) {
+  const nlohmann::json& ome = ome_of(attributes);
+  const auto found = ome.find("multiscales");
+  return found != ome.end() && found->is_array() && !found->empty();
+}
+
+Multiscale parse_multiscale(const nlohmann::json& attributes, const std::string& file) {
+  const nlohmann::json& ome = ome_of(attributes);
+  const JsonFields fields(ome, file, where_of(attributes));
+  check_version(fields);
+  const JsonFields multiscale = fields.element("multiscales", 0);
+  check_version(multiscale);
+  Multiscale out;
+  parse_axes(ome.at("multiscales")[0], multiscale, out);
+  for (std::size_t i = 0; i < multiscale.count("datasets"); ++i) {
+    const JsonFields dataset = multiscale.element("datasets", i);
+    MultiscaleLevel level{.path = dataset.text("path")};
+    add_transforms(dataset, level.transform, out.has_place);
+    add_transforms(multiscale, level.transform, out.has_place);
+    out.levels.push_back(std::move(level));
+  }
+  if (out.levels.empty()) multiscale.fail("datasets", "there is none", "the file is damaged");
+  return out;
+}
+
+FileSpace space_of(const Multiscale& multiscale, const MultiscaleLevel& level, const AxisMap& axes,
+                   std::string_view file) {
+  FileSpace space{.first_is_centre = true,
+                  .steps_field = "coordinateTransformations: scale",
+                  .first_field = "coordinateTransformations: translation"};
+  const auto along = [&](const std::vector<double>& numbers, double missing) {
+    Vector3 out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& axis = axes.axes[i];
+      if (axis && !numbers.empty() && *axis >= numbers.size()) {
+        fail_input(file, "coordinateTransformations",
+                   text(numbers.size(), " numbers for an array of more axes"),
+                   "the file is damaged");
+      }
+      out[i] = axis && !numbers.empty() ? numbers[*axis] : missing;
+    }
+    return out;
+  };
+  space.steps = steps_of(along(level.transform.scale, 1));
+  if (multiscale.has_place) space.first = along(level.transform.translation, 0);
+  space.unit = common_unit(multiscale, axes, file);
+  return space;
+}
+
+std::vector<std::string> label_images(const nlohmann::json& attributes) {
+  std::vector<std::string> out;
+  const nlohmann::json& ome = ome_of(attributes);
+  const auto found = ome.find("labels");
+  if (found == ome.end() || !found->is_array()) return out;
+  for (const nlohmann::json& name : *found) {
+    if (name.is_string()) out.push_back(name.get<std::string>());
+  }
+  return out;
+}
+
+}  // namespace mw::io

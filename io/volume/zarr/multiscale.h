@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A multiscale image of OME-NGFF: one volume at several resolutions.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/volume/file_space.h"
+#include "io/volume/zarr/axis_map.h"
+
+namespace mw::io {
+
+/// What an index along an axis is in the world: scale * index + translation.
+struct LevelTransform {
+  std::vector<double> scale;  ///< one number an axis
+  std::vector<double> translation;
+};
+
+struct MultiscaleLevel {
+  std::string path;  ///< of its array, relative to the group
+  LevelTransform transform;
+};
+
+struct Multiscale {
+  std::vector<std::string> axis_names;  ///< as map_axes wants them; empty: not said
+  std::vector<std::string> axis_units;  ///< in short, "nm"; as many as names
+  std::vector<MultiscaleLevel> levels;  ///< the finest first
+  /// Whether any transform moves: then they place centres of voxels, and without, nothing.
+  bool has_place = false;
+};
+
+/// Whether the attributes of a group have multiscales, of OME-NGFF 0.1 to 0.5.
+[[nodiscard]] bool has_multiscale(const nlohmann::json& attributes);
+
+/// The first multiscale.  REQUIRES: has_multiscale(attributes), an object.
+/// ERRORS: mw::Error(kInput) naming file and field.
+[[nodiscard]] Multiscale parse_multiscale(const nlohmann::json& attributes,
+                                          const std::string& file);
+
+/// The place of a level whose array has `axes`; unit: unless the caller gives a spacing, those of
+/// x, y and z must be the same.
+/// ERRORS: mw::Error(kInput) naming file and field when the transform is not of as many axes.
+[[nodiscard]] FileSpace space_of(const Multiscale& multiscale, const MultiscaleLevel& level,
+                                 const AxisMap& axes, std::string_view file);
+
+/// Names of the labels that the attributes of an image's group `labels` list.
+[[nodiscard]] std::vector<std::string> label_images(const nlohmann::json& attributes);
+
+}  // namespace mw::io

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What the metadata of a Zarr array say, of either version.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/codec/codec.h"
+#include "io/file/byte_order.h"
+#include "io/volume/label_volume.h"
+
+namespace mw::io {
+
+/// The most axes that an array may have.
+inline constexpr std::size_t kMostZarrAxes = 32;
+
+/// A step in which bytes are packed: by a codec, or CRC-32C is put behind them.
+struct PackStep {
+  Codec codec = Codec::kNone;
+  bool is_crc32c = false;
+};
+
+/// How the voxels of a chunk become bytes.  All vectors of axes have one entry an axis of the
+/// array.
+struct ChunkCoding {
+  std::vector<std::int64_t> shape;
+  std::vector<std::size_t> order;  ///< axes of the array, from the slowest to the fastest
+  ByteOrder byte_order = ByteOrder::kLittle;
+  std::vector<PackStep> steps;  ///< in the order of writing
+};
+
+/// How a shard holds its chunks: one after the other, and an index of 16 bytes a chunk.
+struct ShardCoding {
+  std::vector<std::int64_t> chunks;  ///< how many along each axis
+  std::vector<std::size_t> order;    ///< axes in which the index counts, from the slowest
+  bool index_at_end = true;
+  bool has_checksum = false;  ///< CRC-32C behind the index
+  ByteOrder byte_order = ByteOrder::kLittle;
+};
+
+/// Names of the files: prefix, then the numbers along the axes with the separator between two.
+struct ChunkKeys {
+  std::string prefix;
+  char separator = '.';
+};
+
+struct ZarrArray {
+  std::vector<std::int64_t> shape;
+  VoxelType type = VoxelType::kU8;  ///< booleans are kU8
+  std::optional<RawLabel> fill;     ///< of chunks that are not there; empty: it is no label
+  ChunkKeys keys;
+  ChunkCoding chunk;                    ///< what is read at once: within shards, their chunks
+  std::optional<ShardCoding> shard;     ///< what a file holds, if not one chunk
+  std::vector<std::string> axis_names;  ///< by `dimension_names`; empty: none
+};
+
+/// Bytes of the voxels of a chunk.  REQUIRES: checked (check_chunk).
+[[nodiscard]] std::uint64_t chunk_bytes(const ZarrArray& array);
+
+/// ERRORS: mw::Error(kInput) naming file and field when there are more than kMostZarrAxes.
+void check_axes(std::string_view file, std::string_view field, std::size_t axes);
+
+/// ERRORS: mw::Error(kInput) naming file and field unless there is one positive extent an axis.
+void check_grid(std::string_view file, std::string_view field,
+                const std::vector<std::int64_t>& extents, std::size_t axes);
+
+/// The same, and when the voxels are more than kMostChunkBytes.
+void check_chunk(std::string_view file, std::string_view field,
+                 const std::vector<std::int64_t>& chunk, std::size_t axes, VoxelType type);
+
+}  // namespace mw::io

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Finds and reads the chunks of a Zarr array.
+#include "io/volume/zarr/zarr_chunks.h"
+
+#include <algorithm>
+
+#include "io/chunks/chunk_bytes.h"
+#include "io/file/errors.h"
+#include "io/volume/zarr/chunk_coding.h"
+#include "io/volume/zarr/shard_indices.h"
+
+namespace mw::io {
+namespace {
+
+/// What both kinds of files share.
+class ZarrChunks : public ChunkSource {
+ public:
+  ZarrChunks(std::filesystem::path folder, ZarrArray array, AxisMap axes)
+      : folder_(std::move(folder)), array_(std::move(array)), axes_(axes) {}
+
+  [[nodiscard]] std::string name() const override { return folder_.string(); }
+
+ protected:
+  [[nodiscard]] const ZarrArray& array() const { return array_; }
+  [[nodiscard]] const AxisMap& axes() const { return axes_; }
+
+  /// The file of that number along x, y and z.
+  [[nodiscard]] std::filesystem::path path_of(Index3 number) const {
+    std::string key;
+    for (const std::int64_t along : axes_.spread(number, array_.shape.size())) {
+      if (!key.empty()) key += array_.keys.separator;
+      key += std::to_string(along);
+    }
+    return folder_ / (array_.keys.prefix + key);
+  }
+
+  /// For a chunk that is not there.
+  [[nodiscard]] std::optional<Chunk> fill_of(Index3 chunk) const {
+    if (array_.fill) return std::nullopt;
+    fail_input(name_of(chunk), "fill_value",
+               "the chunk is not there, and what fills it is no label",
+               "labels are whole numbers: is this an image, or probabilities?");
+  }
+
+ private:
+  std::filesystem::path folder_;
+  ZarrArray array_;
+  AxisMap axes_;
+};
+
+class ChunkFiles : public ZarrChunks {
+ public:
+  using ZarrChunks::ZarrChunks;
+
+  [[nodiscard]] std::string name_of(Index3 chunk) const override { return path_of(chunk).string(); }
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/) const override {
+    const auto file = open_if_there(path_of(chunk));
+    if (!file) return fill_of(chunk);
+    return unpack_chunk(array(), axes(), read_rest(*file, 0, most_packed(array())), file->name());
+  }
+  [[nodiscard]] std::uint64_t scratch_bytes() const override { return unpack_scratch(array()); }
+};
+
+class ShardFiles : public ZarrChunks {
+ public:
+  ShardFiles(const std::filesystem::path& folder, const ZarrArray& array, const AxisMap& axes)
+      : ZarrChunks(folder, array, axes),
+        chunks_(axes.pick(array.shard->chunks, 1)),
+        indices_(*array.shard) {}
+
+  [[nodiscard]] std::string name_of(Index3 chunk) const override {
+    const Index3 inside = chunk_in_shard(chunk);
+    return text(path_of(shard_of(chunk)).string(), ": chunk (", inside.x, ", ", inside.y, ", ",
+                inside.z, ") of the shard");
+  }
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/) const override {
+    const Index3 shard = shard_of(chunk);
+    const std::filesystem::path path = path_of(shard);
+    const auto inside = axes().spread(chunk_in_shard(chunk), array().shape.size());
+    const auto range = indices_.find(shard, path, inside);
+    if (!range) return fill_of(chunk);
+    return unpack_chunk(array(), axes(), read_range(path, *range, chunk), name_of(chunk));
+  }
+  [[nodiscard]] std::uint64_t scratch_bytes() const override {
+    return unpack_scratch(array()) + indices_.most_bytes();
+  }
+
+ private:
+  [[nodiscard]] Index3 shard_of(Index3 chunk) const {
+    return {chunk.x / chunks_.x, chunk.y / chunks_.y, chunk.z / chunks_.z};
+  }
+  [[nodiscard]] Index3 chunk_in_shard(Index3 chunk) const {
+    return {chunk.x % chunks_.x, chunk.y % chunks_.y, chunk.z % chunks_.z};
+  }
+  [[nodiscard]] std::vector<std::byte> read_range(const std::filesystem::path& path,
+                                                  const ShardRange& range, Index3 chunk) const {
+    const FileSource file(path);
+    const bool is_inside = range.offset <= file.size() && range.bytes <= file.size() - range.offset;
+    if (!is_inside || range.bytes > most_packed(array())) {
+      fail_input(name_of(chunk), "shard index",
+                 text("places it at ", range.offset, " with ", range.bytes, " bytes; the file has ",
+                      file.size(), " and a chunk at most ", most_packed(array())),
+                 "get a whole copy of the store");
+    }
+    std::vector<std::byte> packed(range.bytes);
+    file.read_at(range.offset, packed);
+    return packed;
+  }
+
+  Index3 chunks_;  ///< of a shard
+  ShardIndices indices_;
+};
+
+}  // namespace
+
+std::unique_ptr<ChunkSource> zarr_chunks(const std::filesystem::path& folder,
+                                         const ZarrArray& array, const AxisMap& axes) {
+  if (array.shard) return std::make_unique<ShardFiles>(folder, array, axes);
+  return std::make_unique<ChunkFiles>(folder, array, axes);
+}
+
+}  // namespace mw::io

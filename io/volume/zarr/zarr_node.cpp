@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Reads the metadata of groups and arrays of a Zarr store.
+#include "io/volume/zarr/zarr_node.h"
+
+#include <algorithm>
+
+#include "io/json/json_fields.h"
+#include "io/json/json_file.h"
+
+namespace mw::io {
+namespace {
+
+bool has_file(const std::filesystem::path& folder, const char* name) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(folder / name, ignored);
+}
+
+nlohmann::json object_or_none(const nlohmann::json& document, const std::string& file,
+                              const char* key) {
+  const JsonFields fields(document, file);
+  if (!fields.has(key)) return nlohmann::json::object();
+  static_cast<void>(fields.object(key));  // checks that it is one
+  return document.at(key);
+}
+
+ZarrNode read_v3(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "zarr.json";
+  ZarrNode node{.folder = folder, .version = 3};
+  node.metadata_file = node.attributes_file = path.string();
+  node.metadata = read_json(path);
+  const JsonFields fields(node.metadata, node.metadata_file);
+  const std::string type = fields.text("node_type");
+  if (type != "array" && type != "group") {
+    fields.fail("node_type", "'" + type.substr(0, 60) + "' is neither 'array' nor 'group'",
+                "the file is damaged");
+  }
+  node.is_array = type == "array";
+  node.attributes = object_or_none(node.metadata, node.metadata_file, "attributes");
+  return node;
+}
+
+ZarrNode read_v2(const std::filesystem::path& folder) {
+  ZarrNode node{.folder = folder, .version = 2};
+  node.is_array = has_file(folder, ".zarray");
+  node.metadata_file = (folder / ".zarray").string();
+  node.attributes_file = (folder / ".zattrs").string();
+  if (node.is_array) node.metadata = read_json(node.metadata_file);
+  node.attributes = nlohmann::json::object();
+  if (!has_file(folder, ".zattrs")) return node;
+  node.attributes = read_json(node.attributes_file);
+  static_cast<void>(JsonFields(node.attributes, node.attributes_file));  // checks that it is one
+  return node;
+}
+
+}  // namespace
+
+bool is_zarr_node(const std::filesystem::path& folder) {
+  constexpr std::array kFiles{"zarr.json", ".zarray", ".zgroup", ".zattrs"};
+  return std::any_of(kFiles.begin(), kFiles.end(),
+                     [&](const char* file) { return has_file(folder, file); });
+}
+
+std::optional<ZarrNode> read_zarr_node(const std::filesystem::path& folder) {
+  if (has_file(folder, "zarr.json")) return read_v3(folder);
+  if (is_zarr_node(folder)) return read_v2(folder);
+  return std::nullopt;
+}
+
+std::optional<std::filesystem::path> path_in_store(const std::filesystem::path& folder,
+                                                   std::string_view path) {
+  std::filesystem::path out = folder;
+  while (!path.empty()) {
+    const std::size_t end = std::min(path.find('/'), path.size());
+    const std::string_view part = path.substr(0, end);
+    path.remove_prefix(std::min(end + 1, path.size()));
+    if (part == ".." || part.find('\0') != part.npos) return std::nullopt;
+    if (!part.empty() && part != ".") out /= part;
+  }
+  return out;
+}
+
+}  // namespace mw::io

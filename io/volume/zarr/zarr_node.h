@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Groups and arrays of a Zarr store.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mw::io {
+
+/// What is in a folder, with its metadata read but not looked at.
+struct ZarrNode {
+  std::filesystem::path folder;
+  int version = 2;
+  bool is_array = false;
+  nlohmann::json metadata;    ///< of an array: .zarray or zarr.json
+  nlohmann::json attributes;  ///< always an object
+  std::string metadata_file;  ///< what errors about the two name
+  std::string attributes_file;
+};
+
+/// Whether there is metadata of a group or an array.
+[[nodiscard]] bool is_zarr_node(const std::filesystem::path& folder);
+
+/// Version 3 where there is metadata of both; attributes without any other metadata are a group.
+/// ENSURES: empty when the folder is no node.
+/// ERRORS: mw::Error(kInput) naming the file when metadata are damaged.
+[[nodiscard]] std::optional<ZarrNode> read_zarr_node(const std::filesystem::path& folder);
+
+/// A folder of the store; empty, "." and "/" in front are the store itself.  Not looked up.
+/// ENSURES: empty for a path that leads out of the store.
+[[nodiscard]] std::optional<std::filesystem::path> path_in_store(
+    const std::filesystem::path& folder, std::string_view path);
+
+}  // namespace mw::io

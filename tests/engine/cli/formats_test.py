@@ -1,0 +1,326 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every input format gives the mesh of the same voxels in .npy, in the same place, byte for byte.
+
+The files come from writers that share nothing with the readers: nibabel, h5py, zarr, tifffile and
+vtk where they are installed, and bytes laid out by hand after the specifications.
+"""
+import gzip
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+try:
+    import numpy
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+PROGRAM = os.environ["MW_PROGRAM"]
+SPACING = numpy.array([1.25, 1.0, 1.5])  # x, y, z
+CORNER = numpy.array([-20.5, 7.25, 100.0])
+CENTRE = CORNER + SPACING / 2
+PLACE = [
+    "--spacing", ",".join(map(str, SPACING)), "--origin=" + ",".join(map(str, CORNER))
+]
+
+
+def run(*arguments):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout
+
+
+def needs(module):
+    """The module, or a skipped test."""
+    try:
+        return __import__(module)
+    except ImportError as missing:
+        raise unittest.SkipTest(str(missing)) from None
+
+
+def triple(values):
+    return " ".join(repr(float(v)) for v in values)
+
+
+class Formats(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        os.chdir(cls.folder.name)
+        random = numpy.random.default_rng(7)
+        z, y, x = numpy.indices((21, 18, 26))
+        labels = ((x - 9) ** 2 + (y - 8) ** 2 + (z - 10) ** 2 < 50).astype(numpy.uint16) * 3
+        labels[(x > 15) & (y + z > 20)] = 40000
+        labels[random.random(labels.shape) < 0.01] = 17
+        cls.labels = labels
+        numpy.save("array.npy", labels)
+        run("mesh", "array.npy", *PLACE, "-o", "array.vtkhdf")
+        cls.digest = run("digest", "array.vtkhdf")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def check(self, path, *arguments):
+        run("mesh", path, *arguments, "-o", "out.vtkhdf")
+        self.assertEqual(run("digest", "out.vtkhdf"), self.digest, path)
+
+    def test_npy_orders_and_types(self):
+        for name, array in {
+            "fortran": numpy.asfortranarray(self.labels),
+            "big": self.labels.astype(">u4"),
+            "wide": self.labels.astype("i8"),
+            "floats": self.labels.astype("f4"),
+            "doubles": self.labels.astype(">f8"),
+        }.items():
+            numpy.save(name + ".npy", array)
+            self.check(name + ".npy", *PLACE)
+
+    def test_npz(self):
+        numpy.savez("one.npz", labels=self.labels)
+        self.check("one.npz", *PLACE)
+        numpy.savez_compressed("two.npz", image=numpy.zeros(3), labels=self.labels)
+        self.check("two.npz", "--dataset", "labels", *PLACE)
+
+    def test_nifti(self):
+        nibabel = needs("nibabel")
+        affine = numpy.diag([*SPACING, 1.0])
+        affine[:3, 3] = CENTRE
+        image = nibabel.Nifti1Image(self.labels.transpose(2, 1, 0), affine)
+        for name in ("a.nii", "a.nii.gz"):
+            nibabel.save(image, name)
+            self.check(name)
+        nibabel.save(nibabel.Nifti2Image(self.labels.transpose(2, 1, 0)[..., None], affine), "b.nii")
+        self.check("b.nii")
+
+    def nrrd_header(self, encoding):
+        directions = " ".join(
+            "(" + ",".join(repr(float(v)) for v in row) + ")" for row in numpy.diag(SPACING)
+        )
+        return (
+            "NRRD0004\ntype: unsigned short\ndimension: 3\nspace: left-posterior-superior\n"
+            f"sizes: 26 18 21\nspace directions: {directions}\nkinds: domain domain domain\n"
+            f"endian: little\nencoding: {encoding}\n"
+            "space origin: (" + ",".join(repr(float(v)) for v in CENTRE) + ")\n"
+        ).encode()
+
+    def test_nrrd(self):
+        data = self.labels.astype("<u2").tobytes()
+        with open("a.nrrd", "wb") as file:
+            file.write(self.nrrd_header("raw") + b"\n" + data)
+        self.check("a.nrrd")
+        with open("b.nrrd", "wb") as file:
+            file.write(self.nrrd_header("gzip") + b"\n" + gzip.compress(data))
+        self.check("b.nrrd")
+
+    def test_frames_of_one_image(self):
+        """LPS turned to RAS is the same image as RAS."""
+        data = self.labels.astype("<u2").tobytes()
+        turned = self.nrrd_header("raw").decode()
+        turned = turned.replace("left-posterior-superior", "right-anterior-superior")
+        turned = turned.replace("(1.25,0.0,0.0) (0.0,1.0,0.0)", "(-1.25,0.0,0.0) (0.0,-1.0,0.0)")
+        x, y, z = CENTRE
+        turned = turned.replace(f"({x},{y},{z})", f"({-x},{-y},{z})")
+        with open("ras.nrrd", "wb") as file:
+            file.write(turned.encode() + b"\n" + data)
+        self.check("ras.nrrd", "--frame", "lps")
+
+    def metaimage_header(self, extra):
+        return (
+            "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+            "TransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+            f"Offset = {triple(CENTRE)}\nCenterOfRotation = 0 0 0\nElementSpacing = {triple(SPACING)}\n"
+            f"DimSize = 26 18 21\n{extra}ElementType = MET_USHORT\n"
+        )
+
+    def test_metaimage(self):
+        data = self.labels.astype("<u2").tobytes()
+        with open("a.mha", "wb") as file:
+            file.write((self.metaimage_header("") + "ElementDataFile = LOCAL\n").encode() + data)
+        self.check("a.mha")
+        packed = zlib.compress(data)
+        extra = f"CompressedData = True\nCompressedDataSize = {len(packed)}\n"
+        with open("b.zraw", "wb") as file:
+            file.write(packed)
+        with open("b.mhd", "w") as file:
+            file.write(self.metaimage_header(extra) + "ElementDataFile = b.zraw\n")
+        self.check("b.mhd")
+
+    def test_hdf5(self):
+        h5py = needs("h5py")
+        with h5py.File("plain.h5", "w") as file:
+            file.create_dataset("seg", data=self.labels, chunks=(8, 7, 9), compression="gzip",
+                                shuffle=True)
+            file.create_dataset("raw", data=numpy.zeros((5, 5), "f4"))
+        self.check("plain.h5", *PLACE)
+        self.check("plain.h5", "--dataset", "seg", *PLACE)
+        with h5py.File("cremi.h5", "w") as file:
+            data = file.create_dataset("volumes/labels/neuron_ids", data=self.labels.astype("u8"))
+            data.attrs["resolution"] = SPACING[::-1]
+            data.attrs["offset"] = CORNER[::-1]
+        self.check("cremi.h5")
+        with h5py.File("grains.dream3d", "w") as file:
+            image = file.create_group("DataContainers/ImageDataContainer")
+            image.create_dataset("CellData/FeatureIds", data=self.labels.astype("i4")[..., None])
+            geometry = image.create_group("_SIMPL_GEOMETRY")
+            geometry.create_dataset("DIMENSIONS", data=numpy.array([26, 18, 21], "i8"))
+            geometry.create_dataset("SPACING", data=SPACING.astype("f4"))
+            geometry.create_dataset("ORIGIN", data=CORNER.astype("f4"))
+        self.check("grains.dream3d")
+
+    def test_zarr_v2(self):
+        zarr = needs("zarr")
+        for order, separator in (("C", "."), ("F", "/")):
+            store = zarr.DirectoryStore(f"v2{order}.zarr")
+            array = zarr.create(self.labels.shape, chunks=(8, 10, 6), dtype="<u8", order=order,
+                                store=store, dimension_separator=separator, overwrite=True)
+            array[:] = self.labels
+            self.check(f"v2{order}.zarr", *PLACE)
+
+    def test_ome_ngff(self):
+        zarr = needs("zarr")
+        group = zarr.open_group("ome.zarr", mode="w")
+        fine = group.create_dataset("0", shape=(1, *self.labels.shape), chunks=(1, 8, 8, 8),
+                                    dtype="u2", dimension_separator="/")
+        fine[0] = self.labels
+        coarse = group.create_dataset("1", shape=(1, 11, 9, 13), chunks=(1, 8, 8, 8), dtype="u2",
+                                      dimension_separator="/")
+        coarse[0] = self.labels[::2, ::2, ::2]
+        def level(path, factor):
+            scale = SPACING[::-1] * factor
+            shift = CENTRE[::-1] + SPACING[::-1] * (factor - 1) / 2
+            return {"path": path, "coordinateTransformations": [
+                {"type": "scale", "scale": [1.0, *scale]},
+                {"type": "translation", "translation": [0.0, *shift]}]}
+        group.attrs["multiscales"] = [{
+            "version": "0.4",
+            "axes": [{"name": "c", "type": "channel"}] + [
+                {"name": n, "type": "space", "unit": "micrometer"} for n in "zyx"],
+            "datasets": [level("0", 1), level("1", 2)]}]
+        self.check("ome.zarr")
+        self.check("ome.zarr", "--scale", "0")
+
+    def test_zarr_v3(self):
+        """Chunks after the specification, transposed and gzipped."""
+        os.makedirs("v3.zarr")
+        chunk = (8, 10, 6)
+        with open("v3.zarr/zarr.json", "w") as file:
+            json.dump({
+                "zarr_format": 3, "node_type": "array", "shape": list(self.labels.shape),
+                "data_type": "uint16", "fill_value": 0, "attributes": {},
+                "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": list(chunk)}},
+                "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
+                "codecs": [
+                    {"name": "transpose", "configuration": {"order": [2, 1, 0]}},
+                    {"name": "bytes", "configuration": {"endian": "big"}},
+                    {"name": "gzip", "configuration": {"level": 5}}]}, file)
+        for index in numpy.ndindex(3, 2, 5):
+            part = numpy.zeros(chunk, ">u2")
+            lo = [i * n for i, n in zip(index, chunk)]
+            held = self.labels[tuple(slice(l, l + n) for l, n in zip(lo, chunk))]
+            if not held.any():
+                continue  # a chunk of fill values need not be there
+            part[tuple(slice(0, n) for n in held.shape)] = held
+            path = "v3.zarr/c/" + "/".join(map(str, index))
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "wb") as file:
+                file.write(gzip.compress(part.transpose(2, 1, 0).tobytes()))
+        self.check("v3.zarr", *PLACE)
+
+    def test_n5(self):
+        zarr = needs("zarr")
+        store = zarr.N5Store("a.n5")
+        array = zarr.create(self.labels.shape, chunks=(8, 10, 6), dtype="u4", store=store,
+                            path="seg", compressor=None)
+        array[:] = self.labels
+        array.attrs["resolution"] = list(SPACING)
+        array.attrs["offset"] = list(CORNER)
+        self.check("a.n5")
+
+    def test_precomputed(self):
+        os.makedirs("pre/full")
+        voxels = self.labels.transpose(2, 1, 0).astype("<u8")
+        size, chunk = voxels.shape, (8, 8, 8)
+        offset = [4, -3, 10]
+        resolution = [5.0, 2.0, 4.0]
+        with open("pre/info", "w") as file:
+            json.dump({"type": "segmentation", "data_type": "uint64", "num_channels": 1, "scales": [{
+                "key": "full", "size": list(size), "resolution": resolution,
+                "voxel_offset": offset, "chunk_sizes": [list(chunk)], "encoding": "raw"}]}, file)
+        for index in numpy.ndindex(*[-(-n // c) for n, c in zip(size, chunk)]):
+            lo = [i * c for i, c in zip(index, chunk)]
+            hi = [min(l + c, n) for l, c, n in zip(lo, chunk, size)]
+            name = "_".join(f"{l + o}-{h + o}" for l, h, o in zip(lo, hi, offset))
+            part = voxels[tuple(slice(l, h) for l, h in zip(lo, hi))]
+            with open("pre/full/" + name, "wb") as file:
+                file.write(part.tobytes(order="F"))
+        corner = ",".join(str(o * r) for o, r in zip(offset, resolution))
+        run("mesh", "array.npy", "--spacing", "5,2,4", "--origin=" + corner, "-o", "nm.vtkhdf")
+        run("mesh", "pre", "-o", "out.vtkhdf")
+        self.assertEqual(run("digest", "out.vtkhdf"), run("digest", "nm.vtkhdf"))
+
+    def test_tiff(self):
+        tifffile = needs("tifffile")
+        tifffile.imwrite("a.tif", self.labels, photometric="minisblack")
+        self.check("a.tif", *PLACE)
+        tifffile.imwrite("b.tif", self.labels.astype("u4"), photometric="minisblack",
+                         bigtiff=True, tile=(16, 16), compression="zlib")
+        self.check("b.tif", *PLACE)
+        os.makedirs("slices")
+        for z, page in enumerate(self.labels):
+            tifffile.imwrite(f"slices/s{z}.tif", page)
+        self.check("slices", *PLACE)
+
+    def test_vti(self):
+        vtk = needs("vtk")
+        from vtk.util import numpy_support
+        image = vtk.vtkImageData()
+        image.SetDimensions(27, 19, 22)
+        image.SetSpacing(*SPACING)
+        image.SetOrigin(*CORNER)
+        array = numpy_support.numpy_to_vtk(self.labels.ravel())
+        array.SetName("label")
+        image.GetCellData().SetScalars(array)
+        writer = vtk.vtkXMLImageDataWriter()
+        writer.SetInputData(image)
+        for mode in ("Ascii", "Binary", "Appended"):
+            getattr(writer, "SetDataModeTo" + mode)()
+            writer.SetFileName("a.vti")
+            writer.Write()
+            self.check("a.vti")
+
+    def test_inr(self):
+        header = ("#INRIMAGE-4#{\nXDIM=26\nYDIM=18\nZDIM=21\nVDIM=1\nTYPE=unsigned fixed\n"
+                  "PIXSIZE=16 bits\nSCALE=2**0\nCPU=decm\n"
+                  + "".join(f"V{n}={s}\n" for n, s in zip("XYZ", SPACING))
+                  + "".join(f"T{n}={c}\n" for n, c in zip("XYZ", CORNER)))
+        header += "\n" * (256 - 4 - len(header)) + "##}\n"
+        with open("a.inr", "wb") as file:
+            file.write(header.encode() + self.labels.astype("<u2").tobytes())
+        self.check("a.inr")
+
+    def test_raw(self):
+        self.labels.astype(">u4").tofile("a.raw")
+        self.check("a.raw", "--shape", "26,18,21", "--dtype", "u32", "--endian", "big", *PLACE)
+
+    def test_part_of_a_volume(self):
+        big = numpy.zeros((25, 24, 30), numpy.uint16)
+        big[3:24, 2:20, 1:27] = self.labels
+        numpy.save("big.npy", big)
+        lo = CORNER - SPACING * [1, 2, 3]
+        self.check("big.npy", "--crop", "1,2,3,27,20,24", *PLACE)
+        nibabel = needs("nibabel")
+        affine = numpy.diag([*SPACING, 1.0])
+        affine[:3, 3] = lo + SPACING / 2
+        nibabel.save(nibabel.Nifti1Image(big.transpose(2, 1, 0), affine), "big.nii")
+        self.check("big.nii", "--crop", "1,2,3,27,20,24")
+
+
+if __name__ == "__main__":
+    unittest.main()
