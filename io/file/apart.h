@@ -12,7 +12,7 @@ namespace mw::io {
 
 struct ApartLimits {
   std::uint64_t memory_bytes = std::uint64_t{1} << 30U;  ///< beyond what this process has now
-  std::uint64_t cpu_seconds = 30;                        ///< waiting for a disk does not count
+  std::uint64_t cpu_seconds = 5;                         ///< waiting for a disk does not count
   std::size_t answer_bytes = std::size_t{1} << 20U;
 };
 

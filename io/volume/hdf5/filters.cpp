@@ -106,7 +106,9 @@ void check_filters(const Hdf5Description& description, std::string_view file) {
 std::vector<std::byte> unfilter(const std::vector<Hdf5Filter>& filters,
                                 std::vector<std::byte> stored, const Unfiltering& wanted) {
   // Checksums may be packed with the voxels.
-  const std::size_t most = wanted.bytes + kChecksumBytes * filters.size();
+  const auto checksums = std::count_if(filters.begin(), filters.end(),
+                                       [](const auto& filter) { return filter.id == kFletcher32; });
+  const std::size_t most = wanted.bytes + kChecksumBytes * static_cast<std::size_t>(checksums);
   for (std::size_t i = filters.size(); i > 0; --i) {
     const bool skipped = i <= 32 && ((wanted.skipped >> (i - 1)) & 1U) != 0;
     if (!skipped) stored = undo(filters[i - 1], std::move(stored), most, wanted.name);

@@ -91,7 +91,7 @@ TEST_F(Hdf5Conventions, IlastikAxes) {
         const Hdf5Handle file = create();
         add(file, "/exported_data", sample);
         add(file, "/other", kOther);
-        write_attribute(file, "/exported_data", "axistags", tags(keys), chunked);
+        write_text_attribute(file, "/exported_data", "axistags", tags(keys), chunked);
         write_attribute(file, "/exported_data", "element_size_um", {0.5, 0.25, 0.125});
       }
       if (keys == "yxz" && !chunked) {

@@ -112,8 +112,8 @@ inline void write_attribute(const Hdf5Handle& file, const std::string& owner, co
   EXPECT_GE(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, numbers.data()), 0);
 }
 
-inline void write_attribute(const Hdf5Handle& file, const std::string& owner, const char* name,
-                            const std::string& text, bool variable = false) {
+inline void write_text_attribute(const Hdf5Handle& file, const std::string& owner, const char* name,
+                                 const std::string& text, bool variable = false) {
   const Hdf5Handle object(H5Oopen(file.get(), owner.c_str(), H5P_DEFAULT), &H5Oclose);
   const Hdf5Handle space(H5Screate(H5S_SCALAR), &H5Sclose);
   const Hdf5Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
