@@ -4,7 +4,9 @@
 #include "io/file/text_numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 
 namespace mw::io {
 namespace {
@@ -63,6 +65,15 @@ std::optional<std::vector<std::int64_t>> parse_integers(std::string_view text) {
 
 std::optional<std::vector<double>> parse_reals(std::string_view text) {
   return parse_all<double>(text);
+}
+
+double decimal_of(float value) {
+  if (!std::isfinite(value)) return static_cast<double>(value);
+  std::array<char, 32> text{};
+  const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  double out = 0;
+  std::from_chars(text.data(), end, out);
+  return out;
 }
 
 }  // namespace mw::io

@@ -25,4 +25,8 @@ namespace mw::io {
 [[nodiscard]] std::optional<std::vector<std::int64_t>> parse_integers(std::string_view text);
 [[nodiscard]] std::optional<std::vector<double>> parse_reals(std::string_view text);
 
+/// The shortest decimal that a float stands for: 1.2, not 1.2000000476837158, so that a volume has
+/// the spacing that its other files have.
+[[nodiscard]] double decimal_of(float value);
+
 }  // namespace mw::io

@@ -11,6 +11,7 @@
 #include "io/file/open_bytes.h"
 #include "io/volume/checks.h"
 #include "io/volume/hdf5/open_hdf5.h"
+#include "io/volume/inr/open_inr.h"
 #include "io/volume/metaimage/metaimage_header.h"
 #include "io/volume/metaimage/open_metaimage.h"
 #include "io/volume/n5/open_n5.h"
@@ -28,6 +29,7 @@
 #include "io/volume/raw/open_raw.h"
 #include "io/volume/slices/slice_folder.h"
 #include "io/volume/tiff/open_tiff.h"
+#include "io/volume/vti/open_vti.h"
 #include "io/volume/zarr/open_zarr.h"
 
 namespace mw::io {
@@ -64,6 +66,14 @@ constexpr std::array kFileFormats{
     FileFormat{".tif .tiff", has_tiff_magic,
                [](auto source, const auto&, const auto& options) {
                  return open_tiff(std::move(source), options);
+               }},
+    FileFormat{".vti", has_vtk_xml_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_vti(std::move(source), options);
+               }},
+    FileFormat{".inr", has_inr_magic,
+               [](auto source, const auto&, const auto& options) {
+                 return open_inr(std::move(source), options);
                }},
     FileFormat{".png", has_png_magic,
                [](auto, const auto& path, const auto& options) {

@@ -7,7 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/label_names.h"
-#include "io/mesh/vtu/vtu_document.h"
+#include "io/vtk_xml/vtk_document.h"
 
 namespace mw::io {
 namespace {
@@ -16,13 +16,13 @@ constexpr std::uint64_t kVtkTetra = 10;
 /// Keeps products of counts and sizes within 64 bits.
 constexpr std::uint64_t kMaxRows = std::uint64_t{1} << 56;
 
-std::uint64_t count_of(pugi::xml_node piece, const char* attribute, const VtuDocument& document) {
+std::uint64_t count_of(pugi::xml_node piece, const char* attribute, const VtkDocument& document) {
   const std::uint64_t count = piece.attribute(attribute).as_ullong(kMaxRows);
   if (count >= kMaxRows) fail_input(document.file(), attribute, "missing or not credible");
   return count;
 }
 
-pugi::xml_node named_array(pugi::xml_node parent, const char* name, const VtuDocument& document) {
+pugi::xml_node named_array(pugi::xml_node parent, const char* name, const VtkDocument& document) {
   const pugi::xml_node array = parent.find_child_by_attribute("DataArray", "Name", name);
   if (!array) fail_input(document.file(), text("array '", name, "'"), "missing");
   return array;
@@ -33,7 +33,7 @@ bool is_integer_scalar(pugi::xml_node array) {
   return type && !type->is_float && array.attribute("NumberOfComponents").as_int(1) == 1;
 }
 
-pugi::xml_node label_array(pugi::xml_node cell_data, const VtuDocument& document) {
+pugi::xml_node label_array(pugi::xml_node cell_data, const VtkDocument& document) {
   std::vector<std::string> integers;
   for (const pugi::xml_node array : cell_data.children("DataArray")) {
     if (is_integer_scalar(array)) integers.emplace_back(array.attribute("Name").as_string());
@@ -47,7 +47,7 @@ pugi::xml_node label_array(pugi::xml_node cell_data, const VtuDocument& document
   return named_array(cell_data, name->c_str(), document);
 }
 
-void read_points(pugi::xml_node piece, VtuDocument& document, MeshData& mesh) {
+void read_points(pugi::xml_node piece, VtkDocument& document, MeshData& mesh) {
   const std::uint64_t count = count_of(piece, "NumberOfPoints", document);
   const pugi::xml_node array = piece.child("Points").child("DataArray");
   if (!array && count == 0) return;
@@ -64,7 +64,7 @@ void read_points(pugi::xml_node piece, VtuDocument& document, MeshData& mesh) {
   }
 }
 
-void check_cells(pugi::xml_node cells, std::uint64_t count, VtuDocument& document) {
+void check_cells(pugi::xml_node cells, std::uint64_t count, VtkDocument& document) {
   const auto types = document.integers(named_array(cells, "types", document), count);
   for (std::size_t i = 0; i < count; ++i) {
     if (types[i] == kVtkTetra) continue;
@@ -79,7 +79,7 @@ void check_cells(pugi::xml_node cells, std::uint64_t count, VtuDocument& documen
   }
 }
 
-void read_cells(pugi::xml_node piece, std::uint64_t first_row, VtuDocument& document,
+void read_cells(pugi::xml_node piece, std::uint64_t first_row, VtkDocument& document,
                 MeshData& mesh) {
   const std::uint64_t count = count_of(piece, "NumberOfCells", document);
   const std::uint64_t rows = mesh.vertices.size() - first_row;
@@ -105,7 +105,7 @@ void read_cells(pugi::xml_node piece, std::uint64_t first_row, VtuDocument& docu
 }  // namespace
 
 MeshData read_vtu(const ByteSource& source) {
-  VtuDocument document(source);
+  VtkDocument document(source, {"UnstructuredGrid", "give a .vtu file of tetrahedra"});
   MeshData mesh;
   bool found = false;
   for (const pugi::xml_node piece : document.grid().children("Piece")) {

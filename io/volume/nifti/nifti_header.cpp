@@ -4,11 +4,11 @@
 #include "io/volume/nifti/nifti_header.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 
 namespace mw::io {
@@ -37,7 +37,7 @@ class View {
   }
   /// A number that is float in version 1 and double in version 2.
   [[nodiscard]] double real(std::size_t base, std::size_t index = 0) const {
-    return fields_.version == 1 ? meant(load<float>(&bytes_[base + 4 * index], order_))
+    return fields_.version == 1 ? decimal_of(load<float>(&bytes_[base + 4 * index], order_))
                                 : load<double>(&bytes_[base + 8 * index], order_);
   }
   [[nodiscard]] std::int64_t dim(std::size_t index) const {
@@ -63,17 +63,6 @@ class View {
   }
 
  private:
-  /// The shortest decimal that a float stands for: 1.2, not 1.2000000476837158, so that a volume
-  /// has the spacing that its other files have.
-  static double meant(float value) {
-    if (!std::isfinite(value)) return static_cast<double>(value);
-    std::array<char, 32> text{};
-    const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    double out = 0;
-    std::from_chars(text.data(), end, out);
-    return out;
-  }
-
   std::span<const std::byte> bytes_;
   const Fields& fields_;
   ByteOrder order_;

@@ -7,6 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/file_source.h"
+#include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 
 namespace mw::io {
@@ -19,6 +20,17 @@ std::shared_ptr<const ByteSource> open_file(const std::filesystem::path& path) {
   auto file = std::make_shared<FileSource>(path);
   if (file->size() == 0) fail_input(file->name(), {}, "the file is empty", "check how it was made");
   return file;
+}
+
+std::string description_of(const TiffHandle& handle) {
+  const char* description = nullptr;
+  const bool found = TIFFGetField(handle.get(), TIFFTAG_IMAGEDESCRIPTION, &description) == 1;
+  return found ? description : "";
+}
+
+double resolution_of(const TiffHandle& handle, std::uint32_t tag) {
+  float value = 0;
+  return TIFFGetField(handle.get(), tag, &value) == 1 ? decimal_of(value) : 0;
 }
 
 }  // namespace
@@ -59,15 +71,9 @@ void TiffStack::add_page(const TiffHandle& handle, const std::string& place) {
   if (page.smaller_copy) return;
   if (places_.empty()) {
     first_ = page;
-    const char* description = nullptr;
-    if (TIFFGetField(handle.get(), TIFFTAG_IMAGEDESCRIPTION, &description) == 1) {
-      description_ = description;
-    }
-    float x = 0, y = 0;
-    if (TIFFGetField(handle.get(), TIFFTAG_XRESOLUTION, &x) == 1)
-      resolution_[0] = static_cast<double>(x);
-    if (TIFFGetField(handle.get(), TIFFTAG_YRESOLUTION, &y) == 1)
-      resolution_[1] = static_cast<double>(y);
+    description_ = description_of(handle);
+    resolution_ = {resolution_of(handle, TIFFTAG_XRESOLUTION),
+                   resolution_of(handle, TIFFTAG_YRESOLUTION)};
   }
   if (!page.is_like(first_)) {
     fail_input(handle.file(), place, text(page.words(), ", the first slice is ", first_.words()),

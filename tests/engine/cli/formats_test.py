@@ -153,6 +153,31 @@ class Formats(unittest.TestCase):
             file.write(self.metaimage_header(extra) + "ElementDataFile = b.zraw\n")
         self.check("b.mhd")
 
+    def test_metaimage_by_vtk(self):
+        vtk = needs("vtk")
+        writer = vtk.vtkMetaImageWriter()
+        writer.SetInputData(self.vtk_points(self.labels))
+        for compressed in (False, True):
+            writer.SetCompression(compressed)
+            writer.SetFileName("v.mha")
+            writer.Write()
+            self.check("v.mha")
+            writer.SetFileName("v.mhd")
+            writer.SetRAWFileName("v.zraw" if compressed else "v.raw")
+            writer.Write()
+            self.check("v.mhd")
+
+    def test_metaimage_of_slices(self):
+        os.makedirs("raws")
+        for z, page in enumerate(self.labels):
+            page.astype(">u2").tofile(f"raws/p{z:02}.raw")
+        big = self.metaimage_header("").replace("OrderMSB = False", "OrderMSB = True")
+        names = "".join(f"raws/p{z:02}.raw\n" for z in range(21))
+        for value in ("LIST\n" + names, "raws/p%02d.raw 0 20 1\n"):
+            with open("l.mhd", "w") as file:
+                file.write(big + "ElementDataFile = " + value)
+            self.check("l.mhd")
+
     def test_hdf5(self):
         h5py = needs("h5py")
         with h5py.File("plain.h5", "w") as file:
@@ -282,6 +307,80 @@ class Formats(unittest.TestCase):
         for z, page in enumerate(self.labels):
             tifffile.imwrite(f"slices/s{z}.tif", page)
         self.check("slices", *PLACE)
+
+    def test_tiff_layouts(self):
+        tifffile = needs("tifffile")
+        for options in (
+            {"byteorder": ">"},
+            {"byteorder": ">", "bigtiff": True, "compression": "zlib", "predictor": True},
+            {"compression": "lzma", "rowsperstrip": 5},
+            {"tile": (32, 16), "compression": "zlib", "predictor": True},
+        ):
+            tifffile.imwrite("l.tif", self.labels, photometric="minisblack", **options)
+            self.check("l.tif", *PLACE)
+        tifffile.imwrite("f.tif", self.labels.astype("f4"), photometric="minisblack",
+                         compression="zlib")
+        self.check("f.tif", *PLACE)
+
+    def test_tiff_sizes(self):
+        """ImageJ's and OME's size of a voxel."""
+        tifffile = needs("tifffile")
+        origin = PLACE[2]
+        for truncate in (False, True):
+            tifffile.imwrite("j.tif", self.labels, imagej=True, resolution=tuple(1 / SPACING[:2]),
+                             truncate=truncate,
+                             metadata={"axes": "ZYX", "spacing": SPACING[2], "unit": "um"})
+            self.check("j.tif", origin)
+        sizes = {f"PhysicalSize{n}": s for n, s in zip("XYZ", SPACING)}
+        tifffile.imwrite("o.ome.tif", self.labels, photometric="minisblack",
+                         metadata={"axes": "ZYX", **sizes})
+        self.check("o.ome.tif", origin)
+
+    def test_pictures_by_vtk(self):
+        vtk = needs("vtk")
+        writer = vtk.vtkTIFFWriter()
+        writer.SetInputData(self.vtk_points(self.labels))
+        writer.SetFileName("v.tif")
+        for packing in ("NoCompression", "PackBits", "Deflate"):
+            getattr(writer, "SetCompressionTo" + packing)()
+            writer.Write()
+            self.check("v.tif", *PLACE)
+        os.makedirs("pngs")
+        writer = vtk.vtkPNGWriter()
+        # Into pictures of one slice it writes the last row first.
+        writer.SetInputData(self.vtk_points(self.labels[:, ::-1]))
+        writer.SetFilePattern("pngs/s%d.png")
+        writer.Write()
+        self.assertEqual(len(os.listdir("pngs")), len(self.labels))
+        self.check("pngs", *PLACE)
+
+    def vtk_points(self, labels):
+        """An image whose points are the centres of the voxels."""
+        vtk = needs("vtk")
+        from vtk.util import numpy_support
+        image = vtk.vtkImageData()
+        image.SetDimensions(*labels.shape[::-1])
+        image.SetSpacing(*SPACING)
+        image.SetOrigin(*CENTRE)
+        array = numpy_support.numpy_to_vtk(numpy.ascontiguousarray(labels).ravel(), deep=True)
+        array.SetName("label")
+        image.GetPointData().SetScalars(array)
+        return image
+
+    def test_vti_layouts(self):
+        vtk = needs("vtk")
+        writer = vtk.vtkXMLImageDataWriter()
+        writer.SetInputData(self.vtk_points(self.labels))
+        writer.SetFileName("l.vti")
+        writer.SetBlockSize(1024)
+        for packing in ("LZ4", "ZLib", "None"):
+            getattr(writer, "SetCompressorTypeTo" + packing)()
+            for encoded in (False, True):
+                writer.SetEncodeAppendedData(encoded)
+                getattr(writer, "SetHeaderTypeToUInt" + ("64" if encoded else "32"))()
+                getattr(writer, "SetByteOrderTo" + ("Big" if encoded else "Little") + "Endian")()
+                writer.Write()
+                self.check("l.vti")
 
     def test_vti(self):
         vtk = needs("vtk")

@@ -7,7 +7,7 @@
 
 namespace mw::io {
 
-enum class TiffPacking { kNone = 1, kDeflate = 8, kPackBits = 32773 };
+enum class TiffPacking { kNone = 1, kLzw = 5, kDeflate = 8, kPackBits = 32773 };
 
 /// A stack that can be bent field by field.
 struct TiffSample {
@@ -33,8 +33,7 @@ struct TiffSample {
 class TiffWriter {
  public:
   TiffWriter(const TiffSample& sample, const std::vector<RawLabel>& labels)
-      : sample_(sample), labels_(labels) {
-    file_ = sample.big_endian ? "MM" : "II";
+      : sample_(sample), labels_(labels), file_(sample.big_endian ? "MM" : "II") {
     file_ += number(sample.big_tiff ? 43 : 42, 2);
     if (sample.big_tiff) file_ += number(8, 2) + number(0, 2);
     link_ = file_.size();
@@ -140,12 +139,32 @@ class TiffWriter {
       out.resize(length);
       return out;
     }
+    if (sample_.packing == TiffPacking::kLzw) return lzw(plain);
     // PackBits packs each row apart; all bytes literal is a valid packing.
     std::string out;
     for (std::size_t at = 0; at < plain.size(); at += 100) {
       const std::string run = plain.substr(at, 100);
       out += static_cast<char>(run.size() - 1) + run;
     }
+    return out;
+  }
+
+  /// All bytes literal, in codes of 9 bits: the table is cleared before they get longer.
+  [[nodiscard]] static std::string lzw(const std::string& plain) {
+    constexpr unsigned kClear = 256, kDone = 257, kBits = 9;
+    std::string out;
+    unsigned bits = 0, filled = 0;
+    const auto put = [&](unsigned code) {
+      bits = bits << kBits | code;
+      filled += kBits;
+      for (; filled >= 8; filled -= 8) out += static_cast<char>(bits >> (filled - 8));
+    };
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      if (i % 200 == 0) put(kClear);
+      put(static_cast<unsigned char>(plain[i]));
+    }
+    put(kDone);
+    if (filled > 0) out += static_cast<char>(bits << (8 - filled));
     return out;
   }
 

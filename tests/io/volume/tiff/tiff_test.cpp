@@ -32,7 +32,7 @@ TEST(Tiff, StripsAndTilesByRegion) {
   const TempDir dir;
   std::mt19937 random(7);
   for (const TiffPacking packing :
-       {TiffPacking::kNone, TiffPacking::kDeflate, TiffPacking::kPackBits}) {
+       {TiffPacking::kNone, TiffPacking::kLzw, TiffPacking::kDeflate, TiffPacking::kPackBits}) {
     for (int i = 0; i < 12; ++i) {
       const auto size = [&](std::int64_t most) {
         return 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(most));

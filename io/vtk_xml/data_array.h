@@ -4,13 +4,14 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/file/byte_order.h"
-#include "io/mesh/vtu/byte_stream.h"
+#include "io/vtk_xml/byte_stream.h"
 
 namespace mw::io {
 
@@ -22,11 +23,13 @@ struct NumberType {
 };
 [[nodiscard]] std::optional<NumberType> parse_number_type(std::string_view name);
 
+enum class VtkPacking { kNone, kZlib, kLz4 };
+
 /// How the file encodes binary arrays.
 struct VtkEncoding {
   ByteOrder order = ByteOrder::kLittle;
-  int header_bytes = 4;     ///< 4 or 8: UInt32 or UInt64 header words
-  bool compressed = false;  ///< vtkZLibDataCompressor
+  int header_bytes = 4;  ///< 4 or 8: UInt32 or UInt64 header words
+  VtkPacking packing = VtkPacking::kNone;
 };
 
 /// For error messages: the file and the array.
@@ -35,8 +38,20 @@ struct ArrayName {
   std::string array;
 };
 
-/// The bytes of an array of `expected` bytes, decompressed.
+using UseBytes = std::function<void(std::span<const std::byte>)>;
+
+/// Hands the bytes of an array of `expected` bytes, decompressed, to use, piece by piece.
+/// Memory: one block of the file's, or 1 MiB.
 /// ERRORS of all: mw::Error(kInput) naming file and array.
+void visit_payload(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
+                   const ArrayName& name, const UseBytes& use);
+
+/// Reads the length in front of bytes that are not compressed.
+/// ENSURES: it is the one that is expected, and so many bytes are left.
+void check_payload_length(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
+                          const ArrayName& name);
+
+/// All bytes at once.
 [[nodiscard]] std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
                                                   std::uint64_t expected, const ArrayName& name);
 

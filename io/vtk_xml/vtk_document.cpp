@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The XML of a .vtu file, and its arrays as numbers.
-#include "io/mesh/vtu/vtu_document.h"
+// The XML of a VTK file, and its arrays as numbers or bytes.
+#include "io/vtk_xml/vtk_document.h"
 
 #include <algorithm>
 
@@ -35,7 +35,7 @@ void check_count(std::uint64_t found, std::uint64_t expected, const ArrayName& n
 
 }  // namespace
 
-VtuDocument::VtuDocument(const ByteSource& source) : source_(source) {
+VtkDocument::VtkDocument(const ByteSource& source, VtkKind kind) : source_(source), kind_(kind) {
   // XML up to the appended data, which may be binary; all of it when there are none.
   std::string head;
   std::size_t found = std::string::npos;
@@ -59,7 +59,7 @@ VtuDocument::VtuDocument(const ByteSource& source) : source_(source) {
 }
 
 /// Takes the appended data off head and notes where and what they are.
-void VtuDocument::find_appended(std::string& head) {
+void VtkDocument::find_appended(std::string& head) {
   const std::size_t tag = appended_start_;
   const std::size_t close = head.find('>', tag);
   const std::size_t mark = close == std::string::npos ? close : head.find('_', close);
@@ -72,34 +72,35 @@ void VtuDocument::find_appended(std::string& head) {
   head += "</VTKFile>";
 }
 
-void VtuDocument::parse(std::string head) {
+void VtkDocument::parse(std::string head) {
   const pugi::xml_parse_result result = xml_.load_buffer(head.data(), head.size());
   if (!result) {
     fail_input(file(), text("XML at offset ", result.offset), result.description(),
-               "the file is truncated, damaged or no .vtu file");
+               "the file is truncated, damaged or no VTK XML file");
   }
   const pugi::xml_node root = xml_.child("VTKFile");
-  if (std::string_view(root.attribute("type").as_string()) != "UnstructuredGrid") {
-    fail_input(file(), "VTKFile type", "not UnstructuredGrid", "give a .vtu file of tetrahedra");
+  if (std::string_view(root.attribute("type").as_string()) != kind_.type) {
+    fail_input(file(), "VTKFile type", text("not ", kind_.type), kind_.way_out);
   }
   const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
   encoding_.order = order == "BigEndian" ? ByteOrder::kBig : ByteOrder::kLittle;
   const std::string_view word = root.attribute("header_type").as_string("UInt32");
   encoding_.header_bytes = word == "UInt64" ? 8 : 4;
   const std::string_view compressor = root.attribute("compressor").as_string();
-  encoding_.compressed = !compressor.empty();
-  if (encoding_.compressed && compressor != "vtkZLibDataCompressor") {
+  if (compressor == "vtkZLibDataCompressor") encoding_.packing = VtkPacking::kZlib;
+  if (compressor == "vtkLZ4DataCompressor") encoding_.packing = VtkPacking::kLz4;
+  if (!compressor.empty() && encoding_.packing == VtkPacking::kNone) {
     fail_input(file(), "compressor", text(compressor, " is not supported"),
-               "save uncompressed or with zlib");
+               "save uncompressed, or with zlib or LZ4");
   }
 }
 
-pugi::xml_node VtuDocument::grid() const {
-  return xml_.child("VTKFile").child("UnstructuredGrid");
+pugi::xml_node VtkDocument::grid() const {
+  return xml_.child("VTKFile").child(kind_.type);
 }
 
 /// Reads from there to the end once; positions in it are the arrays' offsets.
-std::string_view VtuDocument::appended_text() {
+std::string_view VtkDocument::appended_text() {
   if (appended_text_.empty()) {
     appended_text_.resize(source_.size() - appended_start_);
     source_.read_at(appended_start_, std::as_writable_bytes(std::span(appended_text_)));
@@ -108,7 +109,7 @@ std::string_view VtuDocument::appended_text() {
   return appended_text_;
 }
 
-std::unique_ptr<ByteStream> VtuDocument::stream_of(pugi::xml_node array, const ArrayName& name) {
+std::unique_ptr<ByteStream> VtkDocument::stream_of(pugi::xml_node array, const ArrayName& name) {
   const std::string_view format = array.attribute("format").as_string("ascii");
   if (format == "binary") {
     return std::make_unique<Base64Stream>(array.text().get(), name.file);
@@ -124,13 +125,29 @@ std::unique_ptr<ByteStream> VtuDocument::stream_of(pugi::xml_node array, const A
                                         name.file);
 }
 
-std::vector<std::byte> VtuDocument::bytes_of(pugi::xml_node array, NumberType type,
+std::vector<std::byte> VtkDocument::bytes_of(pugi::xml_node array, NumberType type,
                                              std::uint64_t count, const ArrayName& name) {
   const std::unique_ptr<ByteStream> stream = stream_of(array, name);
   return read_payload(*stream, encoding_, count * static_cast<std::uint64_t>(type.bytes), name);
 }
 
-std::vector<std::uint64_t> VtuDocument::integers(pugi::xml_node array, std::uint64_t count) {
+std::optional<std::uint64_t> VtkDocument::plain_bytes(pugi::xml_node array, std::uint64_t bytes) {
+  const std::string_view format = array.attribute("format").as_string("ascii");
+  if (format != "appended" || !appended_raw_ || encoding_.packing != VtkPacking::kNone) {
+    return std::nullopt;
+  }
+  const ArrayName name = name_of(array, file());
+  const std::unique_ptr<ByteStream> stream = stream_of(array, name);
+  check_payload_length(*stream, encoding_, bytes, name);
+  return source_.size() - stream->left();
+}
+
+void VtkDocument::visit_bytes(pugi::xml_node array, std::uint64_t bytes, const UseBytes& use) {
+  const ArrayName name = name_of(array, file());
+  visit_payload(*stream_of(array, name), encoding_, bytes, name, use);
+}
+
+std::vector<std::uint64_t> VtkDocument::integers(pugi::xml_node array, std::uint64_t count) {
   const ArrayName name = name_of(array, file());
   const NumberType type = type_of(array, name);
   if (type.is_float) {
@@ -144,7 +161,7 @@ std::vector<std::uint64_t> VtuDocument::integers(pugi::xml_node array, std::uint
   return numbers;
 }
 
-std::vector<double> VtuDocument::reals(pugi::xml_node array, std::uint64_t count) {
+std::vector<double> VtkDocument::reals(pugi::xml_node array, std::uint64_t count) {
   const ArrayName name = name_of(array, file());
   const NumberType type = type_of(array, name);
   if (std::string_view(array.attribute("format").as_string("ascii")) != "ascii") {

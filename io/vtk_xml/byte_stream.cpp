@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Bytes one after the other from base64 text.
-#include "io/mesh/vtu/byte_stream.h"
+#include "io/vtk_xml/byte_stream.h"
 
 #include "io/file/errors.h"
 

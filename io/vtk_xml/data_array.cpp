@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The numbers of one VTK DataArray from its bytes or text.
-#include "io/mesh/vtu/data_array.h"
+#include "io/vtk_xml/data_array.h"
 
+#include <lz4.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -13,8 +14,9 @@
 namespace mw::io {
 namespace {
 
-/// zlib cannot pack tighter than this.
-constexpr std::uint64_t kMaxZlibRatio = 1040;
+/// No packing is tighter than that of zlib.
+constexpr std::uint64_t kMaxRatio = 1040;
+constexpr std::uint64_t kPieceBytes = 1 << 20;
 
 [[noreturn]] void fail(const ArrayName& name, std::string_view reason) {
   fail_input(name.file, text("array '", name.array, "'"), reason, "the file is damaged");
@@ -33,8 +35,8 @@ void check_length(std::uint64_t found, std::uint64_t expected, const ArrayName& 
   fail(name, text("holds ", found, " bytes, the counts of the piece need ", expected));
 }
 
-void inflate_block(const std::vector<std::byte>& packed, std::span<std::byte> out,
-                   const ArrayName& name) {
+void inflate_zlib(const std::vector<std::byte>& packed, std::span<std::byte> out,
+                  const ArrayName& name) {
   auto length = static_cast<uLongf>(out.size());
   const int verdict =
       uncompress(reinterpret_cast<Bytef*>(out.data()), &length,
@@ -42,32 +44,52 @@ void inflate_block(const std::vector<std::byte>& packed, std::span<std::byte> ou
   if (verdict != Z_OK || length != out.size()) fail(name, "corrupt zlib data");
 }
 
+void inflate_lz4(const std::vector<std::byte>& packed, std::span<std::byte> out,
+                 const ArrayName& name) {
+  if (packed.size() > LZ4_MAX_INPUT_SIZE || out.size() > LZ4_MAX_INPUT_SIZE) {
+    fail(name, "a block is above 2 GiB");
+  }
+  const int length = LZ4_decompress_safe(
+      reinterpret_cast<const char*>(packed.data()), reinterpret_cast<char*>(out.data()),
+      static_cast<int>(packed.size()), static_cast<int>(out.size()));
+  if (length < 0 || static_cast<std::size_t>(length) != out.size()) {
+    fail(name, "corrupt LZ4 data");
+  }
+}
+
 /// [blocks][bytes of a block][bytes of the last, 0 when whole][packed bytes of each] and then the
 /// packed blocks.
-std::vector<std::byte> read_compressed(ByteStream& stream, const VtkEncoding& encoding,
-                                       std::uint64_t expected, const ArrayName& name) {
+void visit_compressed(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
+                      const ArrayName& name, const UseBytes& use) {
   const std::uint64_t blocks = read_word(stream, encoding);
   const std::uint64_t block_bytes = read_word(stream, encoding);
   const std::uint64_t last_bytes = read_word(stream, encoding);
   const std::uint64_t last = blocks == 0 || last_bytes != 0 ? last_bytes : block_bytes;
   // Divisions, not products: the numbers of a damaged file may be anything.
-  if (blocks > stream.left() || expected / kMaxZlibRatio > stream.left() || last > block_bytes ||
+  const auto word = static_cast<std::uint64_t>(encoding.header_bytes);
+  if (blocks > stream.left() / word || expected / kMaxRatio > stream.left() || last > block_bytes ||
       (blocks > 1 && (block_bytes == 0 || blocks - 1 > expected / block_bytes))) {
     fail(name, "block counts are not credible");
   }
   check_length(blocks == 0 ? 0 : (blocks - 1) * block_bytes + last, expected, name);
   std::vector<std::uint64_t> packed_bytes(blocks);
   for (std::uint64_t& size : packed_bytes) size = read_word(stream, encoding);
-  std::vector<std::byte> out(expected);
+  std::vector<std::byte> out;
   std::vector<std::byte> packed;
   for (std::uint64_t i = 0; i < blocks; ++i) {
+    const std::uint64_t bytes = i + 1 < blocks ? block_bytes : last;
     if (packed_bytes[i] > stream.left()) fail(name, "truncated");
+    if (bytes / kMaxRatio > packed_bytes[i]) fail(name, "a block is not credible");
     packed.resize(packed_bytes[i]);
     stream.read(packed);
-    inflate_block(
-        packed, std::span(out).subspan(i * block_bytes, i + 1 < blocks ? block_bytes : last), name);
+    out.resize(bytes);
+    if (encoding.packing == VtkPacking::kLz4) {
+      inflate_lz4(packed, out, name);
+    } else {
+      inflate_zlib(packed, out, name);
+    }
+    use(out);
   }
-  return out;
 }
 
 /// Calls use(number) on each number of the bytes.
@@ -136,15 +158,36 @@ std::optional<NumberType> parse_number_type(std::string_view name) {
   return std::nullopt;
 }
 
-std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
-                                    std::uint64_t expected, const ArrayName& name) {
-  if (encoding.compressed) return read_compressed(stream, encoding, expected, name);
+void check_payload_length(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
+                          const ArrayName& name) {
   check_length(read_word(stream, encoding), expected, name);
   if (expected > stream.left()) {
     fail(name, text("truncated: needs ", expected, " bytes, at most ", stream.left(), " are left"));
   }
-  std::vector<std::byte> bytes(expected);
-  stream.read(bytes);
+}
+
+void visit_payload(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
+                   const ArrayName& name, const UseBytes& use) {
+  if (encoding.packing != VtkPacking::kNone) {
+    return visit_compressed(stream, encoding, expected, name, use);
+  }
+  check_payload_length(stream, encoding, expected, name);
+  std::vector<std::byte> piece;
+  for (std::uint64_t done = 0; done < expected; done += piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min(expected - done, kPieceBytes)));
+    stream.read(piece);
+    use(piece);
+  }
+}
+
+std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
+                                    std::uint64_t expected, const ArrayName& name) {
+  std::vector<std::byte> bytes;
+  visit_payload(stream, encoding, expected, name, [&](std::span<const std::byte> piece) {
+    // What is there by now shows that the rest is credible: no growing by doubling.
+    if (bytes.empty()) bytes.reserve(expected);
+    bytes.insert(bytes.end(), piece.begin(), piece.end());
+  });
   return bytes;
 }
 

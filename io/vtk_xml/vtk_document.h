@@ -1,27 +1,40 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The XML of a .vtu file, and its arrays as numbers.
+// A VTK XML file (.vtu, .vti), and its arrays as numbers or bytes.
 #pragma once
 
 #include <pugixml.hpp>
 #include <string>
 
 #include "io/file/byte_source.h"
-#include "io/mesh/vtu/data_array.h"
+#include "io/vtk_xml/data_array.h"
 
 namespace mw::io {
 
-/// Arrays may be appended (raw or base64) or inline (ascii or base64), packed with zlib or not.
-class VtuDocument {
+/// What a VTKFile must be.
+struct VtkKind {
+  const char* type;     ///< of its attribute and its first element
+  const char* way_out;  ///< what errors say when it is of another
+};
+
+/// Arrays may be appended (raw or base64) or inline (ascii or base64), packed with zlib, with LZ4
+/// or not.
+class VtkDocument {
  public:
   /// ERRORS of all: mw::Error(kInput) naming file and place.
-  explicit VtuDocument(const ByteSource& source);
+  VtkDocument(const ByteSource& source, VtkKind kind);
 
   [[nodiscard]] pugi::xml_node grid() const;
   [[nodiscard]] const std::string& file() const { return source_.name(); }
   /// REQUIRES: array is a DataArray of the document.
   [[nodiscard]] std::vector<std::uint64_t> integers(pugi::xml_node array, std::uint64_t count);
   [[nodiscard]] std::vector<double> reals(pugi::xml_node array, std::uint64_t count);
+  /// Where the bytes of an array begin that the file has as they are; empty when it has not.
+  /// ENSURES: so many are in the file.
+  [[nodiscard]] std::optional<std::uint64_t> plain_bytes(pugi::xml_node array, std::uint64_t bytes);
+  /// The bytes of an array whose format is not ascii.
+  void visit_bytes(pugi::xml_node array, std::uint64_t bytes, const UseBytes& use);
+  [[nodiscard]] ByteOrder order() const { return encoding_.order; }
 
  private:
   void find_appended(std::string& head);
@@ -32,6 +45,7 @@ class VtuDocument {
   [[nodiscard]] std::string_view appended_text();
 
   const ByteSource& source_;
+  VtkKind kind_;
   pugi::xml_document xml_;
   VtkEncoding encoding_;
   bool appended_ = false;
