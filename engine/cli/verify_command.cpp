@@ -12,6 +12,7 @@
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/resource_meter.h"
 #include "engine/cli/shape_facts.h"
+#include "engine/cli/speck_facts.h"
 #include "engine/cli/values.h"
 #include "engine/cli/volume_options.h"
 #include "io/mesh/array_axes.h"
@@ -40,6 +41,7 @@ struct VerifyJob {
 };
 
 struct Verdict {
+  std::optional<io::SpeckFacts> specks;
   audit::AuditReport audit;
   std::vector<std::string> labels_changed;  ///< as the input has them, or "exterior"
   io::LabelTable table;
@@ -135,14 +137,16 @@ audit::AuditReport audit_turned(const audit::VoxelLabels& subject, std::size_t l
 }
 
 Verdict judge(const VerifyJob& job) {
-  const std::unique_ptr<io::LabelVolume> volume = open(job.volume);
-  io::LabelTable table = io::collect_labels(*volume);
-  const io::VolumeInfo& info = volume->info();
+  const std::unique_ptr<io::LabelVolume> opened = open(job.volume);
+  const io::PreparedInput input(*opened, job.volume.steps);
+  const io::LabelVolume& volume = input.volume();
+  io::LabelTable table = io::collect_labels(volume);
+  const io::VolumeInfo& info = volume.info();
   std::vector<Label> voxels(static_cast<std::size_t>(info.shape.product()));
-  io::DenseVolume(*volume, table).read({{0, 0, 0}, info.shape}, voxels);
+  io::DenseVolume(volume, table).read({{0, 0, 0}, info.shape}, voxels);
   io::MeshData mesh = io::read_mesh(job.mesh);
   const std::vector<Label> labels = dense_labels(mesh, table);
-  Verdict verdict;
+  Verdict verdict{.specks = input.specks()};
   audit::AuditOptions options = job.audit;
   if (job.in_layers) options.layers = layers_of(info.space.spacing);
   verdict.layers = options.layers;
@@ -169,6 +173,7 @@ void print_lattice(Index3 layers) {
 
 void print_verdict(const Verdict& verdict) {
   const auto& checks = verdict.audit.checks;
+  print_specks(verdict.specks);
   for (const audit::Check& check : checks) {
     std::string name = check.name;
     name.resize(std::max<std::size_t>(name.size(), 16), ' ');
@@ -240,6 +245,7 @@ ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
   return {{"version", MW_VERSION},
           {"settings", job.options.json()},
           {"labels", verdict.table.size()},
+          {"specks", specks_json(verdict.specks)},
           {"lattice", {{"layers_xyz", {verdict.layers.x, verdict.layers.y, verdict.layers.z}}}},
           {"passed", verdict.audit.passed()},
           {"checks", checks_json(verdict.audit)},

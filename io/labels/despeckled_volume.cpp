@@ -13,7 +13,7 @@ namespace mw::io {
 
 DespeckledVolume::DespeckledVolume(const LabelVolume& volume, const SpeckRule& rule,
                                    const SpeckLimits& limits)
-    : volume_(&volume) {
+    : VolumeView(volume) {
   Specks specks = find_specks(volume, rule, limits);
   SpeckOutcome outcome;
   if (!specks.runs.empty()) {
@@ -35,19 +35,19 @@ DespeckledVolume::DespeckledVolume(const LabelVolume& volume, const SpeckRule& r
 }
 
 void DespeckledVolume::find_planes() {
-  plane_begin_.assign(static_cast<std::size_t>(volume_->info().shape.z) + 1, 0);
+  plane_begin_.assign(static_cast<std::size_t>(info().shape.z) + 1, 0);
   for (const SpeckRun& run : runs_) ++plane_begin_[static_cast<std::size_t>(run.z) + 1];
   for (std::size_t z = 1; z < plane_begin_.size(); ++z) plane_begin_[z] += plane_begin_[z - 1];
 }
 
-std::uint64_t DespeckledVolume::buffer_bytes(int threads) const {
-  return volume_->buffer_bytes(threads) + runs_.capacity() * sizeof(SpeckRun) +
-         becomes_.capacity() * sizeof(RawLabel) + plane_begin_.size() * sizeof(std::size_t);
+std::uint64_t DespeckledVolume::held_bytes() const {
+  return runs_.capacity() * sizeof(SpeckRun) + becomes_.capacity() * sizeof(RawLabel) +
+         plane_begin_.size() * sizeof(std::size_t);
 }
 
 void DespeckledVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
-  volume_->read(box, out);
+  below().read(box, out);
   const auto row = static_cast<std::size_t>(box.shape().x);
   for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
     const auto at = static_cast<std::size_t>(z);

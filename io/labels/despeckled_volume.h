@@ -4,6 +4,7 @@
 #pragma once
 
 #include "io/labels/speck_finder.h"
+#include "io/volume/volume_view.h"
 
 namespace mw::io {
 
@@ -17,7 +18,7 @@ struct SpeckFacts {
 /// The rule: settle_specks() (speck_rounds.h).  The volume is read twice at the start and never
 /// held; what is held are the runs of voxels that change.
 /// Thread safety: as the volume below, which must outlive it.
-class DespeckledVolume : public LabelVolume {
+class DespeckledVolume : public VolumeView {
  public:
   /// Memory: see find_specks() and find_contacts(); afterwards 20 bytes a run and 8 a speck.
   /// ERRORS: those of find_specks() and find_contacts(), and what the volume throws.
@@ -25,16 +26,14 @@ class DespeckledVolume : public LabelVolume {
                    const SpeckLimits& limits = {});
 
   [[nodiscard]] const SpeckFacts& facts() const { return facts_; }
-  [[nodiscard]] const VolumeInfo& info() const override { return volume_->info(); }
   void read(const Box3& box, std::span<RawLabel> out) const override;
-  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override;
-  void drop_buffers() const override { volume_->drop_buffers(); }
+  /// Bytes, as long as it lives.
+  [[nodiscard]] std::uint64_t held_bytes() const;
 
  private:
   void find_planes();
   void change_row(Index3 first, std::span<RawLabel> row) const;
 
-  const LabelVolume* volume_;
   std::vector<SpeckRun> runs_;     ///< those that change, ascending by z, y, begin
   std::vector<RawLabel> becomes_;  ///< by speck
   std::vector<std::size_t> plane_begin_;

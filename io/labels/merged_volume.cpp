@@ -65,7 +65,7 @@ void require_labels(const LabelVolume& volume, const LabelTable& wanted) {
 }  // namespace
 
 MergedVolume::MergedVolume(const LabelVolume& volume, const std::vector<MergeRule>& rules)
-    : volume_(&volume), from_(table_of(rules, has_signed_labels(volume.info()))) {
+    : VolumeView(volume), from_(table_of(rules, has_signed_labels(volume.info()))) {
   to_.resize(from_.size());
   for (const MergeRule& rule : rules) {
     check_target(rule, from_.is_signed());
@@ -75,7 +75,7 @@ MergedVolume::MergedVolume(const LabelVolume& volume, const std::vector<MergeRul
 }
 
 void MergedVolume::read(const Box3& box, std::span<RawLabel> out) const {
-  volume_->read(box, out);
+  below().read(box, out);
   if (out.empty()) return;
   RawLabel last = out[0];
   RawLabel becomes = merged(last);

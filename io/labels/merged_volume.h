@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/labels/label_table.h"
+#include "io/volume/volume_view.h"
 
 namespace mw::io {
 
@@ -18,26 +19,20 @@ struct MergeRule {
 
 /// Every voxel by the rules at once: what a rule makes is not looked at by another.
 /// Thread safety: as the volume below, which must outlive it.
-class MergedVolume : public LabelVolume {
+class MergedVolume : public VolumeView {
  public:
   /// Reads the volume until it has met every label of the rules.
   /// ERRORS: mw::Error(kUsage) for a label that two rules (or one, twice) take, for one that the
   /// volume does not have, and for a `to` that its labels cannot be (signed or unsigned).
   MergedVolume(const LabelVolume& volume, const std::vector<MergeRule>& rules);
 
-  [[nodiscard]] const VolumeInfo& info() const override { return volume_->info(); }
   void read(const Box3& box, std::span<RawLabel> out) const override;
-  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override {
-    return volume_->buffer_bytes(threads);
-  }
-  void drop_buffers() const override { volume_->drop_buffers(); }
 
  private:
   [[nodiscard]] RawLabel merged(RawLabel label) const {
     return from_.contains(label) ? to_[from_.dense(label)] : label;
   }
 
-  const LabelVolume* volume_;
   LabelTable from_;
   std::vector<RawLabel> to_;  ///< by rank in from_
 };

@@ -32,6 +32,10 @@ class PreparedInput {
   [[nodiscard]] std::optional<SpeckFacts> specks() const {
     return despeckled_ ? std::optional(despeckled_->facts()) : std::nullopt;
   }
+  /// Bytes that the steps hold, as long as it lives.
+  [[nodiscard]] std::uint64_t held_bytes() const {
+    return despeckled_ ? despeckled_->held_bytes() : 0;
+  }
 
  private:
   const LabelVolume* volume_;  ///< the last of what follows, or the one that was opened

@@ -199,8 +199,8 @@ TEST(DespeckledVolume, RefusesMoreSpecksThanMemoryHolds) {
   const MemoryVolume volume = dusty();
   const DespeckledVolume roomy(volume, {2, false}, {.memory = 1 << 20});
   EXPECT_EQ(roomy.facts().components, 2000U);
-  EXPECT_GE(roomy.buffer_bytes(1), 2000U * sizeof(SpeckRun));
-  EXPECT_LE(roomy.buffer_bytes(1), 1U << 17U);
+  EXPECT_GE(roomy.held_bytes(), 2000U * sizeof(SpeckRun));
+  EXPECT_LE(roomy.held_bytes(), 1U << 17U);
   // The runs alone, then their contacts, then two planes of the volume.
   for (const std::uint64_t memory : {75'000U, 100'000U}) {
     expect_error(ErrorKind::kResource, {"--drop-specks 2", "2000 components", "--memory"}, [&] {
