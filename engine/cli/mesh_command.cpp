@@ -61,25 +61,6 @@ struct MeshFiles {
   std::optional<TraceFile> trace;
 };
 
-void require_label(RawLabel label, const io::LabelTable& table, const char* option) {
-  if (table.contains(label)) return;
-  throw Error(ErrorKind::kUsage, std::string(option) + ": the volume has no label " +
-                                     format_label(label, table.is_signed()));
-}
-
-/// What --labels and --background leave to write.
-engine::WantedLabel wanted_labels(const MeshRequest& request, const io::LabelTable& table) {
-  if (!request.labels && !request.background) return {};
-  if (request.background) {
-    require_label(*request.background, table, "--background");
-    if (table.size() == 1) throw Error(ErrorKind::kUsage, "--background: it is the only label");
-    return [left_out = *request.background](RawLabel label) { return label != left_out; };
-  }
-  for (const RawLabel label : *request.labels) require_label(label, table, "--labels");
-  const io::LabelTable kept(*request.labels, table.is_signed());
-  return [kept](RawLabel label) { return kept.contains(label); };
-}
-
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
                             MeshFiles& files, const engine::StoreOptions& store) {
   Progress progress(request.progress);
@@ -90,7 +71,7 @@ engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& v
     progress.show(done, total);
   };
   if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
-  hooks.output = {.wanted = wanted_labels(request, volume.table()),
+  hooks.output = {.wanted = wanted_labels(request.choice, volume.table()),
                   .measure_quality = !request.report.empty(),
                   .measure_shape = !request.report.empty()};
   return engine::mesh_volume(volume, request.settings, files.all(), hooks);

@@ -9,6 +9,7 @@
 #include "engine/cli/commands.h"
 #include "engine/cli/distance_facts.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/label_choice.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/resource_meter.h"
 #include "engine/cli/shape_facts.h"
@@ -34,6 +35,7 @@ constexpr const char* kVoxel = "voxel";
 struct VerifyJob {
   OptionSet options;
   VolumeRequest volume;
+  LabelChoice choice;
   std::filesystem::path mesh;
   std::filesystem::path report;
   audit::AuditOptions audit;
@@ -67,6 +69,7 @@ void add_verify_options(VerifyJob& job) {
                .flags = "MESH,--mesh",
                .assign = [&](const std::string& text) { job.mesh = text; }});
   add_volume_options(options, job.volume);
+  add_choice_options(options, job.choice);
   options.add(
       {.name = "topology",
        .value = "WHAT",
@@ -120,6 +123,17 @@ std::vector<std::string> changed_labels(const audit::AuditReport& audit,
   return out;
 }
 
+/// Empty when all are.
+audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& table) {
+  const engine::WantedLabel wanted = wanted_labels(choice, table);
+  audit::KeptLabels kept;
+  for (Label label = 0; wanted && label < table.size(); ++label) {
+    kept.push_back(wanted(table.raw(label)));
+  }
+  const bool leaves_out = std::find(kept.begin(), kept.end(), false) != kept.end();
+  return leaves_out ? kept : audit::KeptLabels{};
+}
+
 /// Audits in the array's axes a mesh that lies in another direction, and that the file's
 /// coordinates are as positive as those.
 audit::AuditReport audit_turned(const audit::VoxelLabels& subject, std::size_t label_count,
@@ -148,6 +162,7 @@ Verdict judge(const VerifyJob& job) {
   const std::vector<Label> labels = dense_labels(mesh, table);
   Verdict verdict{.specks = input.specks()};
   audit::AuditOptions options = job.audit;
+  options.kept = kept_labels(job.choice, table);
   if (job.in_layers) options.layers = layers_of(info.space.spacing);
   verdict.layers = options.layers;
   const audit::VoxelLabels subject{.shape = info.shape, .labels = voxels};
@@ -263,6 +278,12 @@ ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
 int run_verify(VerifyJob& job) {
   job.options.resolve();
   require_path(job.mesh, "MESH");
+  check_choice(job.choice);
+  if (job.audit.count_places && (job.choice.labels || job.choice.background)) {
+    throw Error(ErrorKind::kUsage,
+                "--topology interfaces: is for meshes of all labels, without --labels and "
+                "--background");
+  }
   const ResourceMeter meter;
   std::optional<io::AtomicFile> report;
   if (!job.report.empty()) report.emplace(job.report);
