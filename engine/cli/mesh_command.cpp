@@ -157,6 +157,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   const InterruptibleVolume interruptible(*opened);
   const io::PreparedInput input(interruptible, request.volume.steps,
                                 {.memory = *request.memory / 4});
+  engine::return_free_memory_above(0);  // the search for specks has let go of more than is held
   const io::LabelVolume& volume = input.volume();
   const FingerprintVolume fingerprint(volume);
   const io::LabelTable table = engine::collect_labels(fingerprint, request.threads);

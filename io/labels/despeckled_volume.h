@@ -16,7 +16,8 @@ struct SpeckFacts {
 };
 
 /// The rule: settle_specks() (speck_rounds.h).  The volume is read twice at the start and never
-/// held; what is held are the runs of voxels that change.
+/// held (plane by plane: a file whose fastest axis is z takes several times as long as others);
+/// what is held are the runs of voxels that change.
 /// Thread safety: as the volume below, which must outlive it.
 class DespeckledVolume : public VolumeView {
  public:
