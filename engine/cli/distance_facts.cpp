@@ -23,11 +23,13 @@ ordered_json finite_json(double voxels) {
 
 ordered_json name_json(Label label, const io::LabelTable& table) {
   if (label == audit::kUnknown) return nullptr;
+  if (label == audit::kLeftOut) return "left out";
   return label_json(table.raw(label), table.is_signed());
 }
 
 std::string name_text(Label label, const io::LabelTable& table) {
   if (label == audit::kUnknown) return "one that the volume does not have";
+  if (label == audit::kLeftOut) return "left out";
   return format_label(table.raw(label), table.is_signed());
 }
 

@@ -12,6 +12,7 @@
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/shape_facts.h"
 #include "engine/cli/shape_sink.h"
+#include "engine/cli/speck_facts.h"
 #include "engine/cli/volume_options.h"
 #include "io/labels/label_set.h"
 #include "io/labels/slabs.h"
@@ -48,17 +49,20 @@ ordered_json labels_json(const io::LabelTable& table) {
 }
 
 ordered_json volume_facts(const VolumeRequest& request) {
-  const std::unique_ptr<io::LabelVolume> volume = open(request);
-  const io::VolumeInfo& info = volume->info();
-  return {{"kind", "volume"},
-          {"file", request.path.string()},
-          {"format", info.format},
-          {"type", io::name(info.type)},
-          {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
-          {"spacing_xyz", info.space.spacing},
-          {"origin_xyz", info.space.origin},
-          {"voxels", info.shape.product()},
-          {"labels", labels_json(io::collect_labels(*volume))}};
+  const std::unique_ptr<io::LabelVolume> opened = open(request);
+  const io::PreparedInput input(*opened, request.steps);
+  const io::VolumeInfo& info = input.volume().info();
+  ordered_json out{{"kind", "volume"},
+                   {"file", request.path.string()},
+                   {"format", info.format},
+                   {"type", io::name(info.type)},
+                   {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
+                   {"spacing_xyz", info.space.spacing},
+                   {"origin_xyz", info.space.origin},
+                   {"voxels", info.shape.product()},
+                   {"labels", labels_json(io::collect_labels(input.volume()))}};
+  if (input.specks()) out["specks"] = specks_json(input.specks());
+  return out;
 }
 
 /// What a mesh that streams by tells of itself.
@@ -105,14 +109,16 @@ struct VoxelCounts {
 /// One pass over the volume in slabs of bounded memory.
 VoxelCounts count_voxels(const VolumeRequest& request) {
   constexpr std::int64_t kSlabVoxels = 1 << 16;
-  const std::unique_ptr<io::LabelVolume> volume = open(request);
-  const io::VolumeInfo& info = volume->info();
+  const std::unique_ptr<io::LabelVolume> opened = open(request);
+  const io::PreparedInput input(*opened, request.steps);
+  const io::LabelVolume& volume = input.volume();
+  const io::VolumeInfo& info = volume.info();
   VoxelCounts out;
   for (const double edge : info.space.spacing) out.voxel_volume *= edge;
   std::vector<RawLabel> labels;
   const auto count = [&](const Box3& slab) {
     labels.resize(static_cast<std::size_t>(slab.voxels()));
-    volume->read(slab, labels);
+    volume.read(slab, labels);
     for (std::size_t begin = 0, end = 0; begin < labels.size(); begin = end) {
       while (end < labels.size() && labels[end] == labels[begin]) ++end;
       out.voxels[labels[begin]] += end - begin;

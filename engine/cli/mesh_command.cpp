@@ -15,6 +15,7 @@
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/run_report.h"
+#include "engine/cli/speck_facts.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
 #include "engine/label_scan.h"
@@ -60,25 +61,6 @@ struct MeshFiles {
   std::optional<TraceFile> trace;
 };
 
-void require_label(RawLabel label, const io::LabelTable& table, const char* option) {
-  if (table.contains(label)) return;
-  throw Error(ErrorKind::kUsage, std::string(option) + ": the volume has no label " +
-                                     format_label(label, table.is_signed()));
-}
-
-/// What --labels and --background leave to write.
-engine::WantedLabel wanted_labels(const MeshRequest& request, const io::LabelTable& table) {
-  if (!request.labels && !request.background) return {};
-  if (request.background) {
-    require_label(*request.background, table, "--background");
-    if (table.size() == 1) throw Error(ErrorKind::kUsage, "--background: it is the only label");
-    return [left_out = *request.background](RawLabel label) { return label != left_out; };
-  }
-  for (const RawLabel label : *request.labels) require_label(label, table, "--labels");
-  const io::LabelTable kept(*request.labels, table.is_signed());
-  return [kept](RawLabel label) { return kept.contains(label); };
-}
-
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
                             MeshFiles& files, const engine::StoreOptions& store) {
   Progress progress(request.progress);
@@ -89,18 +71,20 @@ engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& v
     progress.show(done, total);
   };
   if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
-  hooks.output = {.wanted = wanted_labels(request, volume.table()),
+  hooks.output = {.wanted = wanted_labels(request.choice, volume.table()),
                   .measure_quality = !request.report.empty(),
                   .measure_shape = !request.report.empty()};
   return engine::mesh_volume(volume, request.settings, files.all(), hooks);
 }
 
 /// Says where the work is when a run that ends early leaves some.
+/// memory: what is left of the budget.
 engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume& volume,
-                               MeshFiles& files, const std::string& fingerprint) {
+                               MeshFiles& files, const std::string& fingerprint,
+                               std::uint64_t memory) {
   std::string work;
   const engine::StoreOptions store{
-      .memory = *request.memory,
+      .memory = memory,
       .workdir = request.workdir,
       .resume = request.resume,
       .identity = "version = " MW_VERSION "\nlabel fingerprint = " + fingerprint + "\n",
@@ -143,6 +127,7 @@ void print_summary(const FinishedRun& run, const MeshRequest& request) {
   std::cout << "vertices    " << run.engine.vertices << " (" << format_fixed(share, 2)
             << " % of the voxel corners)\n"
             << "tets        " << run.engine.tets << "\n";
+  print_specks(run.specks);
   print_lattice(run.engine.lattice);
   print_space(run.volume.space);
   std::cout << "seconds     " << format_fixed(seconds, 2) << "\n"
@@ -169,13 +154,18 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
   engine::check(opened->info(), request.settings);
-  const InterruptibleVolume volume(*opened);
+  const InterruptibleVolume interruptible(*opened);
+  const io::PreparedInput input(interruptible, request.volume.steps,
+                                {.memory = *request.memory / 4});
+  engine::return_free_memory_above(0);  // the search for specks has let go of more than is held
+  const io::LabelVolume& volume = input.volume();
   const FingerprintVolume fingerprint(volume);
   const io::LabelTable table = engine::collect_labels(fingerprint, request.threads);
-  FinishedRun run{.volume = volume.info(), .labels = table};
+  FinishedRun run{.volume = volume.info(), .labels = table, .specks = input.specks()};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
-  run.engine = mesh_or_keep(request, io::DenseVolume(volume, table), files, fingerprint.text());
+  run.engine = mesh_or_keep(request, io::DenseVolume(volume, table), files, fingerprint.text(),
+                            *request.memory - input.held_bytes());
   if (files.trace) files.trace->finish();
   tell_resume(request, run.engine.store);
   run.resources = meter.read();

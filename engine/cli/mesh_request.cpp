@@ -245,19 +245,6 @@ void add_resource_options(OptionSet& options, MeshRequest& request) {
               });
 }
 
-void add_selection_options(OptionSet& options, MeshRequest& request) {
-  options.add({.name = "labels",
-               .value = "LIST",
-               .help = "labels to write, e.g. 1,2,5; others are meshed but left out of OUTPUT",
-               .kind = ValueKind::kLabels,
-               .assign = [&](const std::string& text) { request.labels = parse_labels(text); }});
-  options.add({.name = "background",
-               .value = "L",
-               .help = "label that is meshed but left out of OUTPUT",
-               .kind = ValueKind::kLabels,
-               .assign = [&](const std::string& text) { request.background = parse_label(text); }});
-}
-
 void add_output_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "report",
                .value = "FILE.json",
@@ -312,7 +299,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
   add_bound_options(options, request);
   add_method_options(options, request);
   add_resource_options(options, request);
-  add_selection_options(options, request);
+  add_choice_options(options, request.choice);
   add_output_options(options, request);
 }
 
@@ -321,9 +308,7 @@ void check_mesh_request(MeshRequest& request) {
   if (request.workdir.empty()) request.workdir = request.output.string() + ".work";
   if (!request.memory) request.memory = default_memory_budget();
   (void)open_options(request.volume);
-  if (request.labels && request.background) {
-    throw Error(ErrorKind::kUsage, "--labels and --background: give one of them, not both");
-  }
+  check_choice(request.choice);
   require_names_used_once(request);
   if (request.settings.optimizer == engine::Optimizer::kTetgen) (void)engine::codt::find_worker();
 }

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "engine/cli/label_choice.h"
 #include "engine/cli/progress.h"
 #include "engine/cli/volume_options.h"
 #include "engine/settings.h"
@@ -22,8 +23,7 @@ struct MeshRequest {
   std::filesystem::path workdir;        ///< after check_mesh_request() never empty
   bool resume = false;
   std::chrono::milliseconds save_every{10'000};
-  std::optional<std::vector<RawLabel>> labels;  ///< the only ones to write
-  std::optional<RawLabel> background;           ///< the one not to write
+  LabelChoice choice;
   ProgressKind progress = ProgressKind::kNone;
   std::string log_level;
 };

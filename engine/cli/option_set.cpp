@@ -40,9 +40,7 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 std::string help_of(const Option& option) {
-  const std::string later = option.today ? "; others come later" : "";
-  if (!option.fallback.empty()) return option.help + " [" + option.fallback + later + "]";
-  return option.help + (option.today ? " [comes later]" : "");
+  return option.help + (option.fallback.empty() ? "" : " [" + option.fallback + "]");
 }
 
 std::string content_of(const std::filesystem::path& path) {
@@ -149,10 +147,6 @@ void OptionSet::settle(Entry& entry) {
     if (error.kind() != ErrorKind::kUsage) throw;
     refuse(entry.place, std::string(": ") + error.what());
   }
-  if (!option.today || entry.text == *option.today) return;
-  const bool is_value = !option.today->empty() && option.kind != ValueKind::kSwitch;
-  refuse(entry.place, " is not available in this version; " +
-                          (is_value ? *option.today + " is" : "leave it out"));
 }
 
 std::string OptionSet::toml() const {

@@ -25,9 +25,11 @@ enum class ValueKind {
   kNumberOrNone,
   kNumbers,  ///< X,Y,Z
   kShape,    ///< X,Y,Z, integers
+  kBox,      ///< X0,Y0,Z0,X1,Y1,Z1, integers
   kLabels,
   kSize,
   kSwitch,
+  kIntegerOrText,  ///< a string or, for TOML, an integer too
 };
 
 struct Option {
@@ -37,9 +39,7 @@ struct Option {
   ValueKind kind = ValueKind::kText;
   std::string fallback;              ///< the default as text; empty: unset
   std::vector<std::string> choices;  ///< the only texts allowed; empty: any of the kind
-  /// Other values are known but come with a later version; empty text: none is available now.
-  std::optional<std::string> today;
-  std::string flags;  ///< as CLI11 wants them; empty: "--name"
+  std::string flags;                 ///< as CLI11 wants them; empty: "--name"
   /// Takes the value over.  ERRORS: mw::Error(kUsage) for one that is not allowed.
   std::function<void(const std::string&)> assign;
 };

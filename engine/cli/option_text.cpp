@@ -26,6 +26,15 @@ std::string canonical_shape(const std::string& text) {
   return joined({std::to_string(v.x), std::to_string(v.y), std::to_string(v.z)});
 }
 
+std::string canonical_box(const std::string& text) {
+  const Box3 box = parse_box(text);
+  std::string out;
+  for (const std::int64_t v : {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}) {
+    out += (out.empty() ? "" : ",") + std::to_string(v);
+  }
+  return out;
+}
+
 std::optional<std::string> number_of_toml(const toml::node& node) {
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
   if (const auto* number = node.as_floating_point()) return format_number(number->get());
@@ -55,6 +64,7 @@ std::optional<std::string> string_of_toml(const toml::node& node) {
 std::string canonical_text(ValueKind kind, const std::string& text) {
   switch (kind) {
     case ValueKind::kText:
+    case ValueKind::kIntegerOrText:
       return text;
     case ValueKind::kInteger:
       return std::to_string(parse_integer(text));
@@ -66,6 +76,8 @@ std::string canonical_text(ValueKind kind, const std::string& text) {
       return canonical_numbers(text);
     case ValueKind::kShape:
       return canonical_shape(text);
+    case ValueKind::kBox:
+      return canonical_box(text);
     case ValueKind::kLabels:
       (void)parse_labels(text);
       return text;
@@ -83,6 +95,8 @@ std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) 
     case ValueKind::kText:
     case ValueKind::kSize:
       return string_of_toml(node);
+    case ValueKind::kIntegerOrText:
+      return node.is_integer() ? number_of_toml(node) : string_of_toml(node);
     case ValueKind::kInteger:
       return node.is_integer() ? number_of_toml(node) : std::nullopt;
     case ValueKind::kNumber:
@@ -91,6 +105,7 @@ std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) 
       return string_of_toml(node) == kNone ? string_of_toml(node) : number_of_toml(node);
     case ValueKind::kNumbers:
     case ValueKind::kShape:
+    case ValueKind::kBox:
       return list_of_toml(node);
     case ValueKind::kLabels:
       if (node.is_integer()) return number_of_toml(node);
@@ -116,12 +131,16 @@ const char* toml_type(ValueKind kind) {
       return "three numbers [X, Y, Z]";
     case ValueKind::kShape:
       return "three integers [X, Y, Z]";
+    case ValueKind::kBox:
+      return "six integers [X0, Y0, Z0, X1, Y1, Z1]";
     case ValueKind::kLabels:
       return "integers [1, 2] or a string \"1,2\"";
     case ValueKind::kSize:
       return "a string such as \"4GiB\"";
     case ValueKind::kSwitch:
       return "true or false";
+    case ValueKind::kIntegerOrText:
+      return "an integer or a string";
   }
   return "";
 }
@@ -136,6 +155,7 @@ std::string toml_of_text(ValueKind kind, const std::string& text) {
       return text == kNone ? "\"none\"" : text;
     case ValueKind::kNumbers:
     case ValueKind::kShape:
+    case ValueKind::kBox:
       return "[" + text + "]";
     default:
       break;
@@ -146,7 +166,8 @@ std::string toml_of_text(ValueKind kind, const std::string& text) {
 
 nlohmann::ordered_json json_of_text(ValueKind kind, const std::string& text) {
   if (text.empty()) return nullptr;
-  if (kind == ValueKind::kText || kind == ValueKind::kLabels || kind == ValueKind::kSize) {
+  if (kind == ValueKind::kText || kind == ValueKind::kLabels || kind == ValueKind::kSize ||
+      kind == ValueKind::kIntegerOrText) {
     return text;
   }
   if (text == kNone) return text;

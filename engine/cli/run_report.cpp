@@ -7,6 +7,7 @@
 
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/shape_facts.h"
+#include "engine/cli/speck_facts.h"
 
 namespace mw::cli {
 namespace {
@@ -136,6 +137,7 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
   return {{"version", MW_VERSION},
           {"settings", std::move(settings)},
           {"input", input_json(run)},
+          {"specks", specks_json(run.specks)},
           {"lattice", lattice_json(run.engine.lattice)},
           {"output", output_json(run, mesh)},
           {"quality", quality_json(run.engine.quality.value())},

@@ -9,6 +9,7 @@
 #include "engine/cli/resource_meter.h"
 #include "engine/run.h"
 #include "io/file/atomic_file.h"
+#include "io/labels/despeckled_volume.h"
 
 namespace mw::cli {
 
@@ -16,6 +17,7 @@ namespace mw::cli {
 struct FinishedRun {
   const io::VolumeInfo& volume;
   const io::LabelTable& labels;
+  std::optional<io::SpeckFacts> specks;
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels
   Resources resources;        ///< times until the mesh was written, memory until its digest

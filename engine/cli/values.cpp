@@ -68,6 +68,17 @@ Index3 parse_shape(std::string_view text) {
   return {out[0], out[1], out[2]};
 }
 
+Box3 parse_box(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text);
+  std::array<std::int64_t, 6> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (parts.size() != out.size() || !read_all(parts[i], out[i])) {
+      fail_expected("six integers X0,Y0,Z0,X1,Y1,Z1", text);
+    }
+  }
+  return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
+}
+
 RawLabel parse_label(std::string_view text) {
   RawLabel label = 0;
   if (read_all(text, label)) return label;

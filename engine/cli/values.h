@@ -19,6 +19,7 @@ namespace mw::cli {
 [[nodiscard]] double parse_number(std::string_view text);                  ///< finite
 [[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z"
 [[nodiscard]] Index3 parse_shape(std::string_view text);                   ///< "X,Y,Z", each >= 1
+[[nodiscard]] Box3 parse_box(std::string_view text);        ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
 [[nodiscard]] RawLabel parse_label(std::string_view text);  ///< negative: two's complement
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
 [[nodiscard]] bool parse_switch(std::string_view text);  ///< "true", "false", "1", "0"

@@ -9,9 +9,11 @@
 #include "engine/cli/commands.h"
 #include "engine/cli/distance_facts.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/label_choice.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/resource_meter.h"
 #include "engine/cli/shape_facts.h"
+#include "engine/cli/speck_facts.h"
 #include "engine/cli/values.h"
 #include "engine/cli/volume_options.h"
 #include "io/mesh/array_axes.h"
@@ -33,6 +35,7 @@ constexpr const char* kVoxel = "voxel";
 struct VerifyJob {
   OptionSet options;
   VolumeRequest volume;
+  LabelChoice choice;
   std::filesystem::path mesh;
   std::filesystem::path report;
   audit::AuditOptions audit;
@@ -40,6 +43,7 @@ struct VerifyJob {
 };
 
 struct Verdict {
+  std::optional<io::SpeckFacts> specks;
   audit::AuditReport audit;
   std::vector<std::string> labels_changed;  ///< as the input has them, or "exterior"
   io::LabelTable table;
@@ -65,6 +69,7 @@ void add_verify_options(VerifyJob& job) {
                .flags = "MESH,--mesh",
                .assign = [&](const std::string& text) { job.mesh = text; }});
   add_volume_options(options, job.volume);
+  add_choice_options(options, job.choice);
   options.add(
       {.name = "topology",
        .value = "WHAT",
@@ -118,6 +123,17 @@ std::vector<std::string> changed_labels(const audit::AuditReport& audit,
   return out;
 }
 
+/// Empty when all are.
+audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& table) {
+  const engine::WantedLabel wanted = wanted_labels(choice, table);
+  audit::KeptLabels kept;
+  for (Label label = 0; wanted && label < table.size(); ++label) {
+    kept.push_back(wanted(table.raw(label)));
+  }
+  const bool leaves_out = std::find(kept.begin(), kept.end(), false) != kept.end();
+  return leaves_out ? kept : audit::KeptLabels{};
+}
+
 /// Audits in the array's axes a mesh that lies in another direction, and that the file's
 /// coordinates are as positive as those.
 audit::AuditReport audit_turned(const audit::VoxelLabels& subject, std::size_t label_count,
@@ -135,15 +151,18 @@ audit::AuditReport audit_turned(const audit::VoxelLabels& subject, std::size_t l
 }
 
 Verdict judge(const VerifyJob& job) {
-  const std::unique_ptr<io::LabelVolume> volume = open(job.volume);
-  io::LabelTable table = io::collect_labels(*volume);
-  const io::VolumeInfo& info = volume->info();
+  const std::unique_ptr<io::LabelVolume> opened = open(job.volume);
+  const io::PreparedInput input(*opened, job.volume.steps);
+  const io::LabelVolume& volume = input.volume();
+  io::LabelTable table = io::collect_labels(volume);
+  const io::VolumeInfo& info = volume.info();
   std::vector<Label> voxels(static_cast<std::size_t>(info.shape.product()));
-  io::DenseVolume(*volume, table).read({{0, 0, 0}, info.shape}, voxels);
+  io::DenseVolume(volume, table).read({{0, 0, 0}, info.shape}, voxels);
   io::MeshData mesh = io::read_mesh(job.mesh);
   const std::vector<Label> labels = dense_labels(mesh, table);
-  Verdict verdict;
+  Verdict verdict{.specks = input.specks()};
   audit::AuditOptions options = job.audit;
+  options.kept = kept_labels(job.choice, table);
   if (job.in_layers) options.layers = layers_of(info.space.spacing);
   verdict.layers = options.layers;
   const audit::VoxelLabels subject{.shape = info.shape, .labels = voxels};
@@ -169,6 +188,7 @@ void print_lattice(Index3 layers) {
 
 void print_verdict(const Verdict& verdict) {
   const auto& checks = verdict.audit.checks;
+  print_specks(verdict.specks);
   for (const audit::Check& check : checks) {
     std::string name = check.name;
     name.resize(std::max<std::size_t>(name.size(), 16), ' ');
@@ -240,6 +260,7 @@ ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
   return {{"version", MW_VERSION},
           {"settings", job.options.json()},
           {"labels", verdict.table.size()},
+          {"specks", specks_json(verdict.specks)},
           {"lattice", {{"layers_xyz", {verdict.layers.x, verdict.layers.y, verdict.layers.z}}}},
           {"passed", verdict.audit.passed()},
           {"checks", checks_json(verdict.audit)},
@@ -257,6 +278,12 @@ ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
 int run_verify(VerifyJob& job) {
   job.options.resolve();
   require_path(job.mesh, "MESH");
+  check_choice(job.choice);
+  if (job.audit.count_places && (job.choice.labels || job.choice.background)) {
+    throw Error(ErrorKind::kUsage,
+                "--topology interfaces: is for meshes of all labels, without --labels and "
+                "--background");
+  }
   const ResourceMeter meter;
   std::optional<io::AtomicFile> report;
   if (!job.report.empty()) report.emplace(job.report);

@@ -19,6 +19,36 @@ std::array<double, 3> parse_spacing(const std::string& text) {
   throw Error(ErrorKind::kUsage, "spacing must be positive");
 }
 
+io::MergeRule parse_rule(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos) throw Error(ErrorKind::kUsage, "expected A,B=C, got '" + text + "'");
+  const std::string to = text.substr(equals + 1);
+  return {.from = parse_labels(text.substr(0, equals)),
+          .to = parse_label(to),
+          .to_is_negative = to.front() == '-'};
+}
+
+std::vector<io::MergeRule> parse_merge(const std::string& text) {
+  std::vector<io::MergeRule> rules;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    rules.push_back(parse_rule(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return rules;
+}
+
+io::SpeckRule parse_specks(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string joined = text.substr(slash);
+  const std::int64_t least = parse_integer(std::string_view(text).substr(0, slash));
+  const bool fits = least >= 1 && static_cast<std::uint64_t>(least) <= io::SpeckRule::kMost;
+  if (fits && (joined.empty() || joined == "/6" || joined == "/26")) {
+    return {.least = static_cast<std::uint64_t>(least), .diagonal = joined == "/26"};
+  }
+  throw Error(ErrorKind::kUsage, "expected voxels, from 1 on, or voxels/26");
+}
+
 void add_raw_options(OptionSet& options, VolumeRequest& request) {
   options.add({.name = "shape",
                .value = "X,Y,Z",
@@ -38,8 +68,76 @@ void add_raw_options(OptionSet& options, VolumeRequest& request) {
                .assign = [&](const std::string& text) {
                  request.order = text == "big" ? io::ByteOrder::kBig : io::ByteOrder::kLittle;
                }});
+}
+
+io::FrameChoice parse_frame(const std::string& text) {
+  if (text == "ras") return io::FrameChoice::kRas;
+  if (text == "lps") return io::FrameChoice::kLps;
+  return text == "voxel" ? io::FrameChoice::kVoxel : io::FrameChoice::kFile;
+}
+
+int parse_scale(const std::string& text) {
+  constexpr std::int64_t kMostScale = 1000;
+  const std::int64_t scale = parse_integer(text);
+  if (scale >= 0 && scale <= kMostScale) return static_cast<int>(scale);
+  throw Error(ErrorKind::kUsage, "expected a level from 0 (the finest) to 1000");
+}
+
+void add_place_options(OptionSet& options, VolumeRequest& request) {
+  options.add({.name = "spacing",
+               .value = "X,Y,Z",
+               .help = "voxel spacing in physical units instead of the file's",
+               .kind = ValueKind::kNumbers,
+               .assign = [&](const std::string& text) { request.spacing = parse_spacing(text); }});
+  options.add({.name = "origin",
+               .value = "X,Y,Z",
+               .help =
+                   "position of the volume's (with --crop: the box's) first corner instead of the "
+                   "file's",
+               .kind = ValueKind::kNumbers,
+               .assign = [&](const std::string& text) { request.origin = parse_numbers(text); }});
+  options.add({.name = "frame",
+               .value = "FRAME",
+               .help =
+                   "world of the coordinates: the file's own; ras or lps, which a file in one of "
+                   "them is turned to; voxel, spacing times voxel corner",
+               .fallback = "file",
+               .choices = {"file", "ras", "lps", "voxel"},
+               .assign = [&](const std::string& text) { request.frame = parse_frame(text); }});
+}
+
+void add_array_options(OptionSet& options, VolumeRequest& request) {
+  options.add({.name = "dataset",
+               .value = "PATH",
+               .help = "array within a file or store that holds several",
+               .assign = [&](const std::string& text) { request.dataset = text; }});
+  options.add({.name = "scale",
+               .value = "N",
+               .help = "resolution level of a store that has several, 0 the finest",
+               .kind = ValueKind::kInteger,
+               .assign = [&](const std::string& text) { request.scale = parse_scale(text); }});
+}
+
+void add_step_options(OptionSet& options, VolumeRequest& request) {
+  options.add({.name = "crop",
+               .value = "X0,Y0,Z0,X1,Y1,Z1",
+               .help = "takes the box from the first voxel to before the second; it stays where it "
+                       "lies, unless --origin is given",
+               .kind = ValueKind::kBox,
+               .assign = [&](const std::string& text) { request.crop = parse_box(text); }});
   options.add(
-      {.name = "dataset", .value = "PATH", .help = "dataset within an HDF5 file", .today = ""});
+      {.name = "merge",
+       .value = "A,B=C;D=E",
+       .help = "then labels A and B become C, which may be a label of the volume or new, and "
+               "D becomes E",
+       .assign = [&](const std::string& text) { request.steps.merge = parse_merge(text); }});
+  options.add(
+      {.name = "drop-specks",
+       .value = "N",
+       .help = "then components of fewer than N voxels, joined by faces, take the label that most "
+               "of their faces touch; N/26: joined by edges and corners as well",
+       .kind = ValueKind::kIntegerOrText,
+       .assign = [&](const std::string& text) { request.steps.specks = parse_specks(text); }});
 }
 
 io::RawLayout raw_layout(const VolumeRequest& request) {
@@ -60,22 +158,20 @@ void add_input_option(OptionSet& options, std::filesystem::path& path) {
 }
 
 void add_volume_options(OptionSet& options, VolumeRequest& request) {
-  options.add({.name = "spacing",
-               .value = "X,Y,Z",
-               .help = "voxel spacing in physical units instead of the file's",
-               .kind = ValueKind::kNumbers,
-               .assign = [&](const std::string& text) { request.spacing = parse_spacing(text); }});
-  options.add({.name = "origin",
-               .value = "X,Y,Z",
-               .help = "position of the volume's first corner instead of the file's",
-               .kind = ValueKind::kNumbers,
-               .assign = [&](const std::string& text) { request.origin = parse_numbers(text); }});
+  add_place_options(options, request);
   add_raw_options(options, request);
+  add_array_options(options, request);
+  add_step_options(options, request);
 }
 
 io::OpenOptions open_options(const VolumeRequest& request) {
   require_path(request.path, "INPUT");
-  io::OpenOptions options{.spacing = request.spacing, .origin = request.origin};
+  io::OpenOptions options{.spacing = request.spacing,
+                          .origin = request.origin,
+                          .frame = request.frame,
+                          .dataset = request.dataset,
+                          .scale = request.scale,
+                          .crop = request.crop};
   if (request.shape) {
     options.raw = raw_layout(request);
   } else if (request.type || request.order) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/cli/option_set.h"
+#include "io/labels/prepared_input.h"
 #include "io/volume/open_options.h"
 
 namespace mw::cli {
@@ -18,18 +19,24 @@ struct VolumeRequest {
   std::optional<Index3> shape;
   std::optional<io::VoxelType> type;
   std::optional<io::ByteOrder> order;
+  io::FrameChoice frame = io::FrameChoice::kFile;
+  std::string dataset;
+  std::optional<int> scale;
+  std::optional<Box3> crop;
+  io::InputSteps steps;  ///< what is done with the labels that were opened
 };
 
 /// Positional INPUT.
 void add_input_option(OptionSet& options, std::filesystem::path& path);
 
-/// --spacing --origin, and --shape --dtype --endian --dataset for files that need them.
+/// --spacing --origin --frame; --shape --dtype --endian for raw files; --dataset --scale for files
+/// of several arrays; --crop --merge --drop-specks, the steps before all else (io::PreparedInput).
 void add_volume_options(OptionSet& options, VolumeRequest& request);
 
 /// ERRORS: mw::Error(kUsage) when the path is missing or values contradict each other.
 [[nodiscard]] io::OpenOptions open_options(const VolumeRequest& request);
 
-/// open_volume of the request.
+/// open_volume of the request; its steps are left to io::PreparedInput.
 [[nodiscard]] std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request);
 
 /// ERRORS: mw::Error(kUsage) naming the option when the path is empty.

@@ -10,6 +10,7 @@
 #include "io/file/file_source.h"
 #include "io/file/open_bytes.h"
 #include "io/volume/checks.h"
+#include "io/volume/cropped_volume.h"
 #include "io/volume/hdf5/open_hdf5.h"
 #include "io/volume/inr/open_inr.h"
 #include "io/volume/metaimage/metaimage_header.h"
@@ -146,11 +147,8 @@ std::unique_ptr<LabelVolume> open_folder(const std::filesystem::path& path,
              "give a file in it");
 }
 
-}  // namespace
-
-std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
-                                         const OpenOptions& options) {
-  check_options(options);
+std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
+                                        const OpenOptions& options) {
   if (options.raw) return open_raw(open_raw_bytes(path, *options.raw), options);
   if (std::filesystem::is_directory(path)) return open_folder(path, options);
   std::unique_ptr<ByteSource> source = open_bytes(path);
@@ -159,6 +157,14 @@ std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
   fail_input(path.string(), "format", "unknown by content and by extension",
              "supported are .npy, .nii, .nrrd, .nhdr and .h5, each also as .gz, and raw files with "
              "--shape and --dtype");
+}
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
+                                         const OpenOptions& options) {
+  check_options(options);
+  return cropped(open_whole(path, options), path.string(), options);
 }
 
 }  // namespace mw::io

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kernels/audit/layered_labels.h"
+#include "kernels/audit/region_betti.h"
 
 namespace mw::audit {
 namespace {
@@ -22,10 +23,27 @@ std::string change_text(const char* region, const Betti& before, const Betti& af
 
 std::string label_text(Label label) {
   if (label == kExterior) return "exterior";
+  if (label == kLeftOut) return "left out";
   return label == kUnknown ? "unknown" : "dense " + std::to_string(label);
 }
 
-Check compare_topology(AuditReport& report) {
+/// Counts the mesh; of labels that are not kept, and then of the exterior, nothing is known.
+void count_topology(std::size_t label_count, const AuditMesh& mesh, const KeptLabels& kept,
+                    AuditReport& report) {
+  if (kept.empty()) {
+    report.mesh = mesh_betti(mesh, label_count);
+    return;
+  }
+  report.mesh = region_betti(mesh, label_count);
+  report.mesh.push_back({});
+  for (Label row = 0; row <= label_count; ++row) {
+    if (keeps(kept, row)) continue;
+    report.voxels[row] = report.mesh[row] = {};
+  }
+}
+
+/// looked_at: rows that are compared.
+Check compare_topology(AuditReport& report, std::size_t looked_at) {
   const std::size_t exterior = report.voxels.size() - 1;
   Offenders changed("labels changed");
   for (std::size_t row = 0; row <= exterior; ++row) {
@@ -39,7 +57,7 @@ Check compare_topology(AuditReport& report) {
              change_text("open ", before.open, after.open);
     });
   }
-  std::string detail = changed.text() + " of " + std::to_string(exterior + 1);
+  std::string detail = changed.text() + " of " + std::to_string(looked_at);
   if (report.topology_is_indicative) detail += "; only indicative, as P2 fails";
   return {"P1 topology", changed.count() == 0, detail};
 }
@@ -98,10 +116,25 @@ std::string distance_text(const DistanceReport& distance) {
 
 /// In voxels of the lattice that the options ask for.
 DistanceReport measure_in_lattice(const VoxelLabels& volume, std::size_t label_count,
-                                  const AuditMesh& mesh, const Frame& frame, Index3 layers) {
-  if (layers == Index3{1, 1, 1}) return measure_distance(volume, label_count, mesh, frame);
+                                  const AuditMesh& mesh, const Frame& frame,
+                                  const AuditOptions& options) {
+  const Index3 layers = options.layers;
+  if (layers == Index3{1, 1, 1}) {
+    return measure_distance(volume, label_count, mesh, frame, options.kept);
+  }
   const LayeredLabels lattice = layered_labels(volume, layers);
-  return measure_distance(lattice.view(), label_count, mesh, layered_frame(frame, layers));
+  return measure_distance(lattice.view(), label_count, mesh, layered_frame(frame, layers),
+                          options.kept);
+}
+
+/// Without the labels that were left out.
+VolumeReport only_kept(VolumeReport report, const KeptLabels& kept) {
+  if (kept.empty()) return report;
+  std::erase_if(report.per_label, [&](const VolumeRow& row) { return !keeps(kept, row.label); });
+  VolumeMeter meter;
+  for (const VolumeRow& row : report.per_label) meter.add(row);
+  report.summary = meter.summary();
+  return report;
 }
 
 /// Sampled distances fail only when they exceed the bound by more than rounding.
@@ -159,25 +192,29 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
                   const Frame& frame, const AuditOptions& options) {
   AuditReport report;
   report.voxels = voxel_betti(volume, label_count);
-  report.validity = check_validity(mesh, volume, frame, label_count);
+  report.validity = check_validity(mesh, volume, frame, label_count, options.kept);
   report.checks = report.validity.checks;
   report.topology_is_indicative = !report.validity.passed();
   if (!report.checks.front().passed) {
     refuse_all(options, report.checks);
     return report;
   }
-  report.mesh = mesh_betti(mesh, label_count);
-  report.checks.push_back(compare_topology(report));
+  count_topology(label_count, mesh, options.kept, report);
+  const auto kept = std::count(options.kept.begin(), options.kept.end(), true);
+  const std::size_t looked_at =
+      options.kept.empty() ? label_count + 1 : static_cast<std::size_t>(kept);
+  report.checks.push_back(compare_topology(report, looked_at));
   if (options.count_places) compare_places(volume, label_count, mesh, report);
   report.quality = measure_quality(mesh);
   report.checks.push_back(judge_quality(report.quality, options.radius_ratio_floor));
   if (options.measure_distance || options.max_distance) {
-    report.distance = measure_in_lattice(volume, label_count, mesh, frame, options.layers);
+    report.distance = measure_in_lattice(volume, label_count, mesh, frame, options);
     if (options.max_distance || !report.distance->is_finite()) {
       report.checks.push_back(judge_distance(*report.distance, options.max_distance));
     }
   }
-  report.volumes = measure_volumes(volume, label_count, mesh, frame, options.layers);
+  report.volumes =
+      only_kept(measure_volumes(volume, label_count, mesh, frame, options.layers), options.kept);
   if (options.max_volume_error) {
     report.checks.push_back(judge_volumes(report.volumes.summary, *options.max_volume_error));
   }

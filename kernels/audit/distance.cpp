@@ -64,12 +64,14 @@ class Finder {
 
 class DistanceMeasurement {
  public:
-  /// Labels that the volume does not have are one more.
+  /// Labels that the volume does not have are one more, and what is left out is the last.
   DistanceMeasurement(const VoxelLabels& volume, std::size_t label_count, const AuditMesh& mesh,
-                      const Frame& frame)
+                      const Frame& frame, const KeptLabels& kept)
       : volume_(volume),
-        triangles_(interface_triangles(mesh, label_count, frame, volume.shape)),
-        rows_(label_count + 1),
+        kept_(kept),
+        triangles_(interface_triangles(mesh, label_count, frame, volume.shape, !kept.empty())),
+        gap_(static_cast<Label>(label_count + 1)),
+        rows_(label_count + 2),
         to_input_(rows_),
         to_mesh_(rows_),
         in_volume_(rows_),
@@ -91,7 +93,7 @@ class DistanceMeasurement {
   void measure_mesh_to_input() {
     const std::vector<VoxelFace> faces = interface_faces(volume_);
     const LabelTrees trees(
-        rows_, faces.size(), [&](std::size_t i) { return labels_of(faces[i], volume_); },
+        rows_, faces.size(), [&](std::size_t i) { return rows_of(faces[i]); },
         [&](std::size_t i) { return extent_of(faces[i]); });
     for (std::size_t row = 0; row < rows_; ++row) {
       in_volume_[row] = !trees.empty(static_cast<Label>(row));
@@ -105,6 +107,15 @@ class DistanceMeasurement {
     for (const InterfaceTriangle& t : triangles_) measure_triangle(t, finder);
   }
 
+  /// All labels that were left out share a row, faces between two of them included.
+  [[nodiscard]] LabelPair rows_of(const VoxelFace& face) const {
+    LabelPair labels = labels_of(face, volume_);
+    for (Label& label : labels) {
+      if (!keeps(kept_, label)) label = gap_;
+    }
+    return labels;
+  }
+
   template <class FaceFinder>
   void measure_triangle(const InterfaceTriangle& t, FaceFinder& finder) {
     const std::uint64_t parts = parts_of_edge(t.corners, report_.mesh_covering_radius);
@@ -116,7 +127,8 @@ class DistanceMeasurement {
       for (std::size_t i = 0; i < 2; ++i) {
         const Label label = t.labels[i];
         if (!in_volume_[label]) continue;
-        const bool is_close = squared[i] <= CloseFaces::kReach * CloseFaces::kReach;
+        const bool is_close =
+            label != gap_ && squared[i] <= CloseFaces::kReach * CloseFaces::kReach;
         to_input_[label].add(is_close ? std::sqrt(squared[i]) : finder.distance(label, p), weight);
       }
     });
@@ -145,7 +157,10 @@ class DistanceMeasurement {
 
   void conclude(std::size_t row) {
     if (!in_volume_[row] && !in_mesh_[row]) return;
-    const Label label = row + 1 == rows_ ? kUnknown : static_cast<Label>(row);
+    if (row == gap_ && !in_mesh_[row]) return;
+    const Label label = row == gap_       ? kLeftOut
+                        : row + 1 == gap_ ? kUnknown
+                                          : static_cast<Label>(row);
     if (in_volume_[row] && in_mesh_[row]) {
       report_.per_label.push_back({label, to_mesh_[row].largest, to_mesh_[row].mean(),
                                    to_input_[row].largest, to_input_[row].mean()});
@@ -169,7 +184,9 @@ class DistanceMeasurement {
   }
 
   const VoxelLabels& volume_;
+  const KeptLabels& kept_;
   std::vector<InterfaceTriangle> triangles_;
+  Label gap_;  ///< the row of what was left out
   std::size_t rows_;
   std::vector<Tally> to_input_;
   std::vector<Tally> to_mesh_;
@@ -197,8 +214,8 @@ const DistanceReport::PerLabel* DistanceReport::farthest() const {
 }
 
 DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
-                                const AuditMesh& mesh, const Frame& frame) {
-  return DistanceMeasurement(volume, label_count, mesh, frame).run();
+                                const AuditMesh& mesh, const Frame& frame, const KeptLabels& kept) {
+  return DistanceMeasurement(volume, label_count, mesh, frame, kept).run();
 }
 
 std::string sampling_text(const DistanceReport& report) {

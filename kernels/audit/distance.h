@@ -24,7 +24,9 @@ inline constexpr double kMeshCoveringRadius = 0.25;
 struct DistanceReport {
   /// A label with an interface on one side only has infinite figures, in both directions.
   struct PerLabel {
-    Label label = 0;  ///< kUnknown for all labels of the mesh that the volume does not have
+    /// kUnknown for all labels of the mesh that the volume does not have, kLeftOut for the space
+    /// that has no tets because labels were left out.
+    Label label = 0;
     double input_to_mesh_max = 0;
     double input_to_mesh_mean = 0;
     double mesh_to_input_max = 0;
@@ -56,13 +58,18 @@ struct DistanceReport {
 /// centre; corners and centre from kManyInterfaceFaces on), each to the nearest triangle of that
 /// label's boundary.  Mesh to input: samples that cover each triangle to kMeshCoveringRadius, each
 /// to the nearest voxel face.  Means are by area.
+/// Of a mesh from which labels were left out, boundaries of kept labels are also its triangles of
+/// one tet that are not on the box.  Those are samples of kLeftOut as well, held against the faces
+/// of all labels that were left out: no such triangle may be where none of these labels is.  The
+/// other way round nothing is known of them.
 /// REQUIRES: as voxel_betti and mesh_betti; finite vertices; positive spacing.
 /// Errors: kInput when the mesh is none, kResource above 2^20 voxels along an axis.
 /// Cost: two passes over the voxels, O(log) a sample; some 80 bytes a voxel face and 150 a triangle
 /// of the interface.  A mesh with more interface than any valid one (200 million samples) is
 /// sampled more coarsely, as mesh_covering_radius then says.  Deterministic, one thread.
 [[nodiscard]] DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
-                                              const AuditMesh& mesh, const Frame& frame);
+                                              const AuditMesh& mesh, const Frame& frame,
+                                              const KeptLabels& kept = {});
 
 /// The covering radii, in words: how much larger the true distances may be.
 [[nodiscard]] std::string sampling_text(const DistanceReport& report);

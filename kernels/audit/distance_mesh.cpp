@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kernels/audit/box_planes.h"
 #include "kernels/audit/mesh_stars.h"
 
 namespace mw::audit {
@@ -18,6 +19,7 @@ class TriangleCollector {
                     Index3 shape)
       : mesh_(mesh),
         frame_(frame),
+        box_(frame, shape),
         shape_{static_cast<double>(shape.x), static_cast<double>(shape.y),
                static_cast<double>(shape.z)},
         margin_(std::max({shape_[0], shape_[1], shape_[2]})),
@@ -35,6 +37,15 @@ class TriangleCollector {
     for (std::size_t i = 1; i < labels_.size(); ++i) {
       triangles_.push_back({corners(face.vertices), {labels_[i - 1], labels_[i]}});
     }
+  }
+
+  /// A triangle of one tet, unless it is on the box.
+  void add_gap(const MeshFace& face) {
+    const auto& [a, b, c] = face.vertices;
+    const auto& at = mesh_.vertices;
+    if (face.sides.size() != 1 || box_.share_plane({&at[a], &at[b], &at[c]})) return;
+    const Label label = std::min(mesh_.labels[face.sides[0].tet], unknown_);
+    triangles_.push_back({corners(face.vertices), {label, unknown_ + 1}});
   }
 
   /// All that was added, sorted along a curve.
@@ -77,6 +88,7 @@ class TriangleCollector {
 
   AuditMesh mesh_;
   Frame frame_;
+  BoxPlanes box_;
   std::array<double, 3> shape_;
   double margin_;
   Label unknown_;
@@ -95,9 +107,13 @@ double squared_length(const VoxelPoint& v) {
 }  // namespace
 
 std::vector<InterfaceTriangle> interface_triangles(const AuditMesh& mesh, std::size_t label_count,
-                                                   const Frame& frame, Index3 shape) {
+                                                   const Frame& frame, Index3 shape,
+                                                   bool with_gaps) {
   TriangleCollector collector(mesh, label_count, frame, shape);
-  visit_faces(MeshStars(mesh), [&](const MeshFace& face) { collector.add(face); });
+  visit_faces(MeshStars(mesh), [&](const MeshFace& face) {
+    collector.add(face);
+    if (with_gaps) collector.add_gap(face);
+  });
   return collector.take();
 }
 

@@ -21,12 +21,14 @@ struct InterfaceTriangle {
 };
 
 /// Every triangle between two labels, in the order of a space-filling curve.  Labels that the
-/// volume does not have are label_count.  Vertices farther outside the box than its longest edge
-/// are moved to that distance (such a mesh fails P2 anyway).
-/// REQUIRES: as MeshStars, and finite vertices.  Errors: as MeshStars.
+/// volume does not have are label_count.  With gaps, also every triangle of one tet that is not on
+/// the box, between its label and label_count + 1.  Vertices farther outside the box than its
+/// longest edge are moved to that distance (such a mesh fails P2 anyway). REQUIRES: as MeshStars,
+/// and finite vertices.  Errors: as MeshStars.
 [[nodiscard]] std::vector<InterfaceTriangle> interface_triangles(const AuditMesh& mesh,
                                                                  std::size_t label_count,
-                                                                 const Frame& frame, Index3 shape);
+                                                                 const Frame& frame, Index3 shape,
+                                                                 bool with_gaps = false);
 
 [[nodiscard]] double area(const VoxelTriangle& t);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
@@ -20,6 +21,16 @@ using TetRow = std::array<std::uint64_t, 4>;
 
 /// Dense label of a tet whose raw label does not occur in the volume.
 inline constexpr Label kUnknown = 0xfffffffeU;
+
+/// Dense label of the space without tets where labels were left out.
+inline constexpr Label kLeftOut = 0xfffffffdU;
+
+/// Which labels of the volume a mesh is to hold, by dense label; empty: all.
+using KeptLabels = std::vector<bool>;
+
+[[nodiscard]] inline bool keeps(const KeptLabels& kept, Label label) {
+  return kept.empty() || (label < kept.size() && kept[label]);
+}
 
 /// The input.  labels: shape.product() dense labels, x fastest.
 struct VoxelLabels {

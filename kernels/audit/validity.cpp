@@ -12,6 +12,7 @@
 #include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/orientation.h"
+#include "kernels/audit/overlap.h"
 #include "kernels/core/error.h"
 
 namespace mw::audit {
@@ -26,8 +27,13 @@ std::string face_name(const std::array<std::uint32_t, 3>& v) {
 class ValidityAudit {
  public:
   ValidityAudit(const AuditMesh& mesh, const VoxelLabels& volume, const Frame& frame,
-                std::size_t label_count)
-      : mesh_(mesh), volume_(volume), box_(frame, volume.shape), label_count_(label_count) {}
+                std::size_t label_count, const KeptLabels& kept)
+      : mesh_(mesh),
+        volume_(volume),
+        frame_(frame),
+        box_(frame, volume.shape),
+        label_count_(label_count),
+        kept_(kept) {}
 
   ValidityReport run() {
     const std::optional<MeshStars> stars = check_input();
@@ -39,10 +45,14 @@ class ValidityAudit {
     check_box();
     check_volume();
     check_labels();
+    if (has_gaps()) report_.checks.push_back(check_overlap(*stars, frame_, volume_.shape));
     return std::move(report_);
   }
 
  private:
+  /// Whether labels were left out.
+  [[nodiscard]] bool has_gaps() const { return !kept_.empty(); }
+
   void conclude(std::string name, bool passed, std::string detail) {
     report_.checks.push_back({"P2 " + std::move(name), passed, std::move(detail)});
   }
@@ -154,7 +164,7 @@ class ValidityAudit {
       if (face.sides.size() == 2 && !on_opposite_sides(face)) folded.add(name);
       if (face.sides.size() != 1) return;
       ++report_.box_faces;
-      if (!on_box(face)) open.add(name);
+      if (!has_gaps() && !on_box(face)) open.add(name);
     });
     conclude("faces", open.count() + crowded.count() + folded.count() == 0,
              std::to_string(report_.faces) + " triangles, " + std::to_string(report_.box_faces) +
@@ -182,7 +192,7 @@ class ValidityAudit {
       if (const auto corner = box_.corner_at(mesh_.vertices[v])) found[*corner] = true;
     }
     const auto corners = std::count(found.begin(), found.end(), true);
-    conclude("box", outside.count() == 0 && corners == 8,
+    conclude("box", outside.count() == 0 && (corners == 8 || has_gaps()),
              outside.text() + "; " + std::to_string(corners) + " of 8 corners");
   }
 
@@ -197,7 +207,8 @@ class ValidityAudit {
     for (const CompensatedSum& sum : sums) report_.label_volumes.push_back(sum.value());
     report_.volume = all.value();
     report_.box_volume = box_.volume();
-    const double error = std::abs(report_.volume - report_.box_volume);
+    const double excess = report_.volume - report_.box_volume;
+    const double error = has_gaps() ? excess : std::abs(excess);
     conclude("volume", error <= kVolumeTolerance * report_.box_volume,
              "tets " + number(report_.volume) + ", box " + number(report_.box_volume));
   }
@@ -217,8 +228,11 @@ class ValidityAudit {
   void check_labels() {
     std::vector<bool> in_volume(label_count_ + 1, false);
     std::vector<bool> in_mesh(label_count_ + 1, false);
-    for (const Label l : volume_.labels) in_volume[std::min<std::size_t>(l, label_count_)] = true;
-    Offenders strange("tets whose label is not in the volume");
+    for (const Label l : volume_.labels) {
+      if (keeps(kept_, l)) in_volume[std::min<std::size_t>(l, label_count_)] = true;
+    }
+    Offenders strange(has_gaps() ? "tets whose label is not one of those kept"
+                                 : "tets whose label is not in the volume");
     for (std::size_t t = 0; t < mesh_.labels.size(); ++t) {
       const auto label = std::min<std::size_t>(mesh_.labels[t], label_count_);
       in_mesh[label] = true;
@@ -226,7 +240,8 @@ class ValidityAudit {
         strange.add([t] { return std::to_string(t); });
       }
     }
-    Offenders lost("labels of the volume that are not in the mesh");
+    Offenders lost(has_gaps() ? "labels that are kept and not in the mesh"
+                              : "labels of the volume that are not in the mesh");
     for (std::size_t l = 0; l < label_count_; ++l) {
       if (in_volume[l] && !in_mesh[l]) lost.add([l] { return "dense " + std::to_string(l); });
     }
@@ -235,8 +250,10 @@ class ValidityAudit {
 
   const AuditMesh& mesh_;
   const VoxelLabels& volume_;
+  Frame frame_;
   BoxPlanes box_;
   std::size_t label_count_;
+  const KeptLabels& kept_;
   ValidityReport report_;
   std::vector<std::int8_t> sign_;
 };
@@ -248,8 +265,8 @@ bool ValidityReport::passed() const {
 }
 
 ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume, const Frame& frame,
-                              std::size_t label_count) {
-  return ValidityAudit(mesh, volume, frame, label_count).run();
+                              std::size_t label_count, const KeptLabels& kept) {
+  return ValidityAudit(mesh, volume, frame, label_count, kept).run();
 }
 
 }  // namespace mw::audit

@@ -38,11 +38,15 @@ struct ValidityReport {
 /// the box's to 1e-9), "P2 labels" (the mesh's are the volume's).  Together they prove a partition:
 /// faces that pair up on opposite sides cover the inside of the box equally often everywhere, and
 /// the volume says once.
+/// Of a mesh from which labels were left out, triangles of one tet may be anywhere, corners may be
+/// missing, the volume is at most the box's, and the labels are those that are kept.  What the
+/// volume proves is then sampled: "P2 overlap" (check_overlap).
 /// Planes and corners are those of the frame in double, to 1e-9 of the box's extent, since other
 /// tools round.
 /// REQUIRES: labels of the volume < label_count.  Memory: 17 bytes a tet, 50 a vertex.
 /// Deterministic.
 [[nodiscard]] ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume,
-                                            const Frame& frame, std::size_t label_count);
+                                            const Frame& frame, std::size_t label_count,
+                                            const KeptLabels& kept = {});
 
 }  // namespace mw::audit

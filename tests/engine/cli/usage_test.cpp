@@ -58,12 +58,6 @@ TEST_F(UsageTest, RefusesContradictions) {
   expect_failure(2, "mesh v.npy -o w.vtu --labels 1,99", "no label 99");
 }
 
-TEST_F(UsageTest, SaysWhatIsNotAvailableYet) {
-  make_volume();
-  const std::string mesh = "mesh v.npy -o v.vtu ";
-  expect_failure(2, mesh + "--dataset a", "not available in this version");
-}
-
 TEST_F(UsageTest, RefusesTetgenWithoutItsWorker) {
   make_volume();
   const std::string mesh = "mesh v.npy -o v.vtu --optimizer tetgen";

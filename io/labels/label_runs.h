@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A volume as runs of one label along x, plane by plane, of which two are held.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "io/labels/slabs.h"
+#include "io/volume/label_volume.h"
+
+namespace mw::io {
+
+/// All voxels from begin to end - 1 of a row, as far as they have one label.
+struct LabelRun {
+  std::int32_t begin = 0;
+  std::int32_t end = 0;
+  std::uint32_t part = 0;  ///< for whoever walks over the runs
+  RawLabel label = 0;
+};
+
+/// The runs of the first rows of a plane; a row has them all, ascending.
+class RunPlane {
+ public:
+  void clear() {
+    runs_.clear();
+    row_begin_.assign(1, 0);
+  }
+  void add_row(std::span<const RawLabel> labels);
+
+  /// Empty for a row that is not there.  Invalid after add_row().
+  [[nodiscard]] std::span<LabelRun> row(std::int64_t y) {
+    const auto i = static_cast<std::size_t>(y);
+    if (y < 0 || i + 1 >= row_begin_.size()) return {};
+    return std::span(runs_).subspan(row_begin_[i], row_begin_[i + 1] - row_begin_[i]);
+  }
+  [[nodiscard]] std::span<LabelRun> all() { return runs_; }
+  [[nodiscard]] std::uint64_t bytes() const { return runs_.capacity() * sizeof(LabelRun); }
+
+ private:
+  std::vector<LabelRun> runs_;
+  std::vector<std::size_t> row_begin_ = {0};
+};
+
+/// The plane that is read, and the one before it.
+struct RunPlanes {
+  RunPlane current;
+  RunPlane below;
+
+  [[nodiscard]] std::uint64_t bytes() const { return current.bytes() + below.bytes(); }
+};
+
+/// Calls visit(other) for the runs of a row that overlap `run`; with reach 1 also for those that
+/// touch it at an end.
+template <class Visit>
+void for_each_touching(std::span<LabelRun> row, const LabelRun& run, std::int32_t reach,
+                       Visit visit) {
+  const auto first = std::partition_point(row.begin(), row.end(), [&](const LabelRun& other) {
+    return other.end + reach <= run.begin;
+  });
+  for (auto other = first; other != row.end() && other->begin < run.end + reach; ++other) {
+    visit(*other);
+  }
+}
+
+/// Reads the volume once in boxes of at most max_voxels (or a row), and calls row_read(planes, y,
+/// z) after each row and plane_read(planes, z) after each plane. Memory: beside the box some 24
+/// bytes a run of two planes, and 16 a row.
+template <class RowRead, class PlaneRead>
+void sweep_runs(const LabelVolume& volume, std::int64_t max_voxels, RowRead row_read,
+                PlaneRead plane_read) {
+  const Index3 shape = volume.info().shape;
+  const auto row_voxels = static_cast<std::size_t>(shape.x);
+  RunPlanes planes;
+  std::vector<RawLabel> labels;
+  for_each_z_slab({{0, 0, 0}, shape}, max_voxels, [&](const Box3& slab) {
+    labels.resize(static_cast<std::size_t>(slab.voxels()));
+    volume.read(slab, labels);
+    std::span<const RawLabel> rest = labels;
+    for (std::int64_t z = slab.lo.z; z < slab.hi.z; ++z) {
+      for (std::int64_t y = slab.lo.y; y < slab.hi.y; ++y, rest = rest.subspan(row_voxels)) {
+        planes.current.add_row(rest.first(row_voxels));
+        row_read(planes, y, z);
+      }
+      if (slab.hi.y < shape.y) continue;
+      plane_read(planes, z);
+      std::swap(planes.current, planes.below);
+      planes.current.clear();
+    }
+  });
+}
+
+inline void RunPlane::add_row(std::span<const RawLabel> labels) {
+  for (std::size_t begin = 0, end = 0; begin < labels.size(); begin = end) {
+    while (end < labels.size() && labels[end] == labels[begin]) ++end;
+    runs_.push_back(
+        {static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end), 0, labels[begin]});
+  }
+  row_begin_.push_back(runs_.size());
+}
+
+}  // namespace mw::io

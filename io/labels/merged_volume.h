@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A volume in which some labels have become others (--merge).
+#pragma once
+
+#include <vector>
+
+#include "io/labels/label_table.h"
+#include "io/volume/volume_view.h"
+
+namespace mw::io {
+
+/// All of `from` become `to`, which may be new, or in the volume.
+struct MergeRule {
+  std::vector<RawLabel> from;
+  RawLabel to = 0;
+  bool to_is_negative = false;  ///< `to` was written with a minus sign
+};
+
+/// Every voxel by the rules at once: what a rule makes is not looked at by another.
+/// Thread safety: as the volume below, which must outlive it.
+class MergedVolume : public VolumeView {
+ public:
+  /// Reads the volume until it has met every label of the rules.
+  /// ERRORS: mw::Error(kUsage) for a label that two rules (or one, twice) take, for one that the
+  /// volume does not have, and for a `to` that its labels cannot be (signed or unsigned).
+  MergedVolume(const LabelVolume& volume, const std::vector<MergeRule>& rules);
+
+  void read(const Box3& box, std::span<RawLabel> out) const override;
+
+ private:
+  [[nodiscard]] RawLabel merged(RawLabel label) const {
+    return from_.contains(label) ? to_[from_.dense(label)] : label;
+  }
+
+  LabelTable from_;
+  std::vector<RawLabel> to_;  ///< by rank in from_
+};
+
+}  // namespace mw::io

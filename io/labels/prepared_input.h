@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What is done with the labels of a volume before anything else looks at them.
+#pragma once
+
+#include <optional>
+
+#include "io/labels/despeckled_volume.h"
+#include "io/labels/merged_volume.h"
+
+namespace mw::io {
+
+/// The steps in their order; a crop comes before (OpenOptions), --labels and --background after.
+struct InputSteps {
+  std::vector<MergeRule> merge;     ///< empty: none
+  std::optional<SpeckRule> specks;  ///< empty: none
+};
+
+/// A volume after the steps: the reference for all that is promised of a mesh, and what the
+/// fingerprint of a run is taken of.
+class PreparedInput {
+ public:
+  /// opened must outlive it.  limits: of the search for specks.
+  /// ERRORS: those of MergedVolume and DespeckledVolume.
+  PreparedInput(const LabelVolume& opened, const InputSteps& steps, const SpeckLimits& limits = {});
+
+  PreparedInput(const PreparedInput&) = delete;
+  PreparedInput& operator=(const PreparedInput&) = delete;
+
+  [[nodiscard]] const LabelVolume& volume() const { return *volume_; }
+  /// Empty when no specks were to be dropped.
+  [[nodiscard]] std::optional<SpeckFacts> specks() const {
+    return despeckled_ ? std::optional(despeckled_->facts()) : std::nullopt;
+  }
+  /// Bytes that the steps hold, as long as it lives.
+  [[nodiscard]] std::uint64_t held_bytes() const {
+    return despeckled_ ? despeckled_->held_bytes() : 0;
+  }
+
+ private:
+  const LabelVolume* volume_;  ///< the last of what follows, or the one that was opened
+  std::optional<MergedVolume> merged_;
+  std::optional<DespeckledVolume> despeckled_;
+};
+
+}  // namespace mw::io

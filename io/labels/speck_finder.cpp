@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Union-find over the runs of two planes; what no later plane can reach is finished.
+#include "io/labels/speck_finder.h"
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <tuple>
+
+#include "io/file/errors.h"
+#include "io/labels/label_runs.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+/// A run waits in a list and ends in a vector, which is larger than what it holds while it grows.
+constexpr std::uint64_t kBytesPerRun = 2 * sizeof(SpeckRun);
+constexpr std::uint64_t kMostRuns = std::uint64_t{1} << 31;
+
+/// Runs in lists that are joined and let go in no time a run.
+class RunLists {
+ public:
+  struct List {
+    std::uint32_t first = kNone;
+    std::uint32_t last = kNone;
+  };
+
+  void add(List& list, const SpeckRun& run) {
+    std::uint32_t at = free_;
+    if (at == kNone) {
+      at = static_cast<std::uint32_t>(nodes_.size());
+      nodes_.push_back({run, kNone});
+    } else {
+      free_ = nodes_[at].next;
+      nodes_[at] = {run, kNone};
+    }
+    append(list, {at, at});
+  }
+  void append(List& list, const List& more) {
+    if (more.first == kNone) return;
+    if (list.first == kNone) {
+      list = more;
+      return;
+    }
+    nodes_[list.last].next = more.first;
+    list.last = more.last;
+  }
+  void free(List& list) {
+    if (list.first == kNone) return;
+    nodes_[list.last].next = free_;
+    free_ = list.first;
+    list = {};
+  }
+  template <class Visit>
+  void visit(const List& list, Visit visit) const {
+    for (std::uint32_t at = list.first; at != kNone; at = nodes_[at].next) visit(nodes_[at].run);
+  }
+  void clear() {
+    nodes_.clear();
+    free_ = kNone;
+  }
+
+ private:
+  struct Node {
+    SpeckRun run;
+    std::uint32_t next = kNone;
+  };
+  std::deque<Node> nodes_;
+  std::uint32_t free_ = kNone;
+};
+
+/// A component as far as it has been read; only those of the last two planes are held.
+struct Part {
+  std::uint32_t parent = 0;
+  RunLists::List list;       ///< empty when it is no speck
+  std::uint64_t voxels = 0;  ///< not counted beyond what a speck has
+  std::uint64_t runs = 0;    ///< 0 when it is no speck; else those of the list, if it is stored
+  RawLabel label = 0;
+};
+
+class Finder {
+ public:
+  Finder(const SpeckRule& rule, const SpeckLimits& limits)
+      : rule_(rule),
+        limits_(limits),
+        most_runs_(std::min(limits.memory / kBytesPerRun, kMostRuns)),
+        reach_(rule.diagonal ? 1 : 0) {}
+
+  void read_row(RunPlanes& planes, std::int64_t y, std::int64_t z) {
+    for (LabelRun& run : planes.current.row(y)) {
+      run.part = kNone;
+      join_row(planes.current.row(y - 1), run, reach_);
+      if (rule_.diagonal) join_row(planes.below.row(y - 1), run, 1);
+      join_row(planes.below.row(y), run, reach_);
+      if (rule_.diagonal) join_row(planes.below.row(y + 1), run, 1);
+      if (run.part == kNone) run.part = new_part(run.label);
+      add_run(parts_[find(run.part)], run, y, z);
+    }
+  }
+
+  /// Parts that do not reach this plane are finished; the others get new numbers.
+  void read_plane(RunPlanes& planes) {
+    check_plane(planes);
+    kept_.clear();
+    renamed_.assign(parts_.size(), kNone);
+    for (LabelRun& run : planes.current.all()) {
+      const std::uint32_t root = find(run.part);
+      if (renamed_[root] == kNone) {
+        renamed_[root] = static_cast<std::uint32_t>(kept_.size());
+        kept_.push_back(parts_[root]);
+        kept_.back().parent = renamed_[root];
+      }
+      run.part = renamed_[root];
+    }
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      if (parts_[i].parent == i && renamed_[i] == kNone) finish(parts_[i]);
+    }
+    parts_.swap(kept_);
+  }
+
+  Specks take() {
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      if (parts_[i].parent == i) finish(parts_[i]);
+    }
+    if (!stores_) fail_too_many_specks(rule_, specks_, limits_);
+    lists_.clear();
+    std::sort(found_.runs.begin(), found_.runs.end(), [](const SpeckRun& a, const SpeckRun& b) {
+      return std::tie(a.z, a.y, a.begin) < std::tie(b.z, b.y, b.begin);
+    });
+    return std::move(found_);
+  }
+
+ private:
+  std::uint32_t find(std::uint32_t part) {
+    while (parts_[part].parent != part) {
+      parts_[part].parent = parts_[parts_[part].parent].parent;
+      part = parts_[part].parent;
+    }
+    return part;
+  }
+
+  std::uint32_t new_part(RawLabel label) {
+    const auto id = static_cast<std::uint32_t>(parts_.size());
+    parts_.push_back({.parent = id, .label = label});
+    return id;
+  }
+
+  void join_row(std::span<LabelRun> row, LabelRun& run, std::int32_t reach) {
+    for_each_touching(row, run, reach, [&](const LabelRun& other) {
+      if (other.label != run.label) return;
+      const std::uint32_t root = find(other.part);
+      run.part = run.part == kNone ? root : unite(find(run.part), root);
+    });
+  }
+
+  [[nodiscard]] bool is_small(const Part& part) const { return part.voxels < rule_.least; }
+
+  /// REQUIRES: roots.
+  std::uint32_t unite(std::uint32_t a, std::uint32_t b) {
+    if (a == b) return a;
+    if (b < a) std::swap(a, b);
+    Part &to = parts_[a], &from = parts_[b];
+    from.parent = a;
+    to.voxels = std::min(to.voxels + from.voxels, rule_.least);
+    to.runs += from.runs;
+    lists_.append(to.list, from.list);
+    if (!is_small(to)) forget(to);
+    return a;
+  }
+
+  void add_run(Part& part, const LabelRun& run, std::int64_t y, std::int64_t z) {
+    if (!is_small(part)) return;
+    part.voxels += std::min(static_cast<std::uint64_t>(run.end - run.begin), rule_.least);
+    ++part.runs;
+    if (stores_) {
+      lists_.add(part.list, {run.begin, run.end, static_cast<std::int32_t>(y),
+                             static_cast<std::int32_t>(z), 0});
+      if (++stored_ > most_runs_) stop_storing();
+    }
+    if (!is_small(part)) forget(part);
+  }
+
+  /// Lets go the runs of a part that is no speck.
+  void forget(Part& part) {
+    if (stores_) stored_ -= part.runs;
+    lists_.free(part.list);
+    part.runs = 0;
+  }
+
+  /// From here on specks are counted only, so that the error can tell how many there are.
+  void stop_storing() {
+    stores_ = false;
+    lists_.clear();
+    found_ = {};
+    for (Part& part : parts_) part.list = {};
+  }
+
+  void finish(Part& part) {
+    if (!is_small(part)) return;
+    const auto id = static_cast<std::uint32_t>(specks_++);
+    if (!stores_) return;
+    lists_.visit(part.list, [&](SpeckRun run) {
+      run.speck = id;
+      found_.runs.push_back(run);
+    });
+    lists_.free(part.list);
+    found_.labels.push_back(part.label);
+  }
+
+  void check_plane(const RunPlanes& planes) const {
+    const std::uint64_t bytes =
+        planes.bytes() + (parts_.capacity() + kept_.capacity()) * sizeof(Part);
+    if (bytes <= limits_.memory) return;
+    throw Error(ErrorKind::kResource,
+                text("--drop-specks: two slices of the volume have so many runs of labels that "
+                     "they take ",
+                     bytes, " bytes, more than ", limits_.memory, "; raise --memory"));
+  }
+
+  SpeckRule rule_;
+  SpeckLimits limits_;
+  std::uint64_t most_runs_;
+  std::int32_t reach_;
+  std::vector<Part> parts_;
+  std::vector<Part> kept_;              ///< scratch of read_plane()
+  std::vector<std::uint32_t> renamed_;  ///< the same
+  RunLists lists_;
+  Specks found_;
+  std::uint64_t stored_ = 0;  ///< runs in lists_ and found_
+  bool stores_ = true;
+  std::uint64_t specks_ = 0;
+};
+
+}  // namespace
+
+Specks find_specks(const LabelVolume& volume, const SpeckRule& rule, const SpeckLimits& limits) {
+  Finder finder(rule, limits);
+  sweep_runs(
+      volume, limits.slab_voxels,
+      [&](RunPlanes& planes, std::int64_t y, std::int64_t z) { finder.read_row(planes, y, z); },
+      [&](RunPlanes& planes, std::int64_t) { finder.read_plane(planes); });
+  return finder.take();
+}
+
+void fail_too_many_specks(const SpeckRule& rule, std::uint64_t specks, const SpeckLimits& limits) {
+  throw Error(
+      ErrorKind::kResource,
+      text("--drop-specks ", rule.least, ": ", specks,
+           " components are smaller, and do not fit into ", limits.memory,
+           " bytes; raise --memory, of which a quarter is theirs, or drop smaller ones only"));
+}
+
+}  // namespace mw::io

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A box of a volume, seen as a volume (--crop).
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "io/volume/open_options.h"
+
+namespace mw::io {
+
+/// Thread safety: as the volume below.  Chunks keep their size; where the box does not begin at
+/// one they are no longer aligned, which costs time only.
+class CroppedVolume : public LabelVolume {
+ public:
+  /// moves_origin: the origin is the first corner of the whole volume, not yet of the box.
+  /// REQUIRES: box not empty and inside the volume.
+  CroppedVolume(std::unique_ptr<LabelVolume> volume, const Box3& box, bool moves_origin);
+
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+  void read(const Box3& box, std::span<RawLabel> out) const override;
+  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override {
+    return volume_->buffer_bytes(threads);
+  }
+  void drop_buffers() const override { volume_->drop_buffers(); }
+
+ private:
+  std::unique_ptr<LabelVolume> volume_;
+  Index3 first_;
+  VolumeInfo info_;
+};
+
+/// The part that options.crop asks for, if it does.  The origin of the options, if given, is that
+/// of the part.
+/// ERRORS: mw::Error(kUsage) naming `file` and its shape when the box is empty or reaches outside.
+[[nodiscard]] std::unique_ptr<LabelVolume> cropped(std::unique_ptr<LabelVolume> volume,
+                                                   std::string_view file,
+                                                   const OpenOptions& options);
+
+}  // namespace mw::io

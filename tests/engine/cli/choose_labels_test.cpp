@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Parts and labels of a volume as a user chooses them: --crop, --merge, --drop-specks, and verify
+// of meshes of some labels.
+#include <nlohmann/json.hpp>
+
+#include "tests/engine/cli/run_program.h"
+
+namespace mw::cli {
+namespace {
+
+using nlohmann::json;
+
+class ChooseLabelsTest : public ProgramTest {
+ protected:
+  [[nodiscard]] json info(const std::string& arguments) const {
+    return json::parse(run("info " + arguments + " --json").out);
+  }
+  [[nodiscard]] std::string digest(const std::string& mesh) const {
+    return run("digest " + mesh).out;
+  }
+};
+
+/// A 6 x 6 x 6 raw volume of u8: `label_at` of each voxel.
+template <class LabelAt>
+std::string raw_cube(LabelAt label_at) {
+  std::string out;
+  for (int i = 0; i < 216; ++i) {
+    out.push_back(static_cast<char>(label_at(i % 6, i / 6 % 6, i / 36)));
+  }
+  return out;
+}
+const std::string kRaw = " --shape 6,6,6 --dtype u8 ";
+
+TEST_F(ChooseLabelsTest, CropsStayWhereTheyWere) {
+  make_volume();
+  const json facts = info("v.npy --crop 4,0,2,16,20,12 --spacing 2,1,3 ");
+  EXPECT_EQ(facts["shape_xyz"], json({12, 20, 10}));
+  EXPECT_EQ(facts["origin_xyz"], json({8.0, 0.0, 6.0}));
+  expect_done("mesh v.npy -o c.vtkhdf --crop 4,0,2,16,20,12 --window 8 --report r.json");
+  EXPECT_EQ(json::parse(read("r.json"))["settings"]["crop"], json({4, 0, 2, 16, 20, 12}));
+  expect_done("verify v.npy c.vtkhdf --crop 4,0,2,16,20,12 --max-volume-error none");
+  EXPECT_EQ(run("verify v.npy c.vtkhdf").code, 5);
+  expect_failure(2, "mesh v.npy -o d.vtu --crop 4,0,2,16,21,12", "20 x 20 x 20");
+  expect_failure(2, "mesh v.npy -o d.vtu --crop 4,0,2,16,21", "six integers");
+}
+
+TEST_F(ChooseLabelsTest, StepsGoInTheirOrder) {
+  // Labels 1 and 2 of three voxels together, a 3 of one voxel, all in zeros.
+  write("v.raw", raw_cube([](int x, int y, int z) {
+          if (y != 2 || z != 2) return 0;
+          return x == 1 || x == 2 ? 1 : x == 3 ? 2 : x == 5 ? 3 : 0;
+        }));
+  EXPECT_EQ(info("v.raw" + kRaw)["labels"]["count"], 4);
+  const json dropped = info("v.raw" + kRaw + "--drop-specks 3");
+  EXPECT_EQ(dropped["labels"]["count"], 1);
+  EXPECT_EQ(dropped["specks"], (json{{"components", 3}, {"voxels", 4}, {"rounds", 1}}));
+  const json merged = info("v.raw" + kRaw + "--merge 1,2=9 --drop-specks 3");
+  EXPECT_EQ(merged["labels"], (json{{"count", 2}, {"min", 0}, {"max", 9}}));
+  EXPECT_EQ(merged["specks"]["components"], 1);
+  EXPECT_EQ(info("v.raw" + kRaw + "--crop 0,0,0,5,6,6 --merge '1=0;2=0'")["labels"]["count"], 1);
+  expect_failure(2, "info v.raw" + kRaw + "--merge 1,7=9", "--merge: the volume has no label 7");
+  expect_failure(2, "info v.raw" + kRaw + "--merge 1,2", "expected A,B=C");
+  expect_failure(2, "info v.raw" + kRaw + "--merge '1=2;1=3'", "label 1 is to be merged twice");
+  expect_failure(2, "info v.raw" + kRaw + "--drop-specks 0", "from 1 on");
+  expect_failure(2, "info v.raw" + kRaw + "--drop-specks 5/18", "voxels/26");
+}
+
+TEST_F(ChooseLabelsTest, SpecksAreDroppedForEveryCommand) {
+  make_volume();
+  const std::string steps = " --merge 1,2=77 --drop-specks 30/26 ";
+  expect_done("mesh v.npy -o m.vtkhdf --window 8 --report r.json" + steps);
+  const json report = json::parse(read("r.json"));
+  EXPECT_EQ(report["settings"]["drop_specks"], "30/26");
+  EXPECT_EQ(report["settings"]["merge"], "1,2=77");
+  EXPECT_TRUE(report["specks"]["components"].is_number());
+  EXPECT_NE(run("info v.npy" + steps).out.find("specks.components"), std::string::npos);
+  expect_done("verify v.npy m.vtkhdf --max-volume-error none --report q.json" + steps);
+  EXPECT_EQ(json::parse(read("q.json"))["specks"], report["specks"]);
+  EXPECT_EQ(run("verify v.npy m.vtkhdf --max-volume-error none").code, 5);
+  // The same from a config file, where a number need be no string.
+  write("c.toml", "merge = \"1,2=77\"\ndrop_specks = \"30/26\"\nwindow = 8\n");
+  expect_done("mesh v.npy -o n.vtkhdf --config c.toml");
+  EXPECT_EQ(digest("n.vtkhdf"), digest("m.vtkhdf"));
+  write("d.toml", "drop_specks = 30\ncrop = [0, 0, 0, 8, 8, 8]\n");
+  expect_done("mesh v.npy -o o.vtkhdf --config d.toml --window 8");
+}
+
+TEST_F(ChooseLabelsTest, VerifyTakesMeshesOfSomeLabels) {
+  make_volume();
+  expect_done("mesh v.npy -o some.vtkhdf --labels 2,3,7 --window 8");
+  expect_done("mesh v.npy -o rest.vtkhdf --background 4 --window 8");
+  const std::string judged = " --max-volume-error none --quality-floor 0.2 --max-distance 1.5 ";
+  expect_done("verify v.npy some.vtkhdf --labels 2,3,7" + judged);
+  expect_done("verify v.npy rest.vtkhdf --background 4" + judged);
+  for (const std::string wrong : {"some.vtkhdf", "rest.vtkhdf", "some.vtkhdf --labels 2,3",
+                                  "some.vtkhdf --labels 2,3,7,8", "rest.vtkhdf --background 5"}) {
+    EXPECT_EQ(run("verify v.npy " + wrong + judged).code, 5) << wrong;
+  }
+  expect_failure(2, "verify v.npy some.vtkhdf --labels 99", "no label 99");
+  expect_failure(2, "verify v.npy some.vtkhdf --labels 2 --background 1", "one of them");
+  expect_failure(2, "verify v.npy some.vtkhdf --labels 2 --topology interfaces", "all labels");
+}
+
+}  // namespace
+}  // namespace mw::cli

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Specks against a literal reading of the rule: components by flooding, round by round.
+#include "io/labels/despeckled_volume.h"
+
+#include <algorithm>
+#include <map>
+
+#include "tests/io/labels/memory_volume.h"
+#include "tests/io/test_files.h"
+
+namespace mw::io {
+namespace {
+
+using audit::test::SmallVolume;
+
+/// The rule on a whole array.
+class Oracle {
+ public:
+  Oracle(const MemoryVolume& volume, SpeckRule rule)
+      : all_{{0, 0, 0}, volume.info().shape},
+        rule_(rule),
+        signed_(has_signed_labels(volume.info())),
+        labels_(volume.labels()) {}
+
+  void run() {
+    for (;;) {
+      find_components();
+      const std::map<int, RawLabel> changes = choices();
+      if (changes.empty()) return;
+      ++facts.rounds;
+      facts.components += changes.size();
+      for (std::size_t i = 0; i < labels_.size(); ++i) {
+        const auto change = changes.find(component_[i]);
+        if (change == changes.end()) continue;
+        labels_[i] = change->second;
+        ++facts.voxels;
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<RawLabel>& labels() const { return labels_; }
+  SpeckFacts facts;
+
+ private:
+  [[nodiscard]] std::size_t at(Index3 v) const { return static_cast<std::size_t>(all_.offset(v)); }
+
+  void find_components() {
+    component_.assign(labels_.size(), -1);
+    voxels_.clear();
+    each_index(all_, [&](Index3 v) {
+      if (component_[at(v)] < 0) flood(v, static_cast<int>(voxels_.size()));
+    });
+  }
+
+  void flood(Index3 first, int id) {
+    std::vector<Index3> todo{first};
+    component_[at(first)] = id;
+    voxels_.push_back(0);
+    while (!todo.empty()) {
+      const Index3 v = todo.back();
+      todo.pop_back();
+      ++voxels_.back();
+      each_index(Box3{v - Index3{1, 1, 1}, v + Index3{2, 2, 2}}, [&](Index3 w) {
+        const auto steps = std::abs(w.x - v.x) + std::abs(w.y - v.y) + std::abs(w.z - v.z);
+        if (!all_.contains(w) || steps > (rule_.diagonal ? 3 : 1)) return;
+        if (component_[at(w)] >= 0 || labels_[at(w)] != labels_[at(v)]) return;
+        component_[at(w)] = id;
+        todo.push_back(w);
+      });
+    }
+  }
+
+  [[nodiscard]] bool is_speck(std::size_t i) const {
+    return voxels_[static_cast<std::size_t>(component_[i])] < rule_.least;
+  }
+
+  /// By component: the label that it takes.
+  [[nodiscard]] std::map<int, RawLabel> choices() const {
+    std::map<int, std::map<RawLabel, int>> faces;
+    each_index(all_, [&](Index3 v) {
+      if (!is_speck(at(v))) return;
+      for (const Index3 step : {Index3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
+        for (const Index3 w : {v + step, v - step}) {
+          if (all_.contains(w) && !is_speck(at(w))) ++faces[component_[at(v)]][labels_[at(w)]];
+        }
+      }
+    });
+    std::map<int, RawLabel> out;
+    for (const auto& [speck, counts] : faces) out[speck] = best(counts);
+    return out;
+  }
+
+  [[nodiscard]] RawLabel best(const std::map<RawLabel, int>& counts) const {
+    const auto less = [&](RawLabel a, RawLabel b) {
+      return signed_ ? static_cast<std::int64_t>(a) < static_cast<std::int64_t>(b) : a < b;
+    };
+    auto found = counts.begin();
+    for (auto i = counts.begin(); i != counts.end(); ++i) {
+      const bool ties = i->second == found->second;
+      if (i->second > found->second || (ties && less(i->first, found->first))) found = i;
+    }
+    return found->first;
+  }
+
+  Box3 all_;
+  SpeckRule rule_;
+  bool signed_;
+  std::vector<RawLabel> labels_;
+  std::vector<int> component_;
+  std::vector<std::uint64_t> voxels_;
+};
+
+void expect_as_oracle(const MemoryVolume& volume, SpeckRule rule, const SpeckLimits& limits) {
+  Oracle oracle(volume, rule);
+  oracle.run();
+  const DespeckledVolume despeckled(volume, rule, limits);
+  EXPECT_EQ(read_all(despeckled), oracle.labels());
+  EXPECT_EQ(despeckled.facts().components, oracle.facts.components);
+  EXPECT_EQ(despeckled.facts().voxels, oracle.facts.voxels);
+  EXPECT_EQ(despeckled.facts().rounds, oracle.facts.rounds);
+}
+
+const std::vector<RawLabel> kRaw{7, ~RawLabel{0}, 0, RawLabel{1} << 40U, 3, 250};
+
+class DespeckledVolumeTest : public testing::TestWithParam<bool> {};
+
+TEST_P(DespeckledVolumeTest, IsWhatTheRuleSays) {
+  std::mt19937 random(2024);
+  int rounds = 0;
+  std::uint64_t components = 0;
+  for (int i = 0; i < 6000 && !HasFailure(); ++i) {
+    const SmallVolume small = audit::test::random_volume(random);
+    const VoxelType type = i % 2 == 0 ? VoxelType::kI64 : VoxelType::kU64;
+    const MemoryVolume volume = volume_of(small, type, kRaw);
+    const SpeckRule rule{1 + audit::test::below(random, i % 3 == 0 ? 30 : 6), GetParam()};
+    SCOPED_TRACE(small.text() + " least " + std::to_string(rule.least));
+    const SpeckLimits limits{.slab_voxels = 1 + audit::test::below(random, 60)};
+    expect_as_oracle(volume, rule, limits);
+    const DespeckledVolume despeckled(volume, rule, limits);
+    expect_box(despeckled, read_all(despeckled), random);
+    rounds = std::max(rounds, despeckled.facts().rounds);
+    components += despeckled.facts().components;
+  }
+  EXPECT_GE(rounds, 3) << "rounds were hardly tested";
+  EXPECT_GT(components, 1000);
+}
+
+/// Larger ones, where parts meet late and in several planes.
+TEST_P(DespeckledVolumeTest, IsWhatTheRuleSaysOfLargerVolumes) {
+  std::mt19937 random(77);
+  for (std::uint32_t kind = 0; kind < 3 * audit::test::kVolumeKinds && !HasFailure(); ++kind) {
+    const auto which = static_cast<audit::test::VolumeKind>(kind % audit::test::kVolumeKinds);
+    const SmallVolume small = audit::test::random_volume_of(random, which, {17, 13, 11}, 5);
+    const MemoryVolume volume = volume_of(small, VoxelType::kI64, kRaw);
+    for (const std::uint64_t least : {2U, 5U, 40U, 700U}) {
+      SCOPED_TRACE(std::to_string(kind) + " least " + std::to_string(least));
+      expect_as_oracle(volume, {least, GetParam()}, {.slab_voxels = 300});
+    }
+  }
+}
+
+TEST_P(DespeckledVolumeTest, DoesNotDependOnSlabs) {
+  std::mt19937 random(5);
+  const SmallVolume small =
+      audit::test::random_volume_of(random, audit::test::VolumeKind::kNoise, {9, 8, 7}, 3);
+  const MemoryVolume volume = volume_of(small, VoxelType::kU8, {1, 2, 3});
+  const SpeckRule rule{6, GetParam()};
+  const std::vector<RawLabel> once = read_all(DespeckledVolume(volume, rule));
+  for (std::int64_t slab = 1; slab < 9 * 8 * 7 + 2; ++slab) {
+    EXPECT_EQ(read_all(DespeckledVolume(volume, rule, {.slab_voxels = slab})), once) << slab;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Connectivity, DespeckledVolumeTest, testing::Bool(),
+                         [](const auto& test) { return test.param ? "By26" : "By6"; });
+
+TEST(DespeckledVolume, LeavesNothingButSpecksAsItIs) {
+  const MemoryVolume volume({2, 2, 1}, VoxelType::kU8, {1, 2, 3, 4});
+  const DespeckledVolume despeckled(volume, {100, false});
+  EXPECT_EQ(read_all(despeckled), volume.labels());
+  EXPECT_EQ(despeckled.facts().components, 0U);
+  EXPECT_EQ(despeckled.facts().rounds, 0);
+}
+
+/// 2,000 specks of one voxel in a block of zeros.
+MemoryVolume dusty() {
+  std::vector<RawLabel> labels(40 * 40 * 20);
+  std::size_t specks = 0;
+  for (std::size_t i = 0; i < labels.size() && specks < 2000; i += 2) {
+    const bool even_row = i / 40 % 2 == 0, even_plane = i / 1600 % 2 == 0;
+    if (even_row && even_plane) labels[i] = 1 + specks++;
+  }
+  EXPECT_EQ(specks, 2000U);
+  return {{40, 40, 20}, VoxelType::kU32, std::move(labels)};
+}
+
+TEST(DespeckledVolume, RefusesMoreSpecksThanMemoryHolds) {
+  const MemoryVolume volume = dusty();
+  const DespeckledVolume roomy(volume, {2, false}, {.memory = 1 << 20});
+  EXPECT_EQ(roomy.facts().components, 2000U);
+  EXPECT_GE(roomy.held_bytes(), 2000U * sizeof(SpeckRun));
+  EXPECT_LE(roomy.held_bytes(), 1U << 17U);
+  // The runs alone, then their contacts, then two planes of the volume.
+  for (const std::uint64_t memory : {75'000U, 100'000U}) {
+    expect_error(ErrorKind::kResource, {"--drop-specks 2", "2000 components", "--memory"}, [&] {
+      DespeckledVolume(volume, {2, false}, {.memory = memory});
+    });
+  }
+  expect_error(ErrorKind::kResource, {"--drop-specks", "slices", "--memory"}, [&] {
+    DespeckledVolume(volume, {2, false}, {.memory = 5000});
+  });
+}
+
+}  // namespace
+}  // namespace mw::io
