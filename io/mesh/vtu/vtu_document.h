@@ -22,6 +22,8 @@ class VtuDocument {
   /// REQUIRES: array is a DataArray of the document.
   [[nodiscard]] std::vector<std::uint64_t> integers(pugi::xml_node array, std::uint64_t count);
   [[nodiscard]] std::vector<double> reals(pugi::xml_node array, std::uint64_t count);
+  /// REQUIRES: array is an Array of strings, each with a NUL behind it.  At most 64 MiB of them.
+  [[nodiscard]] std::vector<std::string> strings(pugi::xml_node array);
 
  private:
   void find_appended(std::string& head);
@@ -29,6 +31,7 @@ class VtuDocument {
   [[nodiscard]] std::unique_ptr<ByteStream> stream_of(pugi::xml_node array, const ArrayName& name);
   [[nodiscard]] std::vector<std::byte> bytes_of(pugi::xml_node array, NumberType type,
                                                 std::uint64_t count, const ArrayName& name);
+  [[nodiscard]] std::string characters(pugi::xml_node array, const ArrayName& name);
   [[nodiscard]] std::string_view appended_text();
 
   const ByteSource& source_;
