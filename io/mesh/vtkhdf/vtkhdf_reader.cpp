@@ -44,7 +44,7 @@ std::string type_of(hid_t group) {
 
 class Reader {
  public:
-  Reader(const Hdf5Handle& group, const std::string& file, MeshSink& sink)
+  Reader(const Hdf5Handle& group, LabelNames names, const std::string& file, MeshSink& sink)
       : file_(file),
         sink_(sink),
         points_(group.get(), "Points", file),
@@ -54,7 +54,7 @@ class Reader {
         point_counts_(counts(group.get(), "NumberOfPoints")),
         cell_counts_(counts(group.get(), "NumberOfCells")),
         labels_(label_array(group.get())),
-        names_(read_vtkhdf_names(group.get(), file)) {}
+        names_(std::move(names)) {}
 
   void read() {
     check_arrays();
@@ -229,7 +229,8 @@ void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink) {
     fail_input(exists.name(), "attribute Type", text("'", type, "' is not UnstructuredGrid"),
                "give a VTKHDF file of tetrahedra");
   }
-  Reader(group, exists.name(), sink).read();
+  Reader(group, read_vtkhdf_names(file.get(), group.get(), exists.name()), exists.name(), sink)
+      .read();
 }
 
 }  // namespace mw::io

@@ -57,7 +57,7 @@ class VtkNames(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         os.chdir(folder.name)
-        run("synth", "voronoi", "--shape", "12,12,12", "--labels", "6", "-o", "v.npy")
+        run("synth", "voronoi", "--shape", "12,12,12", "--labels", "12", "--seed", "1", "-o", "v.npy")
         with open("names.csv", "w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
             table.writerow(["id", "name", "r", "g", "b", "a"])
