@@ -67,6 +67,13 @@ std::vector<io::TetRows> oriented_tets(const BlockMesh& block, bool mirrored) {
   return out;
 }
 
+/// Of the labels that are written.
+io::LabelNames written_names(const io::DenseVolume& volume, const LabelSelection& selection) {
+  const io::LabelTable& table = volume.table();
+  return volume.info().names.only(
+      [&](RawLabel label) { return table.contains(label) && selection.keeps(table.dense(label)); });
+}
+
 /// Second pass.
 class Writer {
  public:
@@ -176,7 +183,9 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
     uses.add(b, block.vertices);
     out.tets += block.tets.size();
   });
-  sink.begin({.tets = out.tets, .labels_signed = volume.table().is_signed()});
+  sink.begin({.tets = out.tets,
+              .labels_signed = volume.table().is_signed(),
+              .names = written_names(volume, selection)});
   Remembered remembered(options.hold);
   Writer writer(std::move(uses), volume, options.layers, sink, remembered);
   audit::QualityMeter quality;

@@ -138,12 +138,19 @@ std::unique_ptr<Workdir> open_workdir(const io::VolumeInfo& volume, const MeshSe
                                    options.identity + identity_text(volume, settings));
 }
 
+/// program_bytes(), and the names of labels: all, those that are written, and a sink's text of
+/// them.
+std::uint64_t always_bytes(const io::DenseVolume& volume, int threads) {
+  constexpr std::uint64_t kCopies = 8;
+  return program_bytes(volume.table().size(), threads) + kCopies * volume.info().names.bytes();
+}
+
 /// Tells at once, before any work, the least that the parts take whose size is known by then.
 /// What windows take depends on the labels, and on what earlier windows leave.
 void require_least(const RunLayout& layout, const io::DenseVolume& volume,
                    const MeshSettings& settings, const io::MeshSink& sink, int threads,
                    const MemoryBudget& budget) {
-  const std::uint64_t always = program_bytes(volume.table().size(), threads) +
+  const std::uint64_t always = always_bytes(volume, threads) +
                                prepared_label_bytes(volume.info().shape) + index_bytes(layout);
   const std::uint64_t reading = preparation_bytes(settings) + volume.raw().buffer_bytes(1);
   const std::uint64_t least = always + std::max(reading, sink.buffer_bytes());
@@ -258,8 +265,7 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   const RunLayout layout(march_grids(lattice.info().shape, settings), settings.order);
   MemoryBudget budget(hooks.store.memory);
   require_least(layout, lattice.labels(), settings, sink, report.threads, budget);
-  const auto program =
-      budget.reserve(Purpose::kProgram, program_bytes(volume.table().size(), report.threads));
+  const auto program = budget.reserve(Purpose::kProgram, always_bytes(volume, report.threads));
   std::optional<codt::WorkerPool> workers;
   if (settings.optimizer == Optimizer::kTetgen) workers.emplace(hooks.workers);
   const auto workdir = open_workdir(volume.info(), settings, hooks.store);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/cli/mesh_facts.h"
+#include "engine/cli/name_facts.h"
 #include "engine/cli/values.h"
 
 namespace mw::cli {
@@ -21,48 +22,53 @@ ordered_json finite_json(double voxels) {
   return nullptr;
 }
 
-ordered_json name_json(Label label, const io::LabelTable& table) {
-  if (label == audit::kUnknown) return nullptr;
-  if (label == audit::kLeftOut) return "left out";
-  return label_json(table.raw(label), table.is_signed());
+/// {"label": 3}, and its name if it has one.
+ordered_json label_row(Label label, const io::LabelTable& table, const io::LabelNames& names) {
+  if (label == audit::kUnknown) return {{"label", nullptr}};
+  if (label == audit::kLeftOut) return {{"label", "left out"}};
+  return named_row_json(table.raw(label), table.is_signed(), names);
 }
 
-std::string name_text(Label label, const io::LabelTable& table) {
+std::string name_text(Label label, const io::LabelTable& table, const io::LabelNames& names) {
   if (label == audit::kUnknown) return "one that the volume does not have";
   if (label == audit::kLeftOut) return "left out";
-  return format_label(table.raw(label), table.is_signed());
+  return label_text(table.raw(label), table.is_signed(), names);
 }
 
 /// "infinite for 2 labels with an interface on one side only (the first: 7)"; empty when all is
 /// finite.
-std::string infinite_text(const audit::DistanceReport& distance, const io::LabelTable& table) {
+std::string infinite_text(const audit::DistanceReport& distance, const io::LabelTable& table,
+                          const io::LabelNames& names) {
   const std::size_t count = distance.only_in_volume.size() + distance.only_in_mesh.size();
   if (count == 0) return "";
   const Label first = distance.only_in_volume.empty() ? distance.only_in_mesh.front()
                                                       : distance.only_in_volume.front();
   return "infinite for " + std::to_string(count) + (count == 1 ? " label" : " labels") +
-         " with an interface on one side only (the first: " + name_text(first, table) + ")";
+         " with an interface on one side only (the first: " + name_text(first, table, names) + ")";
 }
 
-std::string finite_text(const audit::DistanceReport& distance, const io::LabelTable& table) {
+std::string finite_text(const audit::DistanceReport& distance, const io::LabelTable& table,
+                        const io::LabelNames& names) {
   const auto* farthest = distance.farthest();
   if (farthest == nullptr) return "";
   std::string text = format_fixed(farthest->max(), 2) + " voxels at most (label " +
-                     name_text(farthest->label, table) + ")";
+                     name_text(farthest->label, table, names) + ")";
   if (!distance.is_finite()) return text + " for the others";
   return text + ", " + format_fixed(distance.mean_voxels, 2) + " on average";
 }
 
 }  // namespace
 
-ordered_json distance_json(const audit::DistanceReport& distance, const io::LabelTable& table) {
+ordered_json distance_json(const audit::DistanceReport& distance, const io::LabelTable& table,
+                           const io::LabelNames& names) {
   ordered_json labels = ordered_json::array();
   for (const auto& row : distance.per_label) {
-    labels.push_back({{"label", name_json(row.label, table)},
-                      {"input_to_mesh_max", finite_json(row.input_to_mesh_max)},
-                      {"input_to_mesh_mean", finite_json(row.input_to_mesh_mean)},
-                      {"mesh_to_input_max", finite_json(row.mesh_to_input_max)},
-                      {"mesh_to_input_mean", finite_json(row.mesh_to_input_mean)}});
+    ordered_json out = label_row(row.label, table, names);
+    out["input_to_mesh_max"] = finite_json(row.input_to_mesh_max);
+    out["input_to_mesh_mean"] = finite_json(row.input_to_mesh_mean);
+    out["mesh_to_input_max"] = finite_json(row.mesh_to_input_max);
+    out["mesh_to_input_mean"] = finite_json(row.mesh_to_input_mean);
+    labels.push_back(std::move(out));
   }
   return {{"max_voxels", finite_json(distance.max_voxels)},
           {"mean_voxels", finite_json(distance.mean_voxels)},
@@ -72,9 +78,10 @@ ordered_json distance_json(const audit::DistanceReport& distance, const io::Labe
           {"per_label", std::move(labels)}};
 }
 
-void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table) {
-  const std::string infinite = infinite_text(distance, table);
-  const std::string finite = finite_text(distance, table);
+void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table,
+                    const io::LabelNames& names) {
+  const std::string infinite = infinite_text(distance, table, names);
+  const std::string finite = finite_text(distance, table, names);
   std::cout << "distance      " << infinite << (infinite.empty() || finite.empty() ? "" : "; ")
             << finite;
   if (distance.per_label.empty()) std::cout << "no interface to measure";

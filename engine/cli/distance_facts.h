@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "io/labels/label_table.h"
+#include "io/names/label_names.h"
 #include "kernels/audit/distance.h"
 
 namespace mw::cli {
@@ -13,9 +14,11 @@ namespace mw::cli {
 /// "distance" of a report, in voxels.  Infinite figures are null, and so is the label of tets whose
 /// label is not in the volume.
 [[nodiscard]] nlohmann::ordered_json distance_json(const audit::DistanceReport& distance,
-                                                   const io::LabelTable& table);
+                                                   const io::LabelTable& table,
+                                                   const io::LabelNames& names);
 
 /// Distance in one plain line.
-void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table);
+void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table,
+                    const io::LabelNames& names);
 
 }  // namespace mw::cli

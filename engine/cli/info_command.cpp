@@ -9,16 +9,18 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/fact_text.h"
 #include "engine/cli/mesh_facts.h"
+#include "engine/cli/name_facts.h"
 #include "engine/cli/shape_facts.h"
 #include "engine/cli/shape_sink.h"
-#include "engine/cli/speck_facts.h"
+#include "engine/cli/volume_facts.h"
 #include "engine/cli/volume_options.h"
 #include "io/labels/label_set.h"
-#include "io/labels/slabs.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
+#include "io/names/read_names.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -48,23 +50,6 @@ ordered_json labels_json(const io::LabelTable& table) {
           {"max", label_json(table.raw(last), table.is_signed())}};
 }
 
-ordered_json volume_facts(const VolumeRequest& request) {
-  const std::unique_ptr<io::LabelVolume> opened = open(request);
-  const io::PreparedInput input(*opened, request.steps);
-  const io::VolumeInfo& info = input.volume().info();
-  ordered_json out{{"kind", "volume"},
-                   {"file", request.path.string()},
-                   {"format", info.format},
-                   {"type", io::name(info.type)},
-                   {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
-                   {"spacing_xyz", info.space.spacing},
-                   {"origin_xyz", info.space.origin},
-                   {"voxels", info.shape.product()},
-                   {"labels", labels_json(io::collect_labels(input.volume()))}};
-  if (input.specks()) out["specks"] = specks_json(input.specks());
-  return out;
-}
-
 /// What a mesh that streams by tells of itself.
 class FactSink : public io::MeshSink {
  public:
@@ -84,6 +69,7 @@ class FactSink : public io::MeshSink {
   void finish() override {}
 
   [[nodiscard]] bool labels_signed() const { return header_.labels_signed; }
+  [[nodiscard]] const io::LabelNames& names() const { return header_.names; }
   [[nodiscard]] ordered_json json() const {
     return {
         {"vertices", vertices_},
@@ -104,32 +90,20 @@ class FactSink : public io::MeshSink {
 struct VoxelCounts {
   std::unordered_map<RawLabel, std::uint64_t> voxels;
   double voxel_volume = 1;  ///< cubic physical units
+  io::LabelNames names;
 };
 
-/// One pass over the volume in slabs of bounded memory.
+/// One pass over the volume.
 VoxelCounts count_voxels(const VolumeRequest& request) {
-  constexpr std::int64_t kSlabVoxels = 1 << 16;
   const std::unique_ptr<io::LabelVolume> opened = open(request);
   const io::PreparedInput input(*opened, request.steps);
   const io::LabelVolume& volume = input.volume();
-  const io::VolumeInfo& info = volume.info();
   VoxelCounts out;
-  for (const double edge : info.space.spacing) out.voxel_volume *= edge;
-  std::vector<RawLabel> labels;
-  const auto count = [&](const Box3& slab) {
-    labels.resize(static_cast<std::size_t>(slab.voxels()));
-    volume.read(slab, labels);
-    for (std::size_t begin = 0, end = 0; begin < labels.size(); begin = end) {
-      while (end < labels.size() && labels[end] == labels[begin]) ++end;
-      out.voxels[labels[begin]] += end - begin;
-    }
-  };
-  const Box3 all{{0, 0, 0}, info.shape};
-  if (info.z_fastest) {
-    io::for_each_x_slab(all, kSlabVoxels, count);
-  } else {
-    io::for_each_z_slab(all, kSlabVoxels, count);
+  for (const double edge : volume.info().space.spacing) out.voxel_volume *= edge;
+  for (const engine::LabelRegion& region : engine::label_regions(volume)) {
+    out.voxels.emplace(region.label, region.voxels);
   }
+  out.names = volume.info().names;
   return out;
 }
 
@@ -144,7 +118,7 @@ std::optional<audit::VolumeRow> held_against(const VoxelCounts& counts, RawLabel
 }
 
 /// Volumes of labels, and their errors when there is a volume to hold them against.
-ordered_json volumes_json(const ShapeSink& shape, bool labels_signed,
+ordered_json volumes_json(const ShapeSink& shape, bool labels_signed, const io::LabelNames& names,
                           const std::optional<VoxelCounts>& counts) {
   std::vector<RawLabel> labels;
   audit::CompensatedSum total;
@@ -157,15 +131,16 @@ ordered_json volumes_json(const ShapeSink& shape, bool labels_signed,
   ordered_json rows = ordered_json::array();
   for (Label l = 0; l < table.size(); ++l) {
     const double volume = shape.volumes().at(table.raw(l)).value();
-    ordered_json row{{"label", label_json(table.raw(l), labels_signed)},
-                     {"volume", volume},
-                     {"share", volume / total.value()}};
+    ordered_json row = named_row_json(table.raw(l), labels_signed, names);
+    row["volume"] = volume;
+    row["share"] = volume / total.value();
     if (counts) {
       if (const auto held = held_against(*counts, table.raw(l), l, volume)) {
         errors.add(*held);
-        row.update(volume_row_json(*held, table));
+        row.update(volume_row_json(*held, table, names));
       }
     }
+    add_colour(row, table.raw(l), names);
     rows.push_back(std::move(row));
   }
   ordered_json out{{"total", total.value()}};
@@ -174,7 +149,8 @@ ordered_json volumes_json(const ShapeSink& shape, bool labels_signed,
   return out;
 }
 
-ordered_json mesh_facts(const std::filesystem::path& path,
+/// names: more of them than the mesh has; they win.
+ordered_json mesh_facts(const std::filesystem::path& path, const io::LabelNames& names,
                         const std::optional<VoxelCounts>& counts) {
   FactSink facts;
   io::DigestSink digest(io::scratch_folder());
@@ -185,67 +161,42 @@ ordered_json mesh_facts(const std::filesystem::path& path,
   ordered_json out{{"kind", "mesh"}, {"file", path.string()}};
   out.update(facts.json());
   out["shape"] = interfaces_json(shape.shape());
-  out["volume"] = volumes_json(shape, facts.labels_signed(), counts);
+  out["volume"] =
+      volumes_json(shape, facts.labels_signed(), facts.names().merged_with(names), counts);
   out["digest"] = digest.digest();
   return out;
 }
 
-/// "label 3, volume 12.5".
-std::string row_text(const ordered_json& row) {
-  std::string out;
-  for (const auto& [key, value] : row.items()) {
-    out += (out.empty() ? "" : ", ") + key + " " + value.dump();
-  }
-  return out;
+void print_json(const ordered_json& facts) {
+  std::cout << facts.dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
 }
 
-std::string plain_text(const ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (!value.is_array()) return value.dump();
-  std::string out;
-  for (const ordered_json& element : value) out += (out.empty() ? "" : " ") + element.dump();
-  return out;
-}
-
-/// One line a fact, and one for each object of a list; those of an object are named "object.fact".
-void print_facts(const ordered_json& facts, const std::string& prefix = {}) {
-  for (const auto& [key, value] : facts.items()) {
-    std::string name = prefix + key;
-    if (value.is_object()) {
-      print_facts(value, name + ".");
-      continue;
-    }
-    name.resize(std::max<std::size_t>(name.size(), 13), ' ');
-    if (value.is_array() && !value.empty() && value.front().is_object()) {
-      for (const ordered_json& row : value) std::cout << name << " " << row_text(row) << "\n";
-      continue;
-    }
-    std::cout << name << " " << plain_text(value) << "\n";
+void tell_of_mesh(const InfoJob& job) {
+  std::optional<VoxelCounts> counts;
+  io::LabelNames names;
+  if (!job.volume.path.empty()) {
+    counts = count_voxels(job.volume);
+    names = counts->names;
+  } else if (!job.volume.names.empty()) {
+    names = io::read_names(job.volume.names);
   }
-}
-
-ordered_json facts_of(InfoJob& job) {
-  const bool has_volume = !job.volume.path.empty();
-  // --shape says that a file is raw; without --volume there is no other file.
-  if (is_mesh_name(job.file) && (has_volume || !job.volume.shape)) {
-    std::optional<VoxelCounts> counts;
-    if (has_volume) counts = count_voxels(job.volume);
-    return mesh_facts(job.file, counts);
-  }
-  if (has_volume) throw Error(ErrorKind::kUsage, "--volume: FILE must be a mesh then");
-  job.volume.path = job.file;
-  return volume_facts(job.volume);
+  const ordered_json facts = mesh_facts(job.file, names, counts);
+  job.json ? print_json(facts) : print_facts(facts);
 }
 
 int run_info(InfoJob& job) {
   job.options.resolve();
   require_path(job.file, "FILE");
-  const ordered_json facts = facts_of(job);
-  if (job.json) {
-    std::cout << facts.dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
-  } else {
-    print_facts(facts);
+  const bool has_volume = !job.volume.path.empty();
+  // --shape says that a file is raw; without --volume there is no other file.
+  if (is_mesh_name(job.file) && (has_volume || !job.volume.shape)) {
+    tell_of_mesh(job);
+    return kExitDone;
   }
+  if (has_volume) throw Error(ErrorKind::kUsage, "--volume: FILE must be a mesh then");
+  job.volume.path = job.file;
+  const VolumeFacts facts(job.volume);
+  job.json ? print_volume_json(facts) : print_volume(facts);
   return kExitDone;
 }
 

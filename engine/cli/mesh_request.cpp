@@ -278,6 +278,9 @@ void require_names_used_once(const MeshRequest& request) {
   if (is_same_file(request.volume.path, request.output)) {
     throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is the input");
   }
+  if (is_same_file(request.volume.names, request.output)) {
+    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is --names");
+  }
   const auto require_new = [](const char* flag, const std::filesystem::path& path,
                               const std::vector<std::filesystem::path>& taken) {
     for (const std::filesystem::path& other : taken) {
@@ -285,8 +288,10 @@ void require_names_used_once(const MeshRequest& request) {
       throw Error(ErrorKind::kUsage, flag + (" " + path.string()) + ": name used twice");
     }
   };
-  require_new("--report", request.report, {request.volume.path, request.output});
-  require_new("--trace", request.trace, {request.volume.path, request.output, request.report});
+  require_new("--report", request.report,
+              {request.volume.path, request.volume.names, request.output});
+  require_new("--trace", request.trace,
+              {request.volume.path, request.volume.names, request.output, request.report});
 }
 
 }  // namespace

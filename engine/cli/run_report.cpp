@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/cli/json_rows.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/shape_facts.h"
 #include "engine/cli/speck_facts.h"
@@ -109,10 +110,6 @@ void each_volume(const engine::RunReport& run, Visit visit) {
   }
 }
 
-/// Stands for rows that are written one by one: as JSON values they would take some 500 bytes each,
-/// which no budget has set aside.
-constexpr const char* kRows = "@rows";
-
 ordered_json shape_json(const FinishedRun& run) {
   audit::VolumeMeter volumes;
   each_volume(run.engine, [&](const audit::VolumeRow& row) { volumes.add(row); });
@@ -120,16 +117,6 @@ ordered_json shape_json(const FinishedRun& run) {
   out.update(interfaces_json(run.engine.shape.value()));
   out["per_label"] = kRows;
   return out;
-}
-
-void write_rows(io::AtomicFile& file, const FinishedRun& run) {
-  file.append("[");
-  const char* before = "";
-  each_volume(run.engine, [&](const audit::VolumeRow& row) {
-    file.append(std::string(before) + "\n      " + volume_row_json(row, run.labels).dump());
-    before = ",";
-  });
-  file.append("\n    ]");
 }
 
 ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
@@ -158,16 +145,13 @@ double vertex_fraction(std::uint64_t vertices, Index3 shape) {
 
 void write_run_report(io::AtomicFile& file, const FinishedRun& run,
                       const std::filesystem::path& mesh, ordered_json settings) {
-  const std::string text = run_report(run, mesh, std::move(settings))
-                               .dump(2, ' ', false, ordered_json::error_handler_t::replace);
-  // Inside of a string the quotes would be escaped, so this is the key and no part of a value.
-  const std::string key = "\"per_label\": ";
-  const std::string rows = "\"" + std::string(kRows) + "\"";
-  const std::size_t at = text.find(key + rows) + key.size();
-  file.append(std::string_view(text).substr(0, at));
-  write_rows(file, run);
-  file.append(std::string_view(text).substr(at + rows.size()));
-  file.append("\n");
+  const auto each_row = [&](const TakeRow& take) {
+    each_volume(run.engine, [&](const audit::VolumeRow& row) {
+      take(volume_row_json(row, run.labels, run.volume.names));
+    });
+  };
+  append_with_rows(run_report(run, mesh, std::move(settings)), each_row,
+                   [&](std::string_view text) { file.append(text); });
   file.commit();
 }
 

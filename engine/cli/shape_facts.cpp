@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/cli/mesh_facts.h"
+#include "engine/cli/name_facts.h"
 #include "engine/cli/values.h"
 
 namespace mw::cli {
@@ -33,11 +34,13 @@ ordered_json volume_summary_json(const audit::VolumeSummary& volumes, const io::
   return out;
 }
 
-ordered_json volume_row_json(const audit::VolumeRow& row, const io::LabelTable& table) {
-  return {{"label", label_json(table.raw(row.label), table.is_signed())},
-          {"voxels", row.voxels},
-          {"volume_voxels", row.volume_voxels},
-          {"volume_error", row.error}};
+ordered_json volume_row_json(const audit::VolumeRow& row, const io::LabelTable& table,
+                             const io::LabelNames& names) {
+  ordered_json out = named_row_json(table.raw(row.label), table.is_signed(), names);
+  out["voxels"] = row.voxels;
+  out["volume_voxels"] = row.volume_voxels;
+  out["volume_error"] = row.error;
+  return out;
 }
 
 ordered_json interfaces_json(const audit::ShapeReport& shape) {
@@ -49,7 +52,8 @@ ordered_json interfaces_json(const audit::ShapeReport& shape) {
           {"sharp_share", shape.sharp_share}};
 }
 
-void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table) {
+void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table,
+                   const io::LabelNames& names) {
   const audit::VolumeSummary& s = volumes.summary;
   std::cout << "volumes       ";
   if (!s.worst) {
@@ -57,7 +61,7 @@ void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& tab
     return;
   }
   std::cout << "off by " << percent(s.error_max_abs, 2) << " at most (label "
-            << format_label(table.raw(s.worst->label), table.is_signed()) << "), "
+            << label_text(table.raw(s.worst->label), table.is_signed(), names) << "), "
             << percent(s.error_mean_abs, 3) << " on average over " << s.labels_measured
             << " labels of " << audit::kLeastJudgedVoxels << " voxels or more; "
             << (volumes.exact ? "exact" : "in floating point, vertices being off the lattice")

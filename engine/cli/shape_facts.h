@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "io/labels/label_table.h"
+#include "io/names/label_names.h"
 #include "kernels/audit/shape.h"
 #include "kernels/audit/volumes.h"
 
@@ -16,12 +17,14 @@ namespace mw::cli {
                                                          const io::LabelTable& table);
 /// A row of its "per_label".
 [[nodiscard]] nlohmann::ordered_json volume_row_json(const audit::VolumeRow& row,
-                                                     const io::LabelTable& table);
+                                                     const io::LabelTable& table,
+                                                     const io::LabelNames& names);
 /// Area and bends.
 [[nodiscard]] nlohmann::ordered_json interfaces_json(const audit::ShapeReport& shape);
 
 /// A line each.
-void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table);
+void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table,
+                   const io::LabelNames& names);
 void print_interfaces(const audit::ShapeReport& shape);
 
 }  // namespace mw::cli

@@ -11,6 +11,7 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/label_choice.h"
 #include "engine/cli/mesh_facts.h"
+#include "engine/cli/name_facts.h"
 #include "engine/cli/resource_meter.h"
 #include "engine/cli/shape_facts.h"
 #include "engine/cli/speck_facts.h"
@@ -47,6 +48,7 @@ struct Verdict {
   audit::AuditReport audit;
   std::vector<std::string> labels_changed;  ///< as the input has them, or "exterior"
   io::LabelTable table;
+  io::LabelNames names;
   Index3 layers;
 
   /// The first check asks whether the file holds a mesh at all.
@@ -176,6 +178,7 @@ Verdict judge(const VerifyJob& job) {
   }
   verdict.labels_changed = changed_labels(verdict.audit, table);
   verdict.table = std::move(table);
+  verdict.names = info.names;
   return verdict;
 }
 
@@ -184,6 +187,11 @@ void print_lattice(Index3 layers) {
   if (layers == Index3{1, 1, 1}) return;
   std::cout << "lattice       distances are in voxels cut into " << layers.x << " x " << layers.y
             << " x " << layers.z << " layers\n";
+}
+
+std::string changed_text(Label label, const Verdict& verdict) {
+  if (label == kExterior) return "exterior";
+  return label_text(verdict.table.raw(label), verdict.table.is_signed(), verdict.names);
 }
 
 void print_verdict(const Verdict& verdict) {
@@ -196,17 +204,19 @@ void print_verdict(const Verdict& verdict) {
   }
   if (!verdict.labels_changed.empty()) {
     std::cout << "labels whose topology changed:";
-    for (const std::string& label : verdict.labels_changed) std::cout << " " << label;
+    for (const Label label : verdict.audit.labels_changed) {
+      std::cout << " " << changed_text(label, verdict);
+    }
     std::cout << "\n";
   }
   if (verdict.looked_at()) {
     print_quality(verdict.audit.quality);
-    print_volumes(verdict.audit.volumes, verdict.table);
+    print_volumes(verdict.audit.volumes, verdict.table, verdict.names);
     print_interfaces(verdict.audit.shape);
   }
   if (verdict.audit.distance) {
     print_lattice(verdict.layers);
-    print_distance(*verdict.audit.distance, verdict.table);
+    print_distance(*verdict.audit.distance, verdict.table, verdict.names);
   }
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const audit::Check& check) { return !check.passed; });
@@ -238,7 +248,7 @@ ordered_json topology_json(const Verdict& verdict) {
 
 ordered_json measured_distance(const Verdict& verdict) {
   if (!verdict.audit.distance) return nullptr;
-  return distance_json(*verdict.audit.distance, verdict.table);
+  return distance_json(*verdict.audit.distance, verdict.table, verdict.names);
 }
 
 ordered_json volume_json(const Verdict& verdict) {
@@ -248,7 +258,7 @@ ordered_json volume_json(const Verdict& verdict) {
   out["exact"] = volumes.exact;
   ordered_json rows = ordered_json::array();
   for (const audit::VolumeRow& row : volumes.per_label) {
-    rows.push_back(volume_row_json(row, verdict.table));
+    rows.push_back(volume_row_json(row, verdict.table, verdict.names));
   }
   out["per_label"] = std::move(rows);
   return out;

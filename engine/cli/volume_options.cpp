@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "engine/cli/values.h"
+#include "io/names/named_volume.h"
+#include "io/names/read_names.h"
 #include "io/volume/open_volume.h"
 #include "io/volume/voxel_type.h"
 #include "kernels/core/error.h"
@@ -162,6 +164,11 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
   add_raw_options(options, request);
   add_array_options(options, request);
   add_step_options(options, request);
+  options.add({.name = "names",
+               .value = "FILE",
+               .help = "names and colours of labels: ITK-SNAP label description, FreeSurfer or "
+                       "Slicer colour table, or CSV with columns id and name",
+               .assign = [&](const std::string& text) { request.names = text; }});
 }
 
 io::OpenOptions open_options(const VolumeRequest& request) {
@@ -181,7 +188,9 @@ io::OpenOptions open_options(const VolumeRequest& request) {
 }
 
 std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request) {
-  return io::open_volume(request.path, open_options(request));
+  auto volume = io::open_volume(request.path, open_options(request));
+  if (request.names.empty()) return volume;
+  return std::make_unique<io::NamedVolume>(std::move(volume), io::read_names(request.names));
 }
 
 void require_path(const std::filesystem::path& path, const char* name) {

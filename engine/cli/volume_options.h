@@ -24,19 +24,22 @@ struct VolumeRequest {
   std::optional<int> scale;
   std::optional<Box3> crop;
   io::InputSteps steps;  ///< what is done with the labels that were opened
+  std::filesystem::path names;  ///< of labels; empty: only those in the volume's file
 };
 
 /// Positional INPUT.
 void add_input_option(OptionSet& options, std::filesystem::path& path);
 
 /// --spacing --origin --frame; --shape --dtype --endian for raw files; --dataset --scale for files
-/// of several arrays; --crop --merge --drop-specks, the steps before all else (io::PreparedInput).
+/// of several arrays; --crop --merge --drop-specks, the steps before all else (io::PreparedInput);
+/// --names.
 void add_volume_options(OptionSet& options, VolumeRequest& request);
 
 /// ERRORS: mw::Error(kUsage) when the path is missing or values contradict each other.
 [[nodiscard]] io::OpenOptions open_options(const VolumeRequest& request);
 
-/// open_volume of the request; its steps are left to io::PreparedInput.
+/// open_volume of the request, and the names of its labels; its steps are left to
+/// io::PreparedInput.
 [[nodiscard]] std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request);
 
 /// ERRORS: mw::Error(kUsage) naming the option when the path is empty.

@@ -15,11 +15,12 @@ struct MeshData {
   std::vector<TetRows> tets;
   std::vector<RawLabel> labels;
   bool labels_signed = false;
+  LabelNames names;
 };
 
 /// Writes all of a mesh: begin to finish.
 inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
-  sink.begin({.tets = mesh.tets.size(), .labels_signed = mesh.labels_signed});
+  sink.begin({.tets = mesh.tets.size(), .labels_signed = mesh.labels_signed, .names = mesh.names});
   sink.write_vertices(mesh.vertices);
   sink.write_tets(mesh.tets, mesh.labels);
   sink.finish();
@@ -30,6 +31,7 @@ class MeshDataSink : public MeshSink {
  public:
   void begin(const MeshHeader& header) override {
     mesh_.labels_signed = header.labels_signed;
+    mesh_.names = header.names;
     mesh_.tets.reserve(header.tets);
     mesh_.labels.reserve(header.tets);
   }

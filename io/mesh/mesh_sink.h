@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "io/names/label_names.h"
 #include "kernels/core/label.h"
 
 namespace mw::io {
@@ -19,6 +20,7 @@ using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive or
 struct MeshHeader {
   std::uint64_t tets = 0;
   bool labels_signed = false;  ///< labels are two's complement int64 and are written as such
+  LabelNames names;            ///< of labels that are written
 };
 
 /// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "io/names/label_names.h"
 #include "io/volume/volume_space.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
@@ -32,6 +33,7 @@ struct VolumeInfo {
   /// What is read at once anyhow: boxes that begin and end at multiples of it are the cheapest.  An
   /// axis of 0: any.
   Index3 chunk{0, 0, 0};
+  LabelNames names;  ///< what the file calls labels
 };
 
 /// Whether labels of the volume are signed numbers.

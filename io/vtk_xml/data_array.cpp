@@ -191,6 +191,24 @@ std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encod
   return bytes;
 }
 
+std::uint64_t announced_bytes(ByteStream& stream, const VtkEncoding& encoding,
+                              const ArrayName& name) {
+  const std::uint64_t first = read_word(stream, encoding);
+  if (!encoding.compressed) {
+    if (first > stream.left()) fail(name, "truncated");
+    return first;
+  }
+  const std::uint64_t block_bytes = read_word(stream, encoding);
+  const std::uint64_t last_bytes = read_word(stream, encoding);
+  if (first == 0) return 0;
+  const std::uint64_t most = stream.left() * kMaxZlibRatio;
+  if (block_bytes > most || last_bytes > block_bytes ||
+      (block_bytes != 0 && first > most / block_bytes)) {
+    fail(name, "block counts are not credible");
+  }
+  return last_bytes == 0 ? first * block_bytes : (first - 1) * block_bytes + last_bytes;
+}
+
 std::vector<std::uint64_t> integers_of_bytes(const std::vector<std::byte>& bytes, NumberType type,
                                              ByteOrder order) {
   std::vector<std::uint64_t> numbers;

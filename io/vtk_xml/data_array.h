@@ -55,6 +55,11 @@ void check_payload_length(ByteStream& stream, const VtkEncoding& encoding, std::
 [[nodiscard]] std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
                                                   std::uint64_t expected, const ArrayName& name);
 
+/// The bytes of an array of unknown length: what its own head announces, no more than the stream
+/// could hold.  Takes the head off the stream.
+[[nodiscard]] std::uint64_t announced_bytes(ByteStream& stream, const VtkEncoding& encoding,
+                                            const ArrayName& name);
+
 /// Integers as two's complement 64 bits.  REQUIRES: !type.is_float.
 [[nodiscard]] std::vector<std::uint64_t> integers_of_bytes(const std::vector<std::byte>& bytes,
                                                            NumberType type, ByteOrder order);

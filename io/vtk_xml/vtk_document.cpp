@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::string_view kAppendedTag = "<AppendedData";
 constexpr std::uint64_t kChunkBytes = 1 << 20;
+constexpr std::uint64_t kMaxStringBytes = 64 << 20;
 
 NumberType type_of(pugi::xml_node array, const ArrayName& name) {
   const std::string type = array.attribute("type").as_string();
@@ -159,6 +160,40 @@ std::vector<std::uint64_t> VtkDocument::integers(pugi::xml_node array, std::uint
   auto numbers = integers_of_text(array.text().get(), name);
   check_count(numbers.size(), count, name);
   return numbers;
+}
+
+/// In text they are numbers, too.
+std::string VtkDocument::characters(pugi::xml_node array, const ArrayName& name) {
+  std::string out;
+  if (std::string_view(array.attribute("format").as_string("ascii")) == "ascii") {
+    for (const std::uint64_t number : integers_of_text(array.text().get(), name)) {
+      out.push_back(static_cast<char>(number));
+    }
+    return out;
+  }
+  const std::uint64_t count = announced_bytes(*stream_of(array, name), encoding_, name);
+  if (count > kMaxStringBytes) {
+    fail_input(name.file, text("array '", name.array, "'"), text(count, " bytes are not credible"),
+               "the file is damaged");
+  }
+  for (const std::byte byte : bytes_of(array, NumberType{1, false, false}, count, name)) {
+    out.push_back(static_cast<char>(byte));
+  }
+  return out;
+}
+
+std::vector<std::string> VtkDocument::strings(pugi::xml_node array) {
+  const ArrayName name = name_of(array, file());
+  const std::string all = characters(array, name);
+  std::vector<std::string> out;
+  std::size_t at = 0;
+  for (std::size_t end = all.find('\0'); end != std::string::npos; end = all.find('\0', at)) {
+    out.push_back(all.substr(at, end - at));
+    at = end + 1;
+  }
+  if (at == all.size()) return out;
+  fail_input(name.file, text("array '", name.array, "'"), "its last string does not end",
+             "the file is damaged");
 }
 
 std::vector<double> VtkDocument::reals(pugi::xml_node array, std::uint64_t count) {

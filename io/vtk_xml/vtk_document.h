@@ -35,6 +35,8 @@ class VtkDocument {
   /// The bytes of an array whose format is not ascii.
   void visit_bytes(pugi::xml_node array, std::uint64_t bytes, const UseBytes& use);
   [[nodiscard]] ByteOrder order() const { return encoding_.order; }
+  /// REQUIRES: array is an Array of strings, each with a NUL behind it.  At most 64 MiB of them.
+  [[nodiscard]] std::vector<std::string> strings(pugi::xml_node array);
 
  private:
   void find_appended(std::string& head);
@@ -42,6 +44,7 @@ class VtkDocument {
   [[nodiscard]] std::unique_ptr<ByteStream> stream_of(pugi::xml_node array, const ArrayName& name);
   [[nodiscard]] std::vector<std::byte> bytes_of(pugi::xml_node array, NumberType type,
                                                 std::uint64_t count, const ArrayName& name);
+  [[nodiscard]] std::string characters(pugi::xml_node array, const ArrayName& name);
   [[nodiscard]] std::string_view appended_text();
 
   const ByteSource& source_;

@@ -4,6 +4,7 @@
 #include "io/mesh/medit/medit_reader.h"
 
 #include "io/file/errors.h"
+#include "io/mesh/medit/medit_names.h"
 #include "io/mesh/medit/token_scanner.h"
 
 namespace mw::io {
@@ -56,6 +57,10 @@ bool is_keyword(std::string_view word) {
 MeshData read_medit(const ByteSource& source) {
   constexpr std::uint64_t kLeastVertexBytes = 8, kLeastTetBytes = 10;
   TokenScanner scanner(source);
+  std::vector<LabelName> names;
+  scanner.on_comment([&](std::string_view comment) {
+    if (auto row = parse_medit_comment(comment)) names.push_back(std::move(*row));
+  });
   if (scanner.next() != "MeshVersionFormatted") scanner.fail("not a MEDIT file");
   MeshData mesh;
   bool vertices = false;
@@ -78,6 +83,7 @@ MeshData read_medit(const ByteSource& source) {
     }
   }
   if (!vertices || !tets) scanner.fail("no sections Vertices and Tetrahedra");
+  mesh.names = LabelNames(std::move(names));
   return mesh;
 }
 

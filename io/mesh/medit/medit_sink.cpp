@@ -8,13 +8,14 @@
 #include <charconv>
 
 #include "io/file/errors.h"
+#include "io/mesh/medit/medit_names.h"
 #include "io/mesh/sink_counts.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
 namespace {
 
-constexpr std::string_view kHead = "MeshVersionFormatted 2\nDimension 3\nVertices\n";
+constexpr std::string_view kHead = "MeshVersionFormatted 2\nDimension 3\n";
 /// Room for any number of vertices, which is known last.
 constexpr std::size_t kCountWidth = 20;
 constexpr std::uint64_t kCopyBytes = 1 << 18;
@@ -43,6 +44,11 @@ class Line {
 void MeditSink::begin(const MeshHeader& header) {
   header_ = header;
   file_.append(kHead);
+  for (const LabelName& row : header.names.rows()) {
+    file_.append(medit_comment(row, header.labels_signed));
+  }
+  file_.append("Vertices\n");
+  count_at_ = file_.appended();
   file_.append(std::string(kCountWidth, ' ') + "\n");
 }
 
@@ -87,7 +93,7 @@ void MeditSink::finish() {
   file_.append("End\n");
   std::string count = std::to_string(vertices_);
   count.insert(0, kCountWidth - count.size(), ' ');
-  file_.write_at(kHead.size(), std::as_bytes(std::span(count)));
+  file_.write_at(count_at_, std::as_bytes(std::span(count)));
   file_.commit();
 }
 

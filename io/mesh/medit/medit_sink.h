@@ -13,8 +13,9 @@
 namespace mw::io {
 
 /// Coordinates are printed with the fewest digits that give back the same double; the reference of
-/// a tet is its label, of a vertex 0; rows count from 1.  The lines of the tets, which come last in
-/// the file, wait in a temporary file in the same folder.
+/// a tet is its label, of a vertex 0; rows count from 1.  Names of labels are comments
+/// (medit_names.h).  The lines of the tets, which come last in the file, wait in a temporary file
+/// in the same folder.
 class MeditSink : public MeshSink {
  public:
   explicit MeditSink(const std::filesystem::path& path)
@@ -33,6 +34,7 @@ class MeditSink : public MeshSink {
   AtomicFile file_;
   ScratchFile tet_lines_;
   MeshHeader header_;
+  std::uint64_t count_at_ = 0;  ///< where the number of vertices goes
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;
 };

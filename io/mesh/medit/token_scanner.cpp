@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint64_t kBufferBytes = 1 << 20;
 /// No number or keyword is that long; keeps memory bounded on binary files.
 constexpr std::size_t kMaxWordBytes = 256;
+constexpr std::size_t kMaxCommentBytes = 1 << 13;
 
 bool is_blank(int c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
@@ -42,15 +43,25 @@ bool TokenScanner::refill() {
 }
 
 void TokenScanner::skip_blanks() {
-  bool comment = false;
-  for (int c = peek(); c >= 0 && (comment || is_blank(c) || c == '#'); c = peek()) {
-    if (c == '#') comment = true;
-    if (c == '\n') {
-      comment = false;
-      ++line_;
+  for (int c = peek(); c >= 0 && (is_blank(c) || c == '#'); c = peek()) {
+    if (c == '#') {
+      skip_comment();
+      continue;
     }
+    if (c == '\n') ++line_;
     ++at_;
   }
+}
+
+/// Leaves the line end.
+void TokenScanner::skip_comment() {
+  std::string comment;
+  ++at_;
+  for (int c = peek(); c >= 0 && c != '\n'; c = peek()) {
+    if (comment.size() < kMaxCommentBytes) comment.push_back(static_cast<char>(c));
+    ++at_;
+  }
+  if (take_comment_) take_comment_(comment);
 }
 
 std::string_view TokenScanner::next() {

@@ -3,6 +3,7 @@
 // Words and numbers of an ASCII file, read through a bounded buffer.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,8 @@ namespace mw::io {
 class TokenScanner {
  public:
   explicit TokenScanner(const ByteSource& source) : source_(source) {}
+  /// From now on each comment is passed on, without its '#' and line end, cut at 8 KiB.
+  void on_comment(std::function<void(std::string_view)> take) { take_comment_ = std::move(take); }
 
   /// The next word, or empty at the end.  Valid until the next call.
   [[nodiscard]] std::string_view next();
@@ -31,6 +34,7 @@ class TokenScanner {
   [[nodiscard]] int peek() { return at_ < buffer_.size() || refill() ? buffer_[at_] : -1; }
   bool refill();
   void skip_blanks();
+  void skip_comment();
   [[noreturn]] void fail_word(std::string_view expected, std::string_view word) const;
 
   const ByteSource& source_;
@@ -39,6 +43,7 @@ class TokenScanner {
   std::size_t at_ = 0;
   std::uint64_t line_ = 1;
   std::string word_;
+  std::function<void(std::string_view)> take_comment_;
 };
 
 }  // namespace mw::io

@@ -12,6 +12,7 @@
 #include "io/file/file_source.h"
 #include "io/mesh/label_names.h"
 #include "io/mesh/vtkhdf/hdf5_array.h"
+#include "io/mesh/vtkhdf/vtkhdf_names.h"
 
 namespace mw::io {
 namespace {
@@ -43,7 +44,7 @@ std::string type_of(hid_t group) {
 
 class Reader {
  public:
-  Reader(const Hdf5Handle& group, const std::string& file, MeshSink& sink)
+  Reader(const Hdf5Handle& group, LabelNames names, const std::string& file, MeshSink& sink)
       : file_(file),
         sink_(sink),
         points_(group.get(), "Points", file),
@@ -52,12 +53,13 @@ class Reader {
         types_(group.get(), "Types", file),
         point_counts_(counts(group.get(), "NumberOfPoints")),
         cell_counts_(counts(group.get(), "NumberOfCells")),
-        labels_(label_array(group.get())) {}
+        labels_(label_array(group.get())),
+        names_(std::move(names)) {}
 
   void read() {
     check_arrays();
     const std::uint64_t tets = sum(cell_counts_);
-    sink_.begin({.tets = tets, .labels_signed = labels_ && labels_->is_signed()});
+    sink_.begin({.tets = tets, .labels_signed = labels_ && labels_->is_signed(), .names = names_});
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {
       read_points(point_counts_[part]);
       check_types(cell_counts_[part]);
@@ -210,6 +212,7 @@ class Reader {
   std::vector<std::uint64_t> point_counts_;  ///< by partition
   std::vector<std::uint64_t> cell_counts_;
   std::optional<Hdf5Array> labels_;  ///< unless there are no cells
+  LabelNames names_;
   std::uint64_t next_point_ = 0;
   std::uint64_t next_cell_ = 0;
 };
@@ -226,7 +229,8 @@ void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink) {
     fail_input(exists.name(), "attribute Type", text("'", type, "' is not UnstructuredGrid"),
                "give a VTKHDF file of tetrahedra");
   }
-  Reader(group, exists.name(), sink).read();
+  Reader(group, read_vtkhdf_names(file.get(), group.get(), exists.name()), exists.name(), sink)
+      .read();
 }
 
 }  // namespace mw::io

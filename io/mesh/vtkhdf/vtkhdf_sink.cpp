@@ -8,6 +8,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/sink_counts.h"
+#include "io/mesh/vtkhdf/vtkhdf_names.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -105,6 +106,7 @@ void VtkhdfSink::begin(const MeshHeader& header) {
   const Hdf5Handle cell_data = make_group(group_.get(), "CellData");
   require(group_.valid() && cell_data.valid());
   write_attributes();
+  require(write_vtkhdf_names(hdf5_.get(), group_.get(), header.names, header.labels_signed));
   // Small meshes are small files.  There are 5 to 6 tets a vertex, and an offset more than tets.
   const std::uint64_t rows = std::clamp<std::uint64_t>(header.tets + 1, 4, kMaxChunkRows);
   const Hdf5Type real{H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};

@@ -54,6 +54,7 @@ class Hdf5Column {
 ///     Offsets            Int64 [tets + 1]
 ///     Types              UInt8 [tets], all 10
 ///     CellData/label     UInt64 or Int64 [tets]
+///     FieldData          names of labels, where there are any, as in /mwmesh (vtkhdf_names.h)
 /// No time stamps: equal meshes are equal bytes.
 /// Cost: 4 MiB of buffers and as much inside HDF5.  Thread safety: see Hdf5Handle.
 class VtkhdfSink : public MeshSink {

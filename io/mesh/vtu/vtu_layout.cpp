@@ -6,12 +6,13 @@
 #include <string_view>
 
 #include "io/file/errors.h"
+#include "io/mesh/vtu/vtu_names.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
 namespace {
 
-/// Longer than any head.
+/// Longer than any head without its names.
 constexpr std::size_t kHeadBytes = 1536;
 constexpr std::string_view kAppended = "  <AppendedData encoding=\"raw\">\n_";
 
@@ -21,14 +22,13 @@ std::string array_tag(const char* type, const char* name, int components, std::u
 }
 
 /// `offset` of each array is relative to the '_'.
-std::string make_head(const MeshHeader& header, std::uint64_t vertices,
+std::string make_head(const MeshHeader& header, std::uint64_t vertices, const std::string& names,
                       const std::array<std::uint64_t, VtuLayout::kArrays>& offset) {
   std::string head = text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n"
-      "    <Piece NumberOfPoints=\"",
-      vertices, "\" NumberOfCells=\"", header.tets, "\">\n      <Points>\n",
-      array_tag("Float64", "Points", 3, offset[VtuLayout::kPoints]),
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n",
+      names, "    <Piece NumberOfPoints=\"", vertices, "\" NumberOfCells=\"", header.tets,
+      "\">\n      <Points>\n", array_tag("Float64", "Points", 3, offset[VtuLayout::kPoints]),
       "      </Points>\n      <Cells>\n",
       array_tag("Int64", "connectivity", 1, offset[VtuLayout::kConnectivity]),
       array_tag("Int64", "offsets", 1, offset[VtuLayout::kOffsets]),
@@ -36,8 +36,9 @@ std::string make_head(const MeshHeader& header, std::uint64_t vertices,
       "      </Cells>\n      <CellData Scalars=\"label\">\n",
       array_tag(header.labels_signed ? "Int64" : "UInt64", "label", 1, offset[VtuLayout::kLabel]),
       "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n");
-  MW_ASSERT(head.size() + kAppended.size() <= kHeadBytes);
-  head.resize(kHeadBytes - kAppended.size(), ' ');
+  const std::size_t bytes = kHeadBytes + names.size();
+  MW_ASSERT(head.size() + kAppended.size() <= bytes);
+  head.resize(bytes - kAppended.size(), ' ');
   head.back() = '\n';
   return head.append(kAppended);
 }
@@ -45,18 +46,20 @@ std::string make_head(const MeshHeader& header, std::uint64_t vertices,
 }  // namespace
 
 VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices) {
+  const std::string names = vtu_names(header.names, header.labels_signed);
+  const std::uint64_t head_bytes = kHeadBytes + names.size();
   VtuLayout layout;
   layout.length = {header.tets * 32, header.tets * 8, header.tets, header.tets * 8, vertices * 24};
   std::array<std::uint64_t, VtuLayout::kArrays> offset{};
   std::uint64_t next = 0;
   for (std::size_t i = 0; i < VtuLayout::kArrays; ++i) {
     offset[i] = next;
-    layout.start[i] = kHeadBytes + next;
+    layout.start[i] = head_bytes + next;
     next += 8 + layout.length[i];
   }
-  layout.head = make_head(header, vertices, offset);
+  layout.head = make_head(header, vertices, names, offset);
   layout.tail = "\n  </AppendedData>\n</VTKFile>\n";
-  layout.tail_start = kHeadBytes + next;
+  layout.tail_start = head_bytes + next;
   return layout;
 }
 

@@ -10,10 +10,10 @@
 
 namespace mw::io {
 
-/// The file: XML head of a fixed length, '_', then for each array a UInt64 byte count and the
-/// numbers, little-endian (connectivity Int64 x 4, offsets Int64, types UInt8, label UInt64 or
-/// Int64, points Float64 x 3), then the closing tags.  The points are last, so that every place
-/// but the end is known before their number is.
+/// The file: XML head whose length depends on the names of labels alone (vtu_names.h), '_', then
+/// for each array a UInt64 byte count and the numbers, little-endian (connectivity Int64 x 4,
+/// offsets Int64, types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.
+/// The points are last, so that every place but the end is known before their number is.
 struct VtuLayout {
   enum Array { kConnectivity, kOffsets, kTypes, kLabel, kPoints, kArrays };
   std::string head;                             ///< up to and including '_'
@@ -23,7 +23,7 @@ struct VtuLayout {
   std::uint64_t tail_start = 0;
 };
 
-/// ENSURES: head.size() and start are those of any other number of vertices.  Cost: O(1).
+/// ENSURES: head.size() and start are those of any other number of vertices.  Cost: O(names).
 [[nodiscard]] VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices);
 
 }  // namespace mw::io

@@ -7,6 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/label_names.h"
+#include "io/mesh/vtu/vtu_names.h"
 #include "io/vtk_xml/vtk_document.h"
 
 namespace mw::io {
@@ -115,6 +116,7 @@ MeshData read_vtu(const ByteSource& source) {
     found = true;
   }
   if (!found) fail_input(document.file(), "Piece", "missing: the file holds no mesh");
+  mesh.names = read_vtu_names(document);
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
 #include "io/volume/nifti/nifti_header.h"
+#include "io/volume/nifti/nifti_names.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {
@@ -17,6 +18,7 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nifti"};
   info.space = placed(file, header.space, options);
   info.scaled = !header.scaling.is_identity();
+  info.names = read_nifti_names(*source, header);
   check_payload(file, info, header.data_offset, source->size(), false);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),

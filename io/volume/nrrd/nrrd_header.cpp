@@ -37,8 +37,20 @@ std::string field_key(std::string_view name) {
   return key;
 }
 
-/// Splits the header into fields; header.bytes is where it ends.
-FieldMap split_fields(std::string_view head, std::size_t& bytes, std::string_view file) {
+/// The format writes line ends and backslashes in values as \n and \\.
+std::string unescaped(std::string_view value) {
+  std::string out;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const bool is_escape = value[i] == '\\' && i + 1 < value.size();
+    if (is_escape) ++i;
+    out.push_back(is_escape && value[i] == 'n' ? '\n' : value[i]);
+  }
+  return out;
+}
+
+/// Splits the header into fields, and keys with their values; bytes is where it ends.
+FieldMap split_fields(std::string_view head, std::size_t& bytes, NrrdKeys& keys,
+                      std::string_view file) {
   FieldMap fields;
   std::size_t at = head.find('\n');
   at = at == std::string_view::npos ? head.size() : at + 1;
@@ -49,7 +61,10 @@ FieldMap split_fields(std::string_view head, std::size_t& bytes, std::string_vie
     if (line.empty()) break;
     const std::size_t colon = line.find(':');
     if (line[0] == '#' || colon == std::string_view::npos) continue;
-    if (line.substr(colon).starts_with(":=")) continue;
+    if (line.substr(colon).starts_with(":=")) {
+      keys[std::string(line.substr(0, colon))] = unescaped(line.substr(colon + 2));
+      continue;
+    }
     const std::string key = field_key(line.substr(0, colon));
     fields[key == "centerings" ? "centers" : key] = std::string(trim(line.substr(colon + 1)));
   }
@@ -134,13 +149,14 @@ std::vector<T> parse_numbers(const std::string& value, std::string_view field,
   return numbers;
 }
 
-Index3 parse_sizes(const FieldMap& fields, std::string_view file) {
+Index3 parse_sizes(const FieldMap& fields, const NrrdKeys& keys, std::string_view file) {
   const auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
   const auto rank =
       parse_numbers<std::int64_t>(required(fields, "dimension", file), "dimension", file);
   if (sizes.size() != 3 || rank.size() != 1 || rank[0] != 3) {
     fail_input(file, "NRRD fields 'dimension' and 'sizes'",
-               text("the volume has ", sizes.size(), " axes, 3 are needed"), "pick one channel");
+               text("the volume has ", sizes.size(), " axes, 3 are needed"),
+               has_segments(keys) ? kSegmentsWayOut : "pick one channel");
   }
   return checked_shape(file, "NRRD field 'sizes'", {sizes[0], sizes[1], sizes[2]});
 }
@@ -257,9 +273,11 @@ NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
                "it is damaged or of another format");
   }
   NrrdHeader header;
-  const FieldMap fields = split_fields(head, header.bytes, file);
+  NrrdKeys keys;
+  const FieldMap fields = split_fields(head, header.bytes, keys, file);
+  header.names = segment_names(keys, file);
   header.type = parse_type(required(fields, "type", file), file);
-  header.shape = parse_sizes(fields, file);
+  header.shape = parse_sizes(fields, keys, file);
   header.order = parse_endian(fields, header.type, file);
   header.gzip = parse_encoding(fields, file);
   parse_skips(fields, header, file);

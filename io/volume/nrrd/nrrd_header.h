@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "io/file/byte_order.h"
+#include "io/names/slicer_segments.h"
 #include "io/volume/file_space.h"
 
 namespace mw::io {
@@ -26,6 +27,7 @@ struct NrrdHeader {
   /// By `space directions`, `space origin` and `space`, else `spacings`.  `space origin` is the
   /// centre of the first sample whatever the centering (format definition).
   FileSpace space;
+  LabelNames names;  ///< of the segments of a .seg.nrrd
 };
 
 [[nodiscard]] bool has_nrrd_magic(std::string_view text);

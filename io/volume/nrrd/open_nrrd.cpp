@@ -46,6 +46,7 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   const NrrdHeader header = read_header(*source);
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nrrd"};
   info.space = placed(file, header.space, options);
+  info.names = header.names;
 
   std::unique_ptr<ByteSource> data = data_source(std::move(source), header, path);
   std::uint64_t offset = header.data_file.empty() ? header.bytes : 0;

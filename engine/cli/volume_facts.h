@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh info` says of a volume.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "engine/cli/volume_options.h"
+#include "engine/label_regions.h"
+
+namespace mw::cli {
+
+/// A volume and its labels, read once.
+class VolumeFacts {
+ public:
+  /// ERRORS: those of open() and of reading the volume.
+  explicit VolumeFacts(const VolumeRequest& request);
+
+  /// Everything but a row for each label.
+  [[nodiscard]] const nlohmann::ordered_json& json() const { return facts_; }
+  [[nodiscard]] std::size_t labels() const { return regions_.size(); }
+  /// Label, name, voxels, box (hi is one behind the last voxel) and colour.  i < labels(),
+  /// ascending.
+  [[nodiscard]] nlohmann::ordered_json label_row(std::size_t i) const;
+
+ private:
+  io::VolumeInfo info_;
+  std::vector<engine::LabelRegion> regions_;
+  nlohmann::ordered_json facts_;
+};
+
+/// The same as text on stdout: a line each, for the first 1,000 labels.
+void print_volume(const VolumeFacts& volume);
+/// All of it as JSON on stdout, the rows as labels.per_label.  Memory: of one row at a time.
+void print_volume_json(const VolumeFacts& volume);
+
+}  // namespace mw::cli

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Names of labels as three arrays of field data, which VTK and ParaView show.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/names/label_names.h"
+
+namespace mw::io {
+
+inline constexpr const char* kLabelId = "label_id";          ///< as the cell array of labels
+inline constexpr const char* kLabelName = "label_name";      ///< strings
+inline constexpr const char* kLabelColour = "label_colour";  ///< 4 x u8
+
+/// The arrays of a file, one row a label.
+struct FieldNames {
+  std::vector<std::uint64_t> ids;
+  std::vector<std::string> names;
+  std::vector<std::uint64_t> colours;  ///< four a label, 0 0 0 0 where unknown; or empty
+};
+
+[[nodiscard]] inline Colour field_colour(const LabelName& row) {
+  return row.colour.value_or(Colour{});
+}
+
+/// ERRORS: mw::Error(kInput) naming the file when the arrays are not of the same length.
+[[nodiscard]] LabelNames names_of(const FieldNames& fields, std::string_view file);
+
+}  // namespace mw::io

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Names of labels as field data of a .vtkhdf file.
+#pragma once
+
+#include <string>
+
+#include "io/mesh/field_names.h"
+#include "io/mesh/vtkhdf/hdf5_handle.h"
+
+namespace mw::io {
+
+/// What VTK reads, in a group FieldData of `grid`: the arrays of field_names.h.  Strings have a
+/// variable length and are declared ASCII, though they are UTF-8: VTK 9.1 reads no others.
+/// What we read: the numbers there, and in `file` the names once more, `mwmesh/label_name`, bytes
+/// with a NUL behind each.  The HDF5 library does not survive damaged strings of variable length.
+/// Nothing without names.  Returns whether all went well.
+[[nodiscard]] bool write_vtkhdf_names(hid_t file, hid_t grid, const LabelNames& names,
+                                      bool labels_signed);
+
+/// Nothing when the file has no such arrays.  `name` is what errors call it.
+/// ERRORS: mw::Error(kInput) naming file and data set when they are damaged.
+[[nodiscard]] LabelNames read_vtkhdf_names(hid_t file, hid_t grid, const std::string& name);
+
+}  // namespace mw::io

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Tables with a label a line and numbers between blanks.
+#include "io/names/colour_table.h"
+
+#include <algorithm>
+
+#include "io/names/name_fields.h"
+
+namespace mw::io {
+namespace {
+
+struct Row {
+  LabelName name;
+  bool has_opacity = false;  ///< counted from 0 to 255
+};
+
+using Words = std::span<const std::string_view>;
+
+std::optional<Colour> colour_of(Words rgb) {
+  Colour colour{0, 0, 0, 255};
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    const auto byte = byte_of(rgb[i]);
+    if (!byte) return std::nullopt;
+    colour[i] = *byte;
+  }
+  return colour;
+}
+
+/// IDX R G B A VIS MSH "NAME"
+std::optional<Row> parse_snap_line(std::string_view line) {
+  const std::size_t quote = line.find('"');
+  const std::vector<std::string_view> words = words_of(line.substr(0, quote));
+  if (words.size() != 7 || quote + 1 == line.size()) return std::nullopt;
+  if (!number_of(words[5]) || !number_of(words[6])) return std::nullopt;
+  const auto label = label_of(words[0]);
+  auto colour = colour_of(Words(words).subspan(1, 3));
+  const auto share = number_of(words[4]);
+  const auto opacity = share ? byte_of_share(*share) : std::nullopt;
+  if (!label || !colour || !opacity) return std::nullopt;
+  (*colour)[3] = *opacity;
+  const std::string_view name = line.substr(quote + 1, line.size() - quote - 2);
+  return Row{.name = {*label, std::string(name), colour}};
+}
+
+/// ID NAME R G B A, ID NAME R G B or ID NAME
+std::optional<Row> parse_table_line(std::string_view line) {
+  const std::vector<std::string_view> words = words_of(line);
+  const std::size_t count = words.size();
+  const auto label = count < 2 ? std::nullopt : label_of(words[0]);
+  if (!label) return std::nullopt;
+  if (count == 2) return Row{.name = {*label, std::string(words[1]), {}}};
+  if (count < 5) return std::nullopt;
+  const std::size_t numbers = count == 5 ? 3 : 4;
+  const auto colour = colour_of(Words(words).last(numbers));
+  if (!colour) return std::nullopt;
+  const std::string_view last = words[count - numbers - 1];
+  const std::string_view name(words[1].data(),
+                              static_cast<std::size_t>(last.end() - words[1].begin()));
+  return Row{.name = {*label, std::string(name), colour}, .has_opacity = numbers == 4};
+}
+
+std::optional<Row> parse_line(std::string_view line) {
+  return line.ends_with('"') ? parse_snap_line(line) : parse_table_line(line);
+}
+
+/// Opacity that is 0 everywhere is FreeSurfer's transparency.
+void make_opaque(std::vector<Row>& rows) {
+  const bool some = std::any_of(rows.begin(), rows.end(), [](const Row& row) {
+    return row.has_opacity && (*row.name.colour)[3] != 0;
+  });
+  if (some) return;
+  for (Row& row : rows) {
+    if (row.has_opacity) (*row.name.colour)[3] = 255;
+  }
+}
+
+}  // namespace
+
+bool is_comment_line(std::string_view line) {
+  line = trimmed(line);
+  return line.empty() || line.starts_with('#') || line.starts_with("//");
+}
+
+bool is_colour_table_line(std::string_view line) {
+  return parse_line(trimmed(line)).has_value();
+}
+
+LabelNames parse_colour_table(std::string_view text, std::string_view file) {
+  std::vector<Row> rows;
+  for (std::size_t at = 0, number = 1; at < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = trimmed(text.substr(at, end - at));
+    at = end + 1;
+    if (is_comment_line(line)) continue;
+    std::optional<Row> row = parse_line(line);
+    if (!row) {
+      fail_line(file, number, "neither 'ID NAME R G B A' nor 'IDX R G B A VIS MSH \"NAME\"'",
+                "colours are whole numbers from 0 to 255, an A in front of VIS is from 0 to 1; "
+                "comments begin with #");
+    }
+    rows.push_back(std::move(*row));
+  }
+  make_opaque(rows);
+  std::vector<LabelName> names;
+  for (Row& row : rows) names.push_back(std::move(row.name));
+  return LabelNames(std::move(names));
+}
+
+}  // namespace mw::io

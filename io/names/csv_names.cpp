@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Names of labels in a table of separated values.
+#include "io/names/csv_names.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "io/file/errors.h"
+#include "io/names/colour_table.h"
+#include "io/names/csv_records.h"
+#include "io/names/name_fields.h"
+
+namespace mw::io {
+namespace {
+
+using Column = std::optional<std::size_t>;
+using Fields = std::vector<std::string>;
+
+struct Columns {
+  Column label = 0;
+  Column name = 1;
+  std::array<Column, 4> rgba;
+  Column hex;
+};
+
+/// "Label Value" and "label_value" are the same column.
+std::string column_key(std::string_view title) {
+  std::string key;
+  for (const char c : title) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) != 0) key.push_back(static_cast<char>(std::tolower(byte)));
+  }
+  return key;
+}
+
+/// The first title that there is.
+Column find_column(const Fields& keys, std::initializer_list<const char*> titles) {
+  for (const char* title : titles) {
+    const auto found = std::find(keys.begin(), keys.end(), title);
+    if (found != keys.end()) return static_cast<std::size_t>(found - keys.begin());
+  }
+  return std::nullopt;
+}
+
+Columns columns_of(const CsvRecord& header, std::string_view file) {
+  Fields keys;
+  for (const std::string& title : header.fields) keys.push_back(column_key(title));
+  Columns out;
+  out.label = find_column(keys, {"labelvalue", "labelid", "labelindex", "id", "index", "idx",
+                                 "value", "key", "number", "no"});
+  out.name = find_column(
+      keys, {"name", "labelname", "region", "regionname", "structure", "structurename"});
+  const Column label = find_column(keys, {"label"});
+  if (!out.label) {
+    out.label = label;
+  } else if (!out.name) {
+    out.name = label;
+  }
+  out.rgba = {find_column(keys, {"r", "red", "colorr", "colourr"}),
+              find_column(keys, {"g", "green", "colorg", "colourg"}),
+              find_column(keys, {"b", "blue", "colorb", "colourb"}),
+              find_column(keys, {"a", "alpha", "opacity", "colora", "coloura"})};
+  out.hex = find_column(keys, {"color", "colour", "hex", "hexcolor", "hexcolour", "colorhex",
+                               "colourhex", "colorhextriplet"});
+  if (!out.label || (!out.name && !out.hex && !out.rgba[0])) {
+    fail_line(file, header.line, "no columns of labels and their names",
+              "call them id and name; or give rows without a header, label first and name second");
+  }
+  return out;
+}
+
+/// 0 to 255, or 0 to 1 with a point in it.
+std::optional<std::uint8_t> part_of_colour(const std::string& text) {
+  const auto byte = byte_of(text);
+  if (byte) return byte;
+  const auto number = number_of(text);
+  if (!number) return std::nullopt;
+  if (*number <= 1) return byte_of_share(*number);
+  if (*number > 255 || *number != std::floor(*number)) return std::nullopt;
+  return static_cast<std::uint8_t>(*number);
+}
+
+std::optional<std::uint8_t> hex_digit(char c) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  const auto digit = kDigits.find(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
+  if (digit == std::string_view::npos) return std::nullopt;
+  return static_cast<std::uint8_t>(digit);
+}
+
+/// "#rrggbb" or "#rrggbbaa"; the '#' may be missing.
+std::optional<Colour> hex_colour(std::string_view text) {
+  if (text.starts_with('#')) text.remove_prefix(1);
+  if (text.size() != 6 && text.size() != 8) return std::nullopt;
+  Colour colour{0, 0, 0, 255};
+  for (std::size_t i = 0; i < text.size(); i += 2) {
+    const auto high = hex_digit(text[i]), low = hex_digit(text[i + 1]);
+    if (!high || !low) return std::nullopt;
+    colour[i / 2] = static_cast<std::uint8_t>(*high << 4U | *low);
+  }
+  return colour;
+}
+
+/// The rows of one table.
+class Table {
+ public:
+  Table(std::string_view file, const Columns& columns) : file_(file), columns_(columns) {}
+
+  [[nodiscard]] LabelName row(const CsvRecord& record) const {
+    const std::string& number = field(record, columns_.label);
+    const auto label = label_of(number);
+    if (!label) {
+      fail_line(file_, record.line, text("'", number.substr(0, 40), "' is no label"),
+                "labels are whole numbers, -2^63 to 2^64 - 1");
+    }
+    return {.label = *label, .name = field(record, columns_.name), .colour = colour(record)};
+  }
+
+ private:
+  /// Empty where the record is shorter.
+  static const std::string& field(const CsvRecord& record, Column column) {
+    static const std::string none;
+    return column && *column < record.fields.size() ? record.fields[*column] : none;
+  }
+
+  [[nodiscard]] std::optional<Colour> colour(const CsvRecord& record) const {
+    if (const std::string& hex = field(record, columns_.hex); !hex.empty()) {
+      const auto colour = hex_colour(hex);
+      if (!colour) fail_colour(record, hex);
+      return colour;
+    }
+    Colour colour{0, 0, 0, 255};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::string& part = field(record, columns_.rgba[i]);
+      if (part.empty() && i < 3) return std::nullopt;
+      if (part.empty()) continue;
+      const auto byte = part_of_colour(part);
+      if (!byte) fail_colour(record, part);
+      colour[i] = *byte;
+    }
+    return colour;
+  }
+
+  [[noreturn]] void fail_colour(const CsvRecord& record, const std::string& part) const {
+    fail_line(file_, record.line, text("'", part.substr(0, 40), "' is no colour"),
+              "colours are #rrggbb, or r, g, b from 0 to 255");
+  }
+
+  std::string_view file_;
+  Columns columns_;
+};
+
+std::string_view first_row(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    if (!is_comment_line(line)) return line;
+    at = end + 1;
+  }
+  return {};
+}
+
+/// NUL: the line has none.
+char separator_of(std::string_view line) {
+  for (const char separator : {'\t', ';', ','}) {
+    bool quoted = false;
+    for (const char c : line) {
+      if (c == '"') quoted = !quoted;
+      if (c == separator && !quoted) return separator;
+    }
+  }
+  return '\0';
+}
+
+}  // namespace
+
+bool is_csv_line(std::string_view line) {
+  return separator_of(line) != '\0';
+}
+
+LabelNames parse_csv_names(std::string_view text, std::string_view file) {
+  CsvRecords records(text, separator_of(first_row(text)), file);
+  std::vector<LabelName> rows;
+  CsvRecord record;
+  if (!records.next(record)) return {};
+  Columns columns;
+  const bool has_header = !label_of(record.fields.front());
+  if (has_header) columns = columns_of(record, file);
+  const Table table(file, columns);
+  if (!has_header) rows.push_back(table.row(record));
+  while (records.next(record)) rows.push_back(table.row(record));
+  return LabelNames(std::move(rows));
+}
+
+}  // namespace mw::io

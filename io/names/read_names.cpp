@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Reads what labels are called from a file.
+#include "io/names/read_names.h"
+
+#include <algorithm>
+
+#include "io/file/errors.h"
+#include "io/file/open_bytes.h"
+#include "io/names/colour_table.h"
+#include "io/names/csv_names.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// Whether the table is of separated values; lines that are neither are explained as such of a
+/// colour table.
+bool is_csv(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    if (!is_comment_line(line)) return !is_colour_table_line(line) && is_csv_line(line);
+    at = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+LabelNames parse_names(std::string_view text, std::string_view file) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (text.find('\0') != std::string_view::npos) {
+    fail_input(file, {}, "holds binary data or text in UTF-16, no table of names",
+               "save it as text in UTF-8");
+  }
+  LabelNames names = is_csv(text) ? parse_csv_names(text, file) : parse_colour_table(text, file);
+  if (!names.empty()) return names;
+  fail_input(file, {}, "names no label",
+             "give an ITK-SNAP label description, a FreeSurfer or Slicer colour table, or CSV with "
+             "columns id and name");
+}
+
+LabelNames read_names(const std::filesystem::path& path) {
+  const std::unique_ptr<ByteSource> source = open_bytes(path);
+  if (source->size() > kMaxNamesBytes) {
+    fail_input(source->name(), {},
+               text("is no table of names: it has ", source->size(), " bytes, the most is ",
+                    kMaxNamesBytes),
+               "give a table of the labels alone");
+  }
+  std::string content(source->size(), '\0');
+  source->read_at(0, std::as_writable_bytes(std::span(content)));
+  return parse_names(content, source->name());
+}
+
+}  // namespace mw::io

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Names and colours of the segments of 3D Slicer.
+#include "io/names/slicer_segments.h"
+
+#include <algorithm>
+
+#include "io/file/errors.h"
+#include "io/names/name_fields.h"
+
+namespace mw::io {
+namespace {
+
+/// "Segment12" of "Segment12_Name"; empty: it is no key of a segment.
+std::string_view segment_of(std::string_view key) {
+  constexpr std::string_view kStart = "Segment";
+  const std::size_t end = key.find('_');
+  if (!key.starts_with(kStart) || end == std::string_view::npos || end <= kStart.size()) return {};
+  const std::string_view number = key.substr(kStart.size(), end - kStart.size());
+  return number.find_first_not_of("0123456789") == std::string_view::npos ? key.substr(0, end)
+                                                                          : std::string_view{};
+}
+
+const std::string& value_of(const NrrdKeys& keys, std::string_view segment, const char* what) {
+  static const std::string none;
+  const auto found = keys.find(text(segment, what));
+  return found == keys.end() ? none : found->second;
+}
+
+std::optional<Colour> colour_of(std::string_view value) {
+  const std::vector<std::string_view> words = words_of(value);
+  if (words.size() != 3) return std::nullopt;
+  Colour colour{0, 0, 0, 255};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto share = number_of(words[i]);
+    const auto byte = share ? byte_of_share(*share) : std::nullopt;
+    if (!byte) return std::nullopt;
+    colour[i] = *byte;
+  }
+  return colour;
+}
+
+void refuse_layers(std::string_view key, const std::string& layer, std::string_view file) {
+  if (!key.ends_with("_Layer") || label_of(layer) == RawLabel{0}) return;
+  fail_input(file, text("NRRD key '", key, "' = ", layer),
+             "the segmentation has several layers, its segments overlap: a voxel may have more "
+             "than one label",
+             kSegmentsWayOut);
+}
+
+}  // namespace
+
+bool has_segments(const NrrdKeys& keys) {
+  return std::any_of(keys.begin(), keys.end(),
+                     [](const auto& pair) { return !segment_of(pair.first).empty(); });
+}
+
+LabelNames segment_names(const NrrdKeys& keys, std::string_view file) {
+  std::vector<LabelName> rows;
+  for (const auto& [key, value] : keys) {
+    const std::string_view segment = segment_of(key);
+    if (segment.empty()) continue;
+    refuse_layers(key, value, file);
+    if (!key.ends_with("_LabelValue")) continue;
+    const auto label = label_of(value);
+    if (!label) continue;
+    rows.push_back({.label = *label,
+                    .name = value_of(keys, segment, "_Name"),
+                    .colour = colour_of(value_of(keys, segment, "_Color"))});
+  }
+  return LabelNames(std::move(rows));
+}
+
+}  // namespace mw::io

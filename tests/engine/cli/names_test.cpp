@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Names of labels as a user sees them: given beside the volume, in meshes and in reports.
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/engine/cli/run_program.h"
+
+namespace mw::cli {
+namespace {
+
+using nlohmann::json;
+
+const std::string kNames =
+    "id,name,color\n1,\"liver, <left>\",#ff8000\n2,\"a \"\"b\"\" & "
+    "Größe\",\n3,,#01020304\n99,none,\n";
+
+class NamesTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    make_volume();
+    write("names.csv", kNames);
+  }
+
+  /// The names of rows by label.
+  static std::map<int, std::string> names_of(const json& rows) {
+    std::map<int, std::string> out;
+    for (const json& row : rows) {
+      if (row.contains("name")) out[row["label"]] = row["name"];
+    }
+    return out;
+  }
+  [[nodiscard]] std::map<int, std::string> names_in_mesh(const std::string& arguments) const {
+    return names_of(json::parse(run("info " + arguments + " --json").out)["volume"]["per_label"]);
+  }
+  static const std::map<int, std::string>& expected() {
+    static const std::map<int, std::string> names{{1, "liver, <left>"}, {2, "a \"b\" & Größe"}};
+    return names;
+  }
+};
+
+TEST_F(NamesTest, ReachEveryMeshAndReport) {
+  expect_done("mesh v.npy -o plain.vtu");
+  const std::string digest = run("digest plain.vtu").out;
+  EXPECT_TRUE(names_in_mesh("plain.vtu").empty());
+  for (const std::string mesh : {"v.vtkhdf", "v.vtu", "v.mesh"}) {
+    SCOPED_TRACE(mesh);
+    expect_done("mesh v.npy -o " + mesh + " --names names.csv --report r.json");
+    const json report = json::parse(read("r.json"));
+    EXPECT_EQ(names_of(report["shape"]["per_label"]), expected());
+    EXPECT_EQ(report["settings"]["names"], "names.csv");
+    EXPECT_EQ(names_in_mesh(mesh), expected());
+    EXPECT_EQ(run("digest " + mesh).out, digest);
+    expect_done("convert " + mesh + " back.vtkhdf");
+    EXPECT_EQ(names_in_mesh("back.vtkhdf"), expected());
+    const json rows = json::parse(run("info " + mesh + " --json").out)["volume"]["per_label"];
+    EXPECT_EQ(rows[0]["colour"], json::parse("[255, 128, 0, 255]"));
+    EXPECT_FALSE(rows[1].contains("colour"));
+    EXPECT_EQ(rows[2]["colour"], json::parse("[1, 2, 3, 4]"));
+  }
+  const std::string text = run("info v.vtu").out;
+  EXPECT_NE(text.find("label 1, name \"liver, <left>\", volume "), std::string::npos) << text;
+}
+
+TEST_F(NamesTest, VerifyNamesLabels) {
+  expect_done("mesh v.npy -o v.vtu");
+  const std::string all =
+      "id,name\n1,n1\n2,n2\n3,n3\n4,n4\n5,n5\n6,n6\n7,n7\n8,n8\n9,n9\n10,n10\n"
+      "11,n11\n12,n12\n";
+  write("all.csv", all);
+  const ProgramRun verified =
+      run("verify v.npy v.vtu --names all.csv --max-distance 1.5 --report q.json");
+  EXPECT_EQ(verified.code, 0) << verified.out;
+  const json report = json::parse(read("q.json"));
+  for (const json& rows : {report["volume"]["per_label"], report["distance"]["per_label"]}) {
+    EXPECT_FALSE(rows.empty());
+    for (const json& row : rows) {
+      EXPECT_EQ(row["name"], "n" + row["label"].dump());
+    }
+  }
+  EXPECT_NE(verified.out.find(" \"n"), std::string::npos) << verified.out;
+  EXPECT_EQ(run("verify v.npy v.vtu --max-distance 1.5").out.find(" \"n"), std::string::npos);
+}
+
+TEST_F(NamesTest, OnlyWrittenLabelsAreNamedInTheMesh) {
+  expect_done("mesh v.npy -o v.mesh --names names.csv --labels 2,3");
+  const std::string mesh = read("v.mesh");
+  EXPECT_EQ(mesh.find("# label 1 "), std::string::npos);
+  EXPECT_EQ(mesh.find("# label 99 "), std::string::npos);
+  EXPECT_NE(mesh.find("# label 2 \"a \\\"b\\\" & Größe\"\n# label 3 \"\" 1 2 3 4\nVertices\n"),
+            std::string::npos);
+}
+
+TEST_F(NamesTest, ComeFromConfigEnvironmentAndVolume) {
+  write("run.toml", "names = \"names.csv\"\n");
+  expect_done("mesh v.npy -o a.vtu --config run.toml");
+  EXPECT_EQ(names_in_mesh("a.vtu"), expected());
+  expect_done("mesh v.npy -o b.vtu", "MW_NAMES=names.csv");
+  EXPECT_EQ(names_in_mesh("b.vtu"), expected());
+  EXPECT_EQ(read("a.vtu"), read("b.vtu"));
+  const std::string whole = read("v.npy");
+  write("v.seg.nrrd",
+        "NRRD0004\ntype: uchar\nencoding: raw\ndimension: 3\nsizes: 20 20 20\n"
+        "Segment0_Name:=Foie\nSegment0_LabelValue:=1\nSegment1_Name:=Rate\n"
+        "Segment1_LabelValue:=4\n\n" +
+            whole.substr(whole.size() - 8000));
+  expect_done("mesh v.seg.nrrd -o c.mesh");
+  EXPECT_EQ(names_in_mesh("c.mesh"), (std::map<int, std::string>{{1, "Foie"}, {4, "Rate"}}));
+  expect_done("mesh v.seg.nrrd -o d.mesh --names names.csv");
+  std::map<int, std::string> both = expected();
+  both[4] = "Rate";
+  EXPECT_EQ(names_in_mesh("d.mesh"), both);
+  EXPECT_EQ(names_in_mesh("c.mesh --names names.csv"), both);
+}
+
+TEST_F(NamesTest, BadFilesFailBeforeTheWork) {
+  expect_failure(3, "mesh v.npy -o v.vtu --names gone.csv", "gone.csv");
+  write("bad.csv", "id,name\n1,a\nx,b\n");
+  expect_failure(3, "mesh v.npy -o v.vtu --names bad.csv", "bad.csv: line 3");
+  expect_failure(3, "info v.npy --names bad.csv", "bad.csv: line 3");
+  expect_failure(2, "mesh v.npy -o names.vtu --names names.vtu", "this is --names");
+  expect_failure(2, "mesh v.npy -o v.vtu --names names.csv --report names.csv", "used twice");
+  EXPECT_EQ(read("names.csv"), kNames);
+}
+
+/// A raw volume of random labels beside what a loop over its voxels finds.
+TEST_F(NamesTest, InfoListsLabelsOfAVolume) {
+  constexpr int kX = 70, kY = 20, kZ = 19;
+  std::mt19937 random(61);
+  std::string bytes;
+  std::map<int, json> rows;
+  for (int z = 0; z < kZ; ++z) {
+    for (int y = 0; y < kY; ++y) {
+      for (int x = 0; x < kX; ++x) {
+        const bool rare = random() % 900 == 0;
+        const int label = rare ? static_cast<int>(random() % 7) - 3 : 40 + (x / 9 + y / 7 + z / 5);
+        bytes.push_back(static_cast<char>(label));
+        json& row = rows[label];
+        if (row.is_null()) row = {{"voxels", 0}, {"lo", {x, y, z}}, {"hi", {x + 1, y + 1, z + 1}}};
+        const int at[] = {x, y, z};
+        row["voxels"] = row["voxels"].get<int>() + 1;
+        for (std::size_t i = 0; i < 3; ++i) {
+          row["lo"][i] = std::min(row["lo"][i].get<int>(), at[i]);
+          row["hi"][i] = std::max(row["hi"][i].get<int>(), at[i] + 1);
+        }
+      }
+    }
+  }
+  write("v.raw", bytes);
+  const std::string volume =
+      "info v.raw --shape 70,20,19 --dtype i8 --spacing 1,2,3 --names names.csv ";
+  const json facts = json::parse(run(volume + "--json").out);
+  const json& labels = facts["labels"];
+  EXPECT_EQ(labels["count"], rows.size());
+  EXPECT_EQ(labels["min"], rows.begin()->first);
+  EXPECT_EQ(labels["max"], rows.rbegin()->first);
+  ASSERT_EQ(labels["per_label"].size(), rows.size());
+  std::size_t i = 0;
+  for (const auto& [label, row] : rows) {
+    const json& listed = labels["per_label"][i++];
+    EXPECT_EQ(listed["label"], label);
+    for (const char* key : {"voxels", "lo", "hi"}) EXPECT_EQ(listed[key], row[key]) << label << key;
+    EXPECT_EQ(listed.contains("name"), expected().contains(label));
+  }
+  EXPECT_EQ(facts["frame"], "own");
+  EXPECT_EQ(facts["unit"], nullptr);
+  EXPECT_EQ(facts["affine"], json::parse("[[1.0,0.0,0.0,0.0],[0.0,2.0,0.0,0.0],[0.0,0.0,3.0,0.0],"
+                                         "[0.0,0.0,0.0,1.0]]"));
+  const std::string text = run(volume).out;
+  EXPECT_NE(text.find("labels.per_label label 1, name \"liver, <left>\", voxels "), text.npos)
+      << text;
+  EXPECT_EQ(text.find("more labels"), text.npos);
+}
+
+TEST_F(NamesTest, InfoListsAThousandLabelsAsText) {
+  std::string bytes;
+  for (int label = 0; label < 1100; ++label) {
+    bytes += {static_cast<char>(label & 255), static_cast<char>(label >> 8)};
+  }
+  write("v.raw", bytes);
+  const std::string volume = "info v.raw --shape 11,10,10 --dtype u16 ";
+  const std::string text = run(volume).out;
+  EXPECT_NE(text.find("label 999,"), text.npos);
+  EXPECT_EQ(text.find("label 1000,"), text.npos);
+  EXPECT_NE(text.find("\n100 more labels; --json lists all\n"), text.npos) << text.substr(0, 500);
+  EXPECT_EQ(json::parse(run(volume + "--json").out)["labels"]["per_label"].size(), 1100U);
+}
+
+}  // namespace
+}  // namespace mw::cli

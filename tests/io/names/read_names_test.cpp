@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Tables of names: each kind, random ones written and read back, and broken ones.
+#include "io/names/read_names.h"
+
+#include "tests/io/names/random_names.h"
+#include "tests/io/test_files.h"
+
+namespace mw::io {
+namespace {
+
+LabelNames parse(const std::string& text) {
+  return parse_names(text, "table");
+}
+
+TEST(ReadNames, ItkSnap) {
+  const LabelNames names = parse(
+      "################################################\n# ITK-SnAP Label Description File\n"
+      "# IDX   -R-  -G-  -B-  -A--  VIS MSH  LABEL\n"
+      "    0     0    0    0        0  0  0    \"Clear Label\"\r\n"
+      "    1   255    0    0        1  1  1    \"Left \"big\" one, really\"\r\n"
+      "    2     0  255    0      0.5  1  0    \"\"\n");
+  expect_same_names(names, LabelNames({{0, "Clear Label", {}},
+                                       {1, "Left \"big\" one, really", Colour{255, 0, 0, 255}},
+                                       {2, "", Colour{0, 255, 0, 128}}}));
+}
+
+TEST(ReadNames, FreeSurferIsOpaqueWhereAllOpacityIsZero) {
+  const LabelNames names = parse(
+      "#$Id: FreeSurferColorLUT.txt\n\n#No. Label Name:        R   G   B   A\n\n"
+      "0   Unknown                                 0   0   0   0\n"
+      "2   Left-Cerebral-White-Matter              245 245 245 0\n"
+      "17\tLeft_Hippocampus\t220\t216\t20\t0\n");
+  expect_same_names(names,
+                    LabelNames({{0, "Unknown", Colour{0, 0, 0, 255}},
+                                {2, "Left-Cerebral-White-Matter", Colour{245, 245, 245, 255}},
+                                {17, "Left_Hippocampus", Colour{220, 216, 20, 255}}}));
+}
+
+TEST(ReadNames, SlicerKeepsOpacity) {
+  const LabelNames names = parse(
+      "# Color table file /x/y.ctbl\n# 3 values\n0 Background 0 0 0 0\n1 tissue_1 128 174 128 255\n"
+      "-5 two words 1 2 3 40\n6 plain 7 8 9\n8 bare\n");
+  expect_same_names(names,
+                    LabelNames({{0, "Background", {}},
+                                {1, "tissue_1", Colour{128, 174, 128, 255}},
+                                {static_cast<RawLabel>(-5), "two words", Colour{1, 2, 3, 40}},
+                                {6, "plain", Colour{7, 8, 9, 255}},
+                                {8, "bare", {}}}));
+}
+
+TEST(ReadNames, CsvByItsHeader) {
+  const LabelNames expected({{1, "liver, left", Colour{255, 128, 0, 255}}, {22, "b", {}}});
+  expect_same_names(parse("\xEF\xBB\xBFLabel,Name,R,G,B\n1,\"liver, left\",255,128,0\n22,b,,,\n"),
+                    expected);
+  expect_same_names(parse("name;junk;ID;colour\n liver, left ;x;1;#ff8000\nb;;22;\n"), expected);
+  expect_same_names(parse("index\tname\tcolor\r\n1\tliver, left\tFF8000FF\r\n22\tb\t\r\n"),
+                    expected);
+  expect_same_names(parse("# comment, here\nid,label,red,green,blue,alpha\n"
+                          "1,\"liver, left\",1.0,0.5,0.0,1.0\n\n22.0,b\n"),
+                    expected);
+  expect_same_names(parse("LabelValue,Structure,Color_R,Color_G,Color_B\n"
+                          "1,\"liver, left\",255,128,0\n22,b\n"),
+                    expected);
+  expect_same_names(parse("id,rgb,hex\n3,,#010203\n"), LabelNames({{3, "", Colour{1, 2, 3, 255}}}));
+}
+
+TEST(ReadNames, CsvWithoutHeader) {
+  expect_same_names(parse("18446744073709551615,big\n7,\"a \"\"b\"\"\nc\",9\n"),
+                    LabelNames({{7, "a \"b\" c", {}}, {~RawLabel{0}, "big", {}}}));
+  // Two's complement: the last of two rows of one label counts.
+  expect_same_names(parse("18446744073709551615,big\n-1,last\n"),
+                    LabelNames({{~RawLabel{0}, "last", {}}}));
+}
+
+/// Writers of the test's own, names quoted as each format has it.
+std::string csv_field(const std::string& name) {
+  std::string out = "\"";
+  for (const char c : name) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + "\"";
+}
+
+std::string csv_table(const LabelNames& names, char separator) {
+  const std::string s(1, separator);
+  std::string out = "id" + s + "name" + s + "r" + s + "g" + s + "b" + s + "a\n";
+  for (const LabelName& row : names.rows()) {
+    out += std::to_string(row.label) + s + csv_field(row.name);
+    for (std::size_t i = 0; i < 4; ++i) {
+      out += s + (row.colour ? std::to_string((*row.colour)[i]) : "");
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+TEST(ReadNames, RandomTablesAreReadBack) {
+  std::mt19937 random(41);
+  for (int i = 0; i < 300; ++i) {
+    const LabelNames names = random_names(random, 1 + below(random, 20));
+    if (names.empty()) continue;
+    for (const char separator : {',', ';', '\t'}) {
+      expect_same_names(parse(csv_table(names, separator)), names);
+    }
+    std::string snap;
+    for (const LabelName& row : names.rows()) {
+      const Colour c = row.colour.value_or(Colour{});
+      snap += std::to_string(row.label) + " " + std::to_string(c[0]) + " " + std::to_string(c[1]) +
+              " " + std::to_string(c[2]) + " " + std::to_string(c[3] / 255.0) + " 1 1 \"" +
+              row.name + "\"\n";
+    }
+    expect_same_names(parse(snap), names);
+  }
+}
+
+TEST(ReadNames, FilesMayBeGzipped) {
+  const TempDir dir;
+  const auto path = dir.file("names.csv.gz", gzip("id,name\n7,liver\n"));
+  EXPECT_EQ(read_names(path).name(7), "liver");
+}
+
+void expect_refused(const std::string& text, std::vector<std::string> pieces) {
+  pieces.push_back("table");
+  expect_error(ErrorKind::kInput, pieces, [&] { static_cast<void>(parse(text)); });
+}
+
+TEST(ReadNames, BadLinesAreNamed) {
+  expect_refused("", {"names no label"});
+  expect_refused("# nothing\n\n", {"names no label"});
+  expect_refused("some text\n", {"line 1", "ID NAME R G B A"});
+  expect_refused("1 a 0 0 0 255\n\n# c\n2 b 0 0 256 255\n", {"line 4", "0 to 255"});
+  expect_refused("1 a 0 0 0 255\nx b 0 0 0 255\n", {"line 2"});
+  expect_refused("1 255 0 0 1 1 1 \"a\"\n2 255 0 0 7 1 1 \"b\"\n", {"line 2"});
+  expect_refused("1 255 0 0 1 1 1 \"a\"\n\"\n", {"line 2"});
+  expect_refused("id,name\n1,a\nx,b\n", {"line 3", "'x'", "no label"});
+  expect_refused("id,name\n1.5,a\n", {"line 2", "1.5"});
+  expect_refused("id,name\n,a\n", {"line 2"});
+  expect_refused("id,name\n18446744073709551616,a\n", {"line 2", "18446744073709551616"});
+  expect_refused("id,name\n1,\"a\n2,b\n", {"line 2", "quote"});
+  expect_refused("id,name,color\n1,a,#12345\n", {"line 2", "#12345", "#rrggbb"});
+  expect_refused("id,name,r,g,b\n1,a,1,2,300\n", {"line 2", "300"});
+  expect_refused("size,weight\n1,2\n", {"line 1", "id and name"});
+  expect_refused("id,weight\n1,2\n", {"line 1"});
+  expect_refused(std::string("i\0d\0,\0", 6), {"UTF-16"});
+}
+
+/// Whatever the bytes: names, or an error about the file.
+void expect_read_or_refused(const std::string& text) {
+  try {
+    EXPECT_FALSE(parse(text).empty());
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput) << error.what();
+    EXPECT_TRUE(std::string(error.what()).starts_with("table: ")) << error.what();
+  }
+}
+
+TEST(ReadNames, DamagedTablesAreReadOrRefused) {
+  const std::string tables[] = {
+      "# c\n    1   255    0    0        1  1  1    \"Label 1\"\n 2 1 2 3 0.5 0 0 \"x\"\n",
+      "#No\n0  Unknown  0 0 0 0\n17\tLeft_Hippocampus\t220\t216\t20\t0\n",
+      "Label,Name,R,G,B\n1,\"liver, \"\"left\"\"\",255,128,0\n22,b,,,\n",
+      "name;id;colour\nx;1;#ff8000\n"};
+  for (const std::string& table : tables) {
+    for (std::size_t size = 0; size < table.size(); ++size) {
+      expect_read_or_refused(table.substr(0, size));
+      for (int bit = 0; bit < 8; ++bit) {
+        std::string flipped = table;
+        flipped[size] = static_cast<char>(flipped[size] ^ (1 << bit));
+        expect_read_or_refused(flipped);
+      }
+    }
+  }
+}
+
+TEST(ReadNames, NoiseIsReadOrRefused) {
+  std::mt19937 random(42);
+  constexpr std::string_view kCharacters = "0123456789 \t\n\",;#.-+eax\r\xC3\xA9";
+  for (int i = 0; i < 20000; ++i) {
+    std::string text;
+    for (std::size_t n = below(random, 60); n > 0; --n) {
+      text.push_back(kCharacters[below(random, kCharacters.size())]);
+    }
+    expect_read_or_refused(text);
+  }
+}
+
+}  // namespace
+}  // namespace mw::io
