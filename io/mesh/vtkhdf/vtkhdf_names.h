@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/mesh/field_names.h"
-#include "io/mesh/vtkhdf/hdf5_handle.h"
+#include "io/hdf5/hdf5_handle.h"
 
 namespace mw::io {
 
