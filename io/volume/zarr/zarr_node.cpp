@@ -45,8 +45,11 @@ ZarrNode read_v2(const std::filesystem::path& folder) {
   node.is_array = has_file(folder, ".zarray");
   node.metadata_file = (folder / ".zarray").string();
   node.attributes_file = (folder / ".zattrs").string();
-  if (node.is_array) node.metadata = read_json(node.metadata_file);
   node.attributes = nlohmann::json::object();
+  if (node.is_array) {
+    node.metadata = read_json(node.metadata_file);
+    return node;
+  }
   if (!has_file(folder, ".zattrs")) return node;
   node.attributes = read_json(node.attributes_file);
   static_cast<void>(JsonFields(node.attributes, node.attributes_file));  // checks that it is one

@@ -17,8 +17,10 @@ struct ZarrNode {
   std::filesystem::path folder;
   int version = 2;
   bool is_array = false;
-  nlohmann::json metadata;    ///< of an array: .zarray or zarr.json
-  nlohmann::json attributes;  ///< always an object
+  nlohmann::json metadata;  ///< of an array: .zarray or zarr.json
+  /// Of a group, always an object.  Those of arrays of version 2 are not read: nothing here is in
+  /// them, and NaN, which some writers put there, is no JSON.
+  nlohmann::json attributes;
   std::string metadata_file;  ///< what errors about the two name
   std::string attributes_file;
 };

@@ -225,7 +225,7 @@ TEST(ZarrV2, OtherTypesAndFilesBeside) {
   write_file(dir.path() / ".zarray", json.dump());
   write_file(dir.path() / "0.0.0", std::string("\1\0", 2));
   write_file(dir.path() / ".zmetadata", "{ not read");
-  write_file(dir.path() / ".zattrs", "{}");
+  write_file(dir.path() / ".zattrs", R"({"_FillValue": NaN})");
   EXPECT_EQ(read_all(*open_volume(dir.path())), sample.labels);
   json["dtype"] = ">f4";
   json["fill_value"] = "NaN";
