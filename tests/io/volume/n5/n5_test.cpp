@@ -302,6 +302,19 @@ TEST(N5Errors, Blocks) {
   expect("00000003" + size + voxels + "00", {"9 bytes", "are 8"});
 }
 
+/// Files with a hole of 64 GiB: whoever believes their size runs out of memory.
+TEST(N5Errors, FilesThatAreFarTooLarge) {
+  Random random(35);
+  for (const char* file : {"attributes.json", "0/0/0"}) {
+    const TempDir dir;
+    const N5Sample sample;
+    sample.write(random, dir.path(), random_labels(random, sample.shape, sample.type));
+    std::filesystem::resize_file(dir.path() / file, std::uint64_t{1} << 36);
+    expect_error(ErrorKind::kInput, {file, "68719476736 bytes"},
+                 [&] { static_cast<void>(read_all(*open_volume(dir.path()))); });
+  }
+}
+
 TEST(N5Damage, AttributesAreReadOrRefused) {
   Random random(33);
   const TempDir dir;

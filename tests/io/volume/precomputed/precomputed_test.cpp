@@ -276,6 +276,35 @@ TEST(PrecomputedErrors, Shards) {
                [&] { static_cast<void>(read_all(*open_volume(dir.path()))); });
 }
 
+/// Files with a hole of 64 GiB: whoever believes their size runs out of memory.
+TEST(PrecomputedErrors, FilesThatAreFarTooLarge) {
+  constexpr std::uint64_t kHuge = std::uint64_t{1} << 36;
+  Random random(21);
+  const auto expect = [&](const PrecomputedSample& sample, const std::string& file,
+                          const std::string& start, const std::string& piece) {
+    const TempDir dir;
+    sample.write(random, dir.path(), random_labels(random, sample.shape, sample.type));
+    const std::filesystem::path path = dir.path() / file;
+    write_file(path, start.empty() ? content_of(path) : start);
+    std::filesystem::resize_file(path, kHuge);
+    expect_error(ErrorKind::kInput, {path.string(), piece},
+                 [&] { static_cast<void>(read_all(*open_volume(dir.path()))); });
+  };
+  PrecomputedSample sample;
+  expect(sample, "info", "", "68719476736 bytes");
+  expect(sample, "8_8_40/0-4_0-4_0-4", "", "68719476736 bytes");
+  sample.sharding = ShardingSample{};
+  const auto number = [](std::uint64_t n) { return number_bytes(n, 8, false); };
+  expect(sample, "8_8_40/0.shard", number(0) + number(kHuge - 16), "an index of 68719476720 bytes");
+  sample.sharding->packed_index = true;
+  expect(sample, "8_8_40/0.shard", number(0) + number(kHuge - 16), "an index of 68719476720 bytes");
+  // One chunk, number 0, of all bytes.
+  sample.sharding->packed_index = false;
+  expect(sample, "8_8_40/0.shard",
+         number(0) + number(24) + number(0) + number(0) + number(kHuge - 16),
+         "the chunk has 68719476720 bytes");
+}
+
 TEST(PrecomputedDamage, InfoIsReadOrRefused) {
   Random random(18);
   const TempDir dir;

@@ -93,5 +93,37 @@ TEST(PrecomputedSharding, NoMinishardHoldsMoreThanItsBound) {
   }
 }
 
+TEST(PrecomputedSharding, EntriesOfMinishardsLieInTheFile) {
+  const auto parse = [](const std::vector<std::uint64_t>& numbers) {
+    std::string bytes;
+    for (const std::uint64_t n : numbers) bytes += number_bytes(n, 8, false);
+    return parse_minishard_index(std::as_bytes(std::span(bytes)), 100, "m");
+  };
+  const auto two = parse({5, 3, 10, 20, 30, 40});  // rows of numbers, gaps and sizes
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_EQ(two[0].chunk, 5U);
+  EXPECT_EQ(two[0].offset, 10U);
+  EXPECT_EQ(two[0].size, 30U);
+  EXPECT_EQ(two[1].chunk, 8U);
+  EXPECT_EQ(two[1].offset, 60U);
+  EXPECT_EQ(two[1].size, 40U);
+  EXPECT_TRUE(parse({}).empty());
+  const std::uint64_t back = ~std::uint64_t{0};  // sums of it wrap
+  for (const std::vector<std::uint64_t>& numbers :
+       {std::vector<std::uint64_t>{5, 3, 10, 20, 30, 41},
+        {5, 3, 10, 21, 30, 40},
+        {5, 10, back},
+        {5, back, 10},
+        {5, 101, 0},
+        {5, 3, 10, back, 30, 1},
+        {5, 3, 10, back - 5, 30, 10}}) {
+    expect_error(ErrorKind::kInput, {"m: minishard index", "beyond the end"},
+                 [&] { static_cast<void>(parse(numbers)); });
+  }
+  expect_error(ErrorKind::kInput, {"minishard index", "multiple of 24"}, [&] {
+    static_cast<void>(parse({1, 2}));
+  });
+}
+
 }  // namespace
 }  // namespace mw::io
