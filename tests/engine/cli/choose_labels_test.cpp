@@ -94,7 +94,7 @@ TEST_F(ChooseLabelsTest, VerifyTakesMeshesOfSomeLabels) {
   expect_done("verify v.npy some.vtkhdf --labels 2,3,7" + judged);
   expect_done("verify v.npy rest.vtkhdf --background 4" + judged);
   for (const std::string wrong : {"some.vtkhdf", "rest.vtkhdf", "some.vtkhdf --labels 2,3",
-                                  "some.vtkhdf --labels 2,3,7,8", "rest.vtkhdf --background 5"}) {
+                                  "some.vtkhdf --labels 1,2,3,7", "rest.vtkhdf --background 5"}) {
     EXPECT_EQ(run("verify v.npy " + wrong + judged).code, 5) << wrong;
   }
   expect_failure(2, "verify v.npy some.vtkhdf --labels 99", "no label 99");
