@@ -269,6 +269,12 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = [&](const std::string& text) { request.log_level = text; }});
 }
 
+/// What a chunked volume may keep of its file while labels are read: nothing else needs much then.
+std::uint64_t cache_bytes(std::uint64_t memory) {
+  constexpr std::uint64_t kMost = 1ULL << 30U;
+  return std::min(memory / 4, kMost);
+}
+
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;
   return std::filesystem::equivalent(a, b, ignored) || a.lexically_normal() == b.lexically_normal();
@@ -312,6 +318,7 @@ void check_mesh_request(MeshRequest& request) {
   require_path(request.output, "-o OUTPUT");
   if (request.workdir.empty()) request.workdir = request.output.string() + ".work";
   if (!request.memory) request.memory = default_memory_budget();
+  request.volume.cache_bytes = cache_bytes(*request.memory);
   (void)open_options(request.volume);
   check_choice(request.choice);
   require_names_used_once(request);

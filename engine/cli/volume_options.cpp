@@ -154,7 +154,8 @@ io::RawLayout raw_layout(const VolumeRequest& request) {
 void add_input_option(OptionSet& options, std::filesystem::path& path) {
   options.add({.name = "input",
                .value = "INPUT",
-               .help = "labelled volume: .npy .nii .nrrd .nhdr, each also as .gz, or raw",
+               .help = "labelled volume: .npy .npz .nii .nrrd .nhdr .mha .mhd .h5 .tif .vti .inr, raw with "
+                       "--shape, or a folder: Zarr, OME-NGFF, N5, precomputed, TIFF or PNG slices",
                .flags = "INPUT,--input",
                .assign = [&](const std::string& text) { path = text; }});
 }
@@ -178,7 +179,8 @@ io::OpenOptions open_options(const VolumeRequest& request) {
                           .frame = request.frame,
                           .dataset = request.dataset,
                           .scale = request.scale,
-                          .crop = request.crop};
+                          .crop = request.crop,
+                          .cache_bytes = request.cache_bytes};
   if (request.shape) {
     options.raw = raw_layout(request);
   } else if (request.type || request.order) {

@@ -24,6 +24,8 @@ struct VolumeRequest {
   std::optional<int> scale;
   std::optional<Box3> crop;
   io::InputSteps steps;  ///< what is done with the labels that were opened
+  /// Of unpacked chunks that a chunked volume may keep.
+  std::uint64_t cache_bytes = io::OpenOptions{}.cache_bytes;
   std::filesystem::path names;  ///< of labels; empty: only those in the volume's file
 };
 

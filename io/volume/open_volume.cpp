@@ -155,8 +155,9 @@ std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
   const FileFormat* format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
   if (format != nullptr) return format->open(std::move(source), path, options);
   fail_input(path.string(), "format", "unknown by content and by extension",
-             "supported are .npy, .nii, .nrrd, .nhdr and .h5, each also as .gz, and raw files with "
-             "--shape and --dtype");
+             "supported are .npy, .npz, .nii, .nrrd, .nhdr, .mha, .mhd, .h5, .tif, .png, .vti and "
+             ".inr, most of them also as .gz, raw files with --shape and --dtype, and folders: "
+             "Zarr, N5, neuroglancer precomputed, slices");
 }
 
 }  // namespace

@@ -9,8 +9,9 @@
 
 namespace mw::io {
 
-/// Tells the format by content, then by extension: .npy .nii .nrrd .nhdr .h5, each also gzipped,
-/// and raw when options.raw is given.  The numbers of the options are checked like the file's.
+/// Tells the format of a file by content, then by extension, whether it is gzipped or not, and that
+/// of a folder by what is in it; raw when options.raw is given.  The numbers of the options are
+/// checked like the file's.
 /// ERRORS: mw::Error(kInput) naming file, field, reason and way out; kResource when a gzipped
 /// file does not fit into $TMPDIR; kUsage when the options make no sense.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
