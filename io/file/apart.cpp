@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <stdexcept>
 
 #include "io/file/errors.h"
 #include "io/file/file_descriptor.h"
@@ -21,8 +22,11 @@
 namespace mw::io {
 namespace {
 
-/// How the child ends.  The answer of kThrew is the kind of the error, one byte, and its message.
+/// How the child ends.  Before kThrew comes the kind of the error, one byte, and its message.
 enum ChildExit : int { kAnswered = 0, kThrew = 10, kNoMemory = 11, kOther = 12 };
+
+/// What a pipe holds while nobody reads: a message of this size never waits for that.
+constexpr std::size_t kMostMessage = 1 << 15;
 
 struct Pipe {
   FileDescriptor out;
@@ -79,22 +83,32 @@ void limit_child(const ApartLimits& limits) {
   allow_cpu_seconds(limits.cpu_seconds);
 }
 
-bool write_all(int fd, const std::string& bytes) {
-  for (std::size_t at = 0; at < bytes.size();) {
-    const ssize_t done = ::write(fd, bytes.data() + at, bytes.size() - at);
+void write_all(int fd, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::write(fd, bytes.data(), bytes.size());
     if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    at += static_cast<std::size_t>(done);
+    if (done <= 0) throw std::runtime_error("nobody reads the pipe");
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
   }
-  return true;
 }
 
-ChildExit answer(int fd, const std::function<std::string()>& work) {
+ChildExit throw_over(int fd, const Error& error) {
+  const std::string message =
+      static_cast<char>(error.kind()) + std::string(error.what()).substr(0, kMostMessage - 1);
+  write_all(fd, std::as_bytes(std::span(message)));
+  return kThrew;
+}
+
+/// In the child.
+ChildExit do_work(const Pipe& data, const Pipe& errors,
+                  const std::function<void(const SendBytes&)>& work) {
   try {
-    return write_all(fd, work()) ? kAnswered : kOther;
-  } catch (const Error& error) {
-    const std::string kind(1, static_cast<char>(error.kind()));
-    return write_all(fd, kind + error.what()) ? kThrew : kOther;
+    try {
+      work([&](std::span<const std::byte> bytes) { write_all(data.in.get(), bytes); });
+      return kAnswered;
+    } catch (const Error& error) {
+      return throw_over(errors.in.get(), error);
+    }
   } catch (const std::bad_alloc&) {
     return kNoMemory;
   } catch (...) {
@@ -102,26 +116,30 @@ ChildExit answer(int fd, const std::function<std::string()>& work) {
   }
 }
 
-/// What the child writes until it ends, or nothing when that is too much.
-std::optional<std::string> read_answer(int fd, std::size_t most) {
-  std::string all;
-  std::array<char, 1 << 16> piece{};
-  while (true) {
-    const ssize_t done = ::read(fd, piece.data(), piece.size());
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return done == 0 ? std::optional(std::move(all)) : std::nullopt;
-    if (all.size() + static_cast<std::size_t>(done) > most) return std::nullopt;
-    all.append(piece.data(), static_cast<std::size_t>(done));
+/// The child, as the parent sees it: it does not outlive this.
+class Child {
+ public:
+  explicit Child(pid_t id) : id_(id) {}
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    if (id_ < 0) return;
+    ::kill(id_, SIGKILL);
+    wait();
   }
-}
 
-int wait_for(pid_t child) {
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) fail_child("wait for");
+  /// How it ended, as waitpid tells it.
+  int wait() {
+    int status = 0;
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    id_ = -1;
+    return status;
   }
-  return status;
-}
+
+ private:
+  pid_t id_;
+};
 
 std::string death_of(int status) {
   if (WIFSIGNALED(status)) {
@@ -132,34 +150,93 @@ std::string death_of(int status) {
   return "it crashed";
 }
 
-[[noreturn]] void throw_again(const std::string& answer) {
-  const auto kind = static_cast<unsigned char>(answer[0]);
+[[noreturn]] void throw_again(const std::string& message) {
+  const auto kind = static_cast<unsigned char>(message[0]);
   const bool known = kind <= static_cast<unsigned char>(ErrorKind::kCheckFailed);
-  throw Error(known ? static_cast<ErrorKind>(kind) : ErrorKind::kInternal, answer.substr(1));
+  throw Error(known ? static_cast<ErrorKind>(kind) : ErrorKind::kInternal, message.substr(1));
+}
+
+std::string read_message(const Pipe& errors) {
+  std::string message(kMostMessage, '\0');
+  ApartStream stream(errors.out.get());
+  std::size_t length = 0;
+  while (length < message.size()) {
+    const std::size_t more =
+        stream.read_some(std::as_writable_bytes(std::span(message).subspan(length)));
+    if (more == 0) break;
+    length += more;
+  }
+  message.resize(length);
+  return message;
 }
 
 }  // namespace
 
-ApartAnswer run_apart(const ApartLimits& limits, const std::function<std::string()>& work) {
-  Pipe pipe = make_pipe();
-  const pid_t child = ::fork();
-  if (child < 0) fail_child("start");
-  if (child == 0) {
+std::size_t ApartStream::read_some(std::span<std::byte> out) {
+  while (true) {
+    const ssize_t done = ::read(fd_, out.data(), out.size());
+    if (done < 0 && errno == EINTR) continue;
+    return done < 0 ? 0 : static_cast<std::size_t>(done);
+  }
+}
+
+bool ApartStream::read(std::span<std::byte> out) {
+  while (!out.empty()) {
+    const std::size_t done = read_some(out);
+    if (done == 0) return false;
+    out = out.subspan(done);
+  }
+  return true;
+}
+
+std::string stream_apart(const ApartLimits& limits,
+                         const std::function<void(const SendBytes&)>& work,
+                         const std::function<void(ApartStream&)>& consume) {
+  Pipe data = make_pipe(), errors = make_pipe();
+  const pid_t id = ::fork();
+  if (id < 0) fail_child("start");
+  if (id == 0) {
+    // A pipe is broken only when nobody could read it.
+    data.out = FileDescriptor();
+    errors.out = FileDescriptor();
     forget_signals();
     be_quiet();
     limit_child(limits);
     // No destructors and exit handlers: what they would finish belongs to the parent.
-    ::_exit(answer(pipe.in.get(), work));
+    ::_exit(do_work(data, errors, work));
   }
-  pipe.in = FileDescriptor();
-  std::optional<std::string> bytes = read_answer(pipe.out.get(), limits.answer_bytes);
-  if (!bytes) ::kill(child, SIGKILL);
-  const int status = wait_for(child);
-  if (!bytes) return {{}, "its answer has no end"};
-  if (!WIFEXITED(status)) return {{}, death_of(status)};
-  if (WEXITSTATUS(status) == kThrew && !bytes->empty()) throw_again(*bytes);
-  if (WEXITSTATUS(status) != kAnswered) return {{}, death_of(status)};
-  return {std::move(bytes), {}};
+  Child child(id);
+  data.in = FileDescriptor();
+  errors.in = FileDescriptor();
+  ApartStream stream(data.out.get());
+  consume(stream);
+  data.out = FileDescriptor();  // a child that has more to say ends by that
+  const std::string message = read_message(errors);
+  const int status = child.wait();
+  if (!WIFEXITED(status)) return death_of(status);
+  if (WEXITSTATUS(status) == kThrew && !message.empty()) throw_again(message);
+  return WEXITSTATUS(status) == kAnswered ? std::string() : death_of(status);
+}
+
+ApartAnswer run_apart(const ApartLimits& limits, const std::function<std::string()>& work) {
+  std::string all;
+  bool too_long = false;
+  const auto consume = [&](ApartStream& stream) {
+    std::array<std::byte, 1 << 16> piece{};
+    while (const std::size_t done = stream.read_some(piece)) {
+      too_long = all.size() + done > limits.answer_bytes;
+      if (too_long) return;
+      all.append(reinterpret_cast<const char*>(piece.data()), done);
+    }
+  };
+  const auto send_all = [&](const SendBytes& send) {
+    const std::string answer = work();
+    send(std::as_bytes(std::span(answer)));
+  };
+  const std::string death = stream_apart(limits, send_all, consume);
+  if (too_long) return {{}, "its answer has no end"};
+  if (!death.empty()) return {{}, death};
+  return {std::move(all), {}};
 }
 
 void allow_cpu_seconds(std::uint64_t seconds) {

@@ -3,9 +3,11 @@
 // Work in a process of its own, for libraries that damaged input can crash.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace mw::io {
@@ -28,6 +30,29 @@ struct ApartAnswer {
 /// ERRORS: the mw::Error that work throws; kResource when there can be no child.
 [[nodiscard]] ApartAnswer run_apart(const ApartLimits& limits,
                                     const std::function<std::string()>& work);
+
+/// What a child sends, in its order.
+class ApartStream {
+ public:
+  explicit ApartStream(int fd) : fd_(fd) {}
+  /// How many bytes came, up to the size of out; 0 when there will be no more.
+  [[nodiscard]] std::size_t read_some(std::span<std::byte> out);
+  /// Whether so many came.
+  [[nodiscard]] bool read(std::span<std::byte> out);
+
+ private:
+  int fd_;
+};
+
+using SendBytes = std::function<void(std::span<const std::byte>)>;
+
+/// The same for work that sends as it goes along; limits.answer_bytes does not matter.
+/// consume: takes in this process what comes, while it comes; what it throws ends the child.  It is
+/// to take no end for a good one: errors and deaths are known only afterwards.
+/// ENSURES: returns how the work died, nothing when it came to its end.
+[[nodiscard]] std::string stream_apart(const ApartLimits& limits,
+                                       const std::function<void(const SendBytes&)>& work,
+                                       const std::function<void(ApartStream&)>& consume);
 
 /// Inside of work: lets it take so many seconds of a processor from its start on.
 void allow_cpu_seconds(std::uint64_t seconds);

@@ -10,6 +10,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/file_source.h"
+#include "io/mesh/apart_mesh.h"
 #include "io/mesh/label_names.h"
 #include "io/mesh/vtkhdf/hdf5_array.h"
 #include "io/mesh/vtkhdf/vtkhdf_names.h"
@@ -18,7 +19,9 @@ namespace mw::io {
 namespace {
 
 constexpr std::uint64_t kVtkTetra = 10;
-constexpr std::uint64_t kBatchRows = 1 << 16;
+constexpr std::uint64_t kBatchRows = kMostApartRows;
+/// Of a file that a slow processor unpacks and checks.
+constexpr std::uint64_t kBytesPerSecond = 1 << 20;
 
 Hdf5Handle open_grid(const std::string& file) {
   silence_hdf5();
@@ -217,20 +220,30 @@ class Reader {
   std::uint64_t next_cell_ = 0;
 };
 
+/// In a child: damage makes the library crash.
+void read_here(const std::string& path, MeshSink& sink) {
+  const Hdf5Handle file = open_grid(path);
+  const Hdf5Handle group(H5Gopen2(file.get(), "VTKHDF", H5P_DEFAULT), &H5Gclose);
+  if (!group.valid()) fail_input(path, "group VTKHDF", "missing", "give a VTKHDF file");
+  const std::string type = type_of(group.get());
+  if (type != "UnstructuredGrid") {
+    fail_input(path, "attribute Type", text("'", type, "' is not UnstructuredGrid"),
+               "give a VTKHDF file of tetrahedra");
+  }
+  Reader(group, read_vtkhdf_names(file.get(), group.get(), path), path, sink).read();
+}
+
 }  // namespace
 
 void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink) {
   const FileSource exists(path);
-  const Hdf5Handle file = open_grid(exists.name());
-  const Hdf5Handle group(H5Gopen2(file.get(), "VTKHDF", H5P_DEFAULT), &H5Gclose);
-  if (!group.valid()) fail_input(exists.name(), "group VTKHDF", "missing", "give a VTKHDF file");
-  const std::string type = type_of(group.get());
-  if (type != "UnstructuredGrid") {
-    fail_input(exists.name(), "attribute Type", text("'", type, "' is not UnstructuredGrid"),
-               "give a VTKHDF file of tetrahedra");
-  }
-  Reader(group, read_vtkhdf_names(file.get(), group.get(), exists.name()), exists.name(), sink)
-      .read();
+  ApartLimits limits;
+  limits.cpu_seconds += exists.size() / kBytesPerSecond;
+  const std::string death = pass_mesh_apart(
+      limits, [&](MeshSink& out) { read_here(exists.name(), out); }, sink);
+  if (death.empty()) return sink.finish();
+  fail_input(exists.name(), "HDF5 structure", text("the HDF5 library could not read it: ", death),
+             "the file is damaged: write the mesh anew, or check it with h5dump");
 }
 
 }  // namespace mw::io

@@ -12,6 +12,7 @@ namespace mw::io {
 /// VTKHDF of type UnstructuredGrid, version 1 or 2 (one time step); partitions are put one after
 /// the other.  The label is the cell array `label`, else `Label`, `labels`, `material` or
 /// `medit:ref`, else the only integer cell array.
+/// The HDF5 library reads in a child process: damaged files crash it.
 /// Memory: batches of 65,536 rows, whatever the size of the mesh.
 /// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
 /// tetrahedra, without label, or when a row does not exist; what the sink throws.

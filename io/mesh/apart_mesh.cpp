@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sends a mesh through a pipe, batch by batch.
+#include "io/mesh/apart_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace mw::io {
+namespace {
+
+constexpr std::uint64_t kMostNameBytes = 1 << 16;  ///< of one
+constexpr std::uint64_t kMostNames = 1 << 24;
+
+enum class Message : std::uint64_t { kBegin, kVertices, kTets, kFinish };
+
+/// Goes ahead of each batch.
+struct Head {
+  Message message = Message::kFinish;
+  std::uint64_t count = 0;  ///< rows; of kBegin the tets of the mesh
+  std::uint64_t labels_signed = 0;
+  std::uint64_t names = 0;  ///< with kBegin: how many follow
+};
+
+/// Goes ahead of the letters of a name.
+struct NameHead {
+  RawLabel label = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t has_colour = 0;
+  std::array<std::uint8_t, 8> colour{};  ///< four, and padding
+};
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
+
+/// In the child.
+class SendingSink : public MeshSink {
+ public:
+  explicit SendingSink(const SendBytes& send) : send_(send) {}
+
+  void begin(const MeshHeader& header) override {
+    const std::span<const LabelName> names = header.names.rows();
+    send_(
+        bytes_of(Head{Message::kBegin, header.tets, header.labels_signed ? 1U : 0U, names.size()}));
+    for (const LabelName& row : names) {
+      NameHead head{.label = row.label, .bytes = row.name.size(), .has_colour = 0};
+      if (row.colour) {
+        head.has_colour = 1;
+        std::copy(row.colour->begin(), row.colour->end(), head.colour.begin());
+      }
+      send_(bytes_of(head));
+      send_(std::as_bytes(std::span(row.name)));
+    }
+  }
+  void write_vertices(std::span<const Position> positions) override {
+    send_(bytes_of(Head{Message::kVertices, positions.size()}));
+    send_(std::as_bytes(positions));
+  }
+  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
+    send_(bytes_of(Head{Message::kTets, tets.size()}));
+    send_(std::as_bytes(tets));
+    send_(std::as_bytes(labels));
+  }
+  void finish() override { send_(bytes_of(Head{})); }
+
+ private:
+  const SendBytes& send_;
+};
+
+/// In the parent.  The child may be out of its mind: no row that it sends is taken on trust.
+class Receiver {
+ public:
+  Receiver(ApartStream& stream, MeshSink& sink) : stream_(stream), sink_(sink) {}
+
+  /// Whether it came to the end of the mesh.
+  [[nodiscard]] bool receive() {
+    Head head;
+    if (!next(head) || head.message != Message::kBegin) return false;
+    std::vector<LabelName> rows;
+    if (head.names > kMostNames) return false;
+    for (std::uint64_t i = 0; i < head.names; ++i) {
+      if (!name(rows.emplace_back())) return false;
+    }
+    sink_.begin({.tets = head.count,
+                 .labels_signed = head.labels_signed != 0,
+                 .names = LabelNames(std::move(rows))});
+    while (next(head)) {
+      if (head.message == Message::kFinish) return true;
+      if (head.count > kMostApartRows) return false;
+      const bool sound = head.message == Message::kVertices ? vertices(head.count)
+                         : head.message == Message::kTets   ? tets(head.count)
+                                                            : false;
+      if (!sound) return false;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool next(Head& head) {
+    return stream_.read(std::as_writable_bytes(std::span(&head, 1)));
+  }
+
+  [[nodiscard]] bool name(LabelName& row) {
+    NameHead head;
+    if (!stream_.read(std::as_writable_bytes(std::span(&head, 1)))) return false;
+    if (head.bytes > kMostNameBytes) return false;
+    row.label = head.label;
+    row.name.resize(head.bytes);
+    if (head.has_colour != 0) {
+      row.colour.emplace();
+      std::copy_n(head.colour.begin(), row.colour->size(), row.colour->begin());
+    }
+    return stream_.read(std::as_writable_bytes(std::span(row.name)));
+  }
+
+  [[nodiscard]] bool vertices(std::size_t count) {
+    positions_.resize(count);
+    if (!stream_.read(std::as_writable_bytes(std::span(positions_)))) return false;
+    vertices_ += count;
+    sink_.write_vertices(positions_);
+    return true;
+  }
+
+  [[nodiscard]] bool tets(std::size_t count) {
+    tets_.resize(count);
+    labels_.resize(count);
+    if (!stream_.read(std::as_writable_bytes(std::span(tets_))) ||
+        !stream_.read(std::as_writable_bytes(std::span(labels_)))) {
+      return false;
+    }
+    for (const TetRows& tet : tets_) {
+      if (*std::max_element(tet.begin(), tet.end()) >= vertices_) return false;
+    }
+    sink_.write_tets(tets_, labels_);
+    return true;
+  }
+
+  ApartStream& stream_;
+  MeshSink& sink_;
+  std::uint64_t vertices_ = 0;
+  std::vector<Position> positions_;
+  std::vector<TetRows> tets_;
+  std::vector<RawLabel> labels_;
+};
+
+}  // namespace
+
+std::string pass_mesh_apart(const ApartLimits& limits, const std::function<void(MeshSink&)>& read,
+                            MeshSink& sink) {
+  bool finished = false;
+  const auto work = [&](const SendBytes& send) {
+    SendingSink out(send);
+    read(out);
+  };
+  const auto consume = [&](ApartStream& stream) { finished = Receiver(stream, sink).receive(); };
+  const std::string death = stream_apart(limits, work, consume);
+  if (!death.empty() || finished) return death;
+  return "it did not finish the mesh";
+}
+
+}  // namespace mw::io

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A mesh from a process of its own.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "io/file/apart.h"
+#include "io/mesh/mesh_sink.h"
+
+namespace mw::io {
+
+/// Rows that a reader apart may write at once.
+inline constexpr std::uint64_t kMostApartRows = 1 << 16;
+
+/// Runs read in a child and passes on to sink what it writes, but for finish(): that is for the
+/// caller to do once it is known that all went well.
+/// ENSURES: returns how the child died, nothing when it finished the mesh; tets name vertices that
+/// were written before, whatever the child sends.  Memory: a batch of rows.
+/// ERRORS: those of read and of sink; kResource when there can be no child.
+[[nodiscard]] std::string pass_mesh_apart(const ApartLimits& limits,
+                                          const std::function<void(MeshSink&)>& read,
+                                          MeshSink& sink);
+
+}  // namespace mw::io
