@@ -194,14 +194,14 @@ std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encod
 std::uint64_t announced_bytes(ByteStream& stream, const VtkEncoding& encoding,
                               const ArrayName& name) {
   const std::uint64_t first = read_word(stream, encoding);
-  if (!encoding.compressed) {
+  if (encoding.packing == VtkPacking::kNone) {
     if (first > stream.left()) fail(name, "truncated");
     return first;
   }
   const std::uint64_t block_bytes = read_word(stream, encoding);
   const std::uint64_t last_bytes = read_word(stream, encoding);
   if (first == 0) return 0;
-  const std::uint64_t most = stream.left() * kMaxZlibRatio;
+  const std::uint64_t most = stream.left() * kMaxRatio;
   if (block_bytes > most || last_bytes > block_bytes ||
       (block_bytes != 0 && first > most / block_bytes)) {
     fail(name, "block counts are not credible");
