@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/file/text_numbers.h"
 #include "io/names/name_fields.h"
 
 namespace mw::io {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/file/text_numbers.h"
 #include "io/names/colour_table.h"
 #include "io/names/name_fields.h"
 

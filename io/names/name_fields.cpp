@@ -3,16 +3,14 @@
 // Numbers in the text of a table of names.
 #include "io/names/name_fields.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::io {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 template <class T>
 std::optional<T> parsed(std::string_view text) {
@@ -27,22 +25,6 @@ std::string_view without_plus(std::string_view text) {
 }
 
 }  // namespace
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-std::vector<std::string_view> words_of(std::string_view text) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = text.find_first_not_of(kBlanks, end);
-  }
-  return words;
-}
 
 std::optional<RawLabel> label_of(std::string_view text) {
   text = without_plus(trimmed(text));

@@ -6,16 +6,10 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "kernels/core/label.h"
 
 namespace mw::io {
-
-/// Without blanks, tabs and line ends around it.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
-/// What is between blanks and tabs.
-[[nodiscard]] std::vector<std::string_view> words_of(std::string_view text);
 
 /// A whole number from -2^63 to 2^64-1, two's complement; also with ".0" behind it, as tables of
 /// floats have it.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/names/name_fields.h"
 
 namespace mw::io {

@@ -4,6 +4,7 @@
 #include "io/mesh/medit/medit_names.h"
 
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/names/name_fields.h"
 
 namespace mw::io {
