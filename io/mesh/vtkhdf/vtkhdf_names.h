@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "io/mesh/field_names.h"
 #include "io/hdf5/hdf5_handle.h"
+#include "io/mesh/field_names.h"
 
 namespace mw::io {
 
