@@ -3,7 +3,6 @@
 // Checks what a file says of its place, and makes it a VolumeSpace.
 #include "io/volume/file_space.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -58,24 +57,25 @@ void check_steps(std::string_view file, const FileSpace& space) {
   }
 }
 
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 /// The nearest axes at right angles: half-way to the inverse of the transpose, again and again, by
 /// Higham (SIAM J. Sci. Stat. Comput. 7, 1986); signed permutations stay as they are to the bit.
-std::array<Vector3, 3> straightened(const std::array<Vector3, 3>& axes) {
-  Eigen::Matrix3d m;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      m(i, k) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
-    }
-  }
+std::array<Vector3, 3> straightened(std::array<Vector3, 3> axes) {
   constexpr int kSteps = 6;  // each squares the error
-  for (int step = 0; step < kSteps; ++step) m = 0.5 * (m + m.inverse().transpose()).eval();
-  std::array<Vector3, 3> out{};
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      out[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] = m(i, k);
+  for (int step = 0; step < kSteps; ++step) {
+    const std::array<Vector3, 3> old = axes;
+    const double determinant = dot(old[0], cross(old[1], old[2]));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3 inverse = cross(old[(i + 1) % 3], old[(i + 2) % 3]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        axes[i][k] = (old[i][k] + inverse[k] / determinant) / 2;
+      }
     }
   }
-  return out;
+  return axes;
 }
 
 std::array<Vector3, 3> axes_of(std::string_view file, const FileSpace& space) {
