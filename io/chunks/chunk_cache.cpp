@@ -44,7 +44,8 @@ std::shared_ptr<ChunkCache::Slot> ChunkCache::touch(std::uint64_t number) {
     return found->second.slot;
   }
   ages_.push_front(number);
-  return entries_.emplace(number, Entry{std::make_shared<Slot>(), ages_.begin()}).first->second.slot;
+  return entries_.emplace(number, Entry{std::make_shared<Slot>(), ages_.begin()})
+      .first->second.slot;
 }
 
 /// Counts what was loaded, and makes room for it.  The entry may be gone, or be another one by now.

@@ -26,8 +26,7 @@ class ChunkCache {
   /// The chunk of that number, from load() unless it is still here.
   /// Memory: what is kept stays within the bound; one chunk a thread may be in use beyond that.
   /// ERRORS: what load throws; the next one who asks loads again.
-  [[nodiscard]] Loaded get(std::uint64_t number,
-                           const std::function<std::optional<Chunk>()>& load);
+  [[nodiscard]] Loaded get(std::uint64_t number, const std::function<std::optional<Chunk>()>& load);
   /// Forgets everything.
   void clear();
 

@@ -27,9 +27,9 @@ Box3 chunks_of(const Box3& box, Index3 chunk) {
 bool holds(const Chunk& chunk, Index3 shape, VoxelType type) {
   const std::size_t voxels = chunk.bytes.size() / static_cast<std::size_t>(byte_size(type));
   if (chunk.strides.x < 0 || chunk.strides.y < 0 || chunk.strides.z < 0) return false;
-  const auto last = static_cast<std::size_t>((shape.x - 1) * chunk.strides.x +
-                                             (shape.y - 1) * chunk.strides.y +
-                                             (shape.z - 1) * chunk.strides.z);
+  const auto last =
+      static_cast<std::size_t>((shape.x - 1) * chunk.strides.x + (shape.y - 1) * chunk.strides.y +
+                               (shape.z - 1) * chunk.strides.z);
   return chunk.first + last < voxels;
 }
 
@@ -91,9 +91,8 @@ void ChunkedVolume::copy(const Chunk& chunk, const Box3& held, const Box3& part,
           inside.x * chunk.strides.x + inside.y * chunk.strides.y + inside.z * chunk.strides.z);
       const std::byte* bytes = chunk.bytes.data() + (chunk.first + at) * size;
       const auto step = static_cast<std::size_t>(chunk.strides.x);
-      const std::size_t good =
-          decode_voxels(bytes, length, step, coding_,
-                        out.data() + box.offset({part.lo.x, v.y, v.z}), 1);
+      const std::size_t good = decode_voxels(bytes, length, step, coding_,
+                                             out.data() + box.offset({part.lo.x, v.y, v.z}), 1);
       if (good == length) continue;
       fail_voxel(source_->name(), {part.lo.x + static_cast<std::int64_t>(good), v.y, v.z},
                  bytes + good * step * size, coding_);

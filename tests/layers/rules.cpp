@@ -76,7 +76,8 @@ bool io_may(const Include& include) {
   const std::string& name = include.name;
   if (include.quoted) return is_below(name, {"io/", "kernels/core/"});
   return is_standard(name) || is_posix(name) ||
-         is_below(name, {"zlib.h", "hdf5.h", "openssl/", "pugixml.hpp", "nlohmann/"});
+         is_below(name, {"blosc.h", "bzlib.h", "hdf5.h", "lz4.h", "lzma.h", "nlohmann/", "openssl/",
+                         "png.h", "pugixml.hpp", "tiffio.h", "zlib.h", "zstd.h", "zstd_errors.h"});
 }
 
 bool engine_may(const std::string& file, const Include& include) {

@@ -50,9 +50,11 @@ void parse_descr(std::string_view descr, NpyHeader& header, std::string_view fil
   const bool integer = (kind == 'u' || kind == 'i') && bytes != 0 && (bytes & (bytes - 1)) == 0;
   const bool boolean = kind == 'b' && bytes == 1;
   const bool floating = kind == 'f' && (bytes == 4 || bytes == 8);
-  if ((!integer && !boolean && !floating) || std::string_view("<>|=").find(descr[0]) == std::string_view::npos ||
+  if ((!integer && !boolean && !floating) ||
+      std::string_view("<>|=").find(descr[0]) == std::string_view::npos ||
       (descr[0] == '|' && bytes > 1)) {
-    fail_input(file, field, "unsupported type", "use integers of 8 to 64 bits, or whole numbers in floats of 32 or 64");
+    fail_input(file, field, "unsupported type",
+               "use integers of 8 to 64 bits, or whole numbers in floats of 32 or 64");
   }
   header.type = floating ? float_type(bytes) : integer_type(bytes, kind == 'i');
   header.order = descr[0] == '>' ? ByteOrder::kBig : ByteOrder::kLittle;

@@ -217,7 +217,8 @@ void parse_steps(const FieldMap& fields, FileSpace& space, std::string_view file
   }
 }
 
-/// The world frame, and vectors of left-anterior-superior, which is no frame of ours, turned to RAS.
+/// The world frame, and vectors of left-anterior-superior, which is no frame of ours, turned to
+/// RAS.
 void parse_frame(const FieldMap& fields, FileSpace& space) {
   const auto found = fields.find("space");
   if (found == fields.end()) return;

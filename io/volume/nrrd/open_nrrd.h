@@ -10,8 +10,8 @@
 
 namespace mw::io {
 
-/// A detached `data file` is looked for relative to the folder of path.  Bytes behind the voxels are
-/// ignored.  ERRORS: mw::Error(kInput) naming file and field.
+/// A detached `data file` is looked for relative to the folder of path.  Bytes behind the voxels
+/// are ignored.  ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
                                                      const std::filesystem::path& path,
                                                      const OpenOptions& options);
