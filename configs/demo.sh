@@ -55,16 +55,18 @@ print_table() {
 }
 
 main() {
-  local input name bound verdict=0
+  local input name bound verdict=0 names=()
   bash "$root/configs/setup.sh"
   input="${1:-$(find_atlas)}"
   name="demo/$(stem "$input")"
   mkdir -p demo
   echo "demo: meshing $input"
-  "$program" mesh "$input" -o "$name.vtu" --report "$name.run.json" >"$name.log"
+  # Names of labels, where they lie beside the volume as those of the atlas do.
+  [[ -f "${input%.gz}.txt" ]] && names=(--names "${input%.gz}.txt")
+  "$program" mesh "$input" "${names[@]}" -o "$name.vtu" --report "$name.run.json" >"$name.log"
   echo "demo: verifying $name.vtu"
   bound="$(jq -r .settings.max_distance "$name.run.json")"
-  "$program" verify "$input" "$name.vtu" --max-distance "$bound" --report "$name.verify.json" \
+  "$program" verify "$input" "$name.vtu" "${names[@]}" --max-distance "$bound" --report "$name.verify.json" \
     >>"$name.log" || verdict=$?
   [[ -s "$name.verify.json" ]] || die "verify gave no result (exit $verdict)"
   echo

@@ -44,13 +44,14 @@ std::optional<Row> parse_snap_line(std::string_view line) {
   return Row{.name = {*label, std::string(name), colour}};
 }
 
-/// ID NAME R G B A, ID NAME R G B or ID NAME
+/// ID NAME R G B A, ID NAME R G B, ID NAME CODE (as of the AAL atlas) or ID NAME
 std::optional<Row> parse_table_line(std::string_view line) {
   const std::vector<std::string_view> words = words_of(line);
   const std::size_t count = words.size();
   const auto label = count < 2 ? std::nullopt : label_of(words[0]);
   if (!label) return std::nullopt;
-  if (count == 2) return Row{.name = {*label, std::string(words[1]), {}}};
+  if (count == 2 || (count == 3 && number_of(words[2])))
+    return Row{.name = {*label, std::string(words[1]), {}}};
   if (count < 5) return std::nullopt;
   const std::size_t numbers = count == 5 ? 3 : 4;
   const auto colour = colour_of(Words(words).last(numbers));

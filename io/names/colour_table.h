@@ -12,6 +12,7 @@ namespace mw::io {
 /// Whether a line is one of these:
 ///   IDX R G B A VIS MSH "NAME"   label descriptions of ITK-SNAP; A from 0 to 1
 ///   ID NAME R G B A              colour tables of FreeSurfer and Slicer (.ctbl); A may be missing
+///   ID NAME CODE                 as of the AAL atlas; CODE is skipped
 ///   ID NAME                      the same without colours
 /// Only with all four numbers may NAME have blanks in it.
 [[nodiscard]] bool is_colour_table_line(std::string_view line);

@@ -81,6 +81,9 @@ std::vector<std::int64_t> parse_tuple(std::string_view value, std::string_view f
 Index3 parse_shape(std::string_view value, std::string_view file) {
   std::vector<std::int64_t> axes = parse_tuple(value, file);
   if (axes.size() == 2) axes.insert(axes.begin(), 1);
+  // One volume of a series, or one channel.
+  while (axes.size() > 3 && axes.front() == 1) axes.erase(axes.begin());
+  while (axes.size() > 3 && axes.back() == 1) axes.pop_back();
   if (axes.size() != 3) {
     fail_input(file, "npy header 'shape'",
                text("the array has ", axes.size(), " axes, a volume has 3 [z, y, x]"),

@@ -149,13 +149,48 @@ std::vector<T> parse_numbers(const std::string& value, std::string_view field,
   return numbers;
 }
 
+/// For each axis whether `space directions` has a vector for it rather than "none".
+std::vector<bool> has_direction(const FieldMap& fields) {
+  std::vector<bool> out;
+  const auto found = fields.find("spacedirections");
+  if (found == fields.end()) return out;
+  const std::string& value = found->second;
+  for (std::size_t at = value.find_first_of("(n"); at != std::string::npos;) {
+    const bool is_vector = value[at] == '(';
+    out.push_back(is_vector);
+    const std::size_t end = is_vector ? value.find(')', at) : at + 4;
+    at = end >= value.size() ? std::string::npos : value.find_first_of("(n", end);
+  }
+  return out;
+}
+
+/// The sizes of the axes in space: further ones must have a single element, and go.
+std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, const NrrdKeys& keys,
+                                        std::string_view file) {
+  auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
+  const std::vector<bool> directed = has_direction(fields);
+  for (std::size_t i = directed.size(); i-- > 0;) {
+    if (directed[i] || directed.size() != sizes.size()) continue;
+    if (sizes[i] != 1) {
+      fail_input(file, "NRRD field 'space directions'",
+                 text("none for an axis of ", sizes[i], " elements"),
+                 has_segments(keys) ? kSegmentsWayOut : "pick one channel");
+    }
+    sizes.erase(sizes.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  while (sizes.size() > 3 && sizes.back() == 1) sizes.pop_back();
+  while (sizes.size() > 3 && sizes.front() == 1) sizes.erase(sizes.begin());
+  return sizes;
+}
+
 Index3 parse_sizes(const FieldMap& fields, const NrrdKeys& keys, std::string_view file) {
-  const auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
+  const auto all = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
   const auto rank =
       parse_numbers<std::int64_t>(required(fields, "dimension", file), "dimension", file);
-  if (sizes.size() != 3 || rank.size() != 1 || rank[0] != 3) {
+  const std::vector<std::int64_t> sizes = spatial_sizes(fields, keys, file);
+  if (sizes.size() != 3 || rank.size() != 1 || rank[0] != static_cast<std::int64_t>(all.size())) {
     fail_input(file, "NRRD fields 'dimension' and 'sizes'",
-               text("the volume has ", sizes.size(), " axes, 3 are needed"),
+               text("the volume has ", all.size(), " axes, 3 are needed"),
                has_segments(keys) ? kSegmentsWayOut : "pick one channel");
   }
   return checked_shape(file, "NRRD field 'sizes'", {sizes[0], sizes[1], sizes[2]});
@@ -209,7 +244,12 @@ Vector3 three_numbers(const std::string& value, std::string_view field, std::str
 
 void parse_steps(const FieldMap& fields, FileSpace& space, std::string_view file) {
   if (const auto found = fields.find("spacedirections"); found != fields.end()) {
-    const auto v = parse_numbers<double>(found->second, "space directions", file);
+    std::string vectors = found->second;
+    for (std::size_t at = vectors.find("none"); at != std::string::npos;
+         at = vectors.find("none")) {
+      vectors.replace(at, 4, " ");
+    }
+    const auto v = parse_numbers<double>(vectors, "space directions", file);
     if (v.size() != 9) fail_input(file, "NRRD field 'space directions'", "not three 3-vectors");
     space.steps = {{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}}};
   } else if (const auto spacings = fields.find("spacings"); spacings != fields.end()) {

@@ -200,6 +200,20 @@ class Formats(unittest.TestCase):
             geometry.create_dataset("ORIGIN", data=CORNER.astype("f4"))
         self.check("grains.dream3d")
 
+    def test_chunks_are_in_the_memory_budget(self):
+        zarr = needs("zarr")
+        z, y, x = numpy.indices((96, 128, 128))
+        labels = (x // 20 + 7 * (y // 18) + 50 * (z // 22)).astype("u8") << 40
+        numpy.save("cells.npy", labels)
+        array = zarr.open("cells.zarr", mode="w", shape=labels.shape, chunks=(32, 64, 64), dtype="u8")
+        array[:] = labels
+        budget = 64 << 20
+        for volume in ("cells.npy", "cells.zarr"):
+            run("mesh", volume, "-o", volume + ".vtkhdf", "--memory", "64MiB", "--report", "r.json")
+            with open("r.json") as file:
+                self.assertLess(json.load(file)["performance"]["peak_rss_bytes"], budget)
+        self.assertEqual(run("digest", "cells.npy.vtkhdf"), run("digest", "cells.zarr.vtkhdf"))
+
     def test_zarr_v2(self):
         zarr = needs("zarr")
         for order, separator in (("C", "."), ("F", "/")):

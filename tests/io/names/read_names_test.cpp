@@ -49,6 +49,11 @@ TEST(ReadNames, SlicerKeepsOpacity) {
                                 {8, "bare", {}}}));
 }
 
+TEST(ReadNames, CodesBehindNamesAreSkipped) {
+  expect_same_names(parse("1 Precentral_L 2001\n2 Precentral_R 2002\n"),
+                    LabelNames({{1, "Precentral_L", {}}, {2, "Precentral_R", {}}}));
+}
+
 TEST(ReadNames, CsvByItsHeader) {
   const LabelNames expected({{1, "liver, left", Colour{255, 128, 0, 255}}, {22, "b", {}}});
   expect_same_names(parse("\xEF\xBB\xBFLabel,Name,R,G,B\n1,\"liver, left\",255,128,0\n22,b,,,\n"),

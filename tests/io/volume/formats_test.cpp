@@ -172,6 +172,28 @@ TEST(Nrrd, GeometryAndByteSkip) {
   EXPECT_EQ(read_all(*open_volume(b)), (std::vector<RawLabel>{'C', 'D'}));
 }
 
+TEST(FurtherAxes, OfOneElementGo) {
+  const TempDir dir;
+  const std::vector<RawLabel> labels{'a', 'b', 'c', 'd', 'e', 'f'};
+  for (const std::string shape : {"(1, 1, 2, 3)", "(1, 2, 3, 1)", "(1, 1, 1, 2, 3, 1)"}) {
+    const auto volume = open_volume(dir.file("a.npy", npy_file("|u1", false, shape, "abcdef")));
+    EXPECT_EQ(read_all(*volume), labels) << shape;
+  }
+  EXPECT_EQ(open_volume(dir.path() / "a.npy")->info().shape, (Index3{3, 2, 1}));
+  const std::string head = "NRRD0005\ntype: uchar\nencoding: raw\ndimension: 4\n";
+  const auto list = open_volume(
+      dir.file("a.nrrd", head + "sizes: 1 3 2 1\nspace directions: none (1,0,0) (0,2,0) "
+                                "(0,0,3)\n\nabcdef"));
+  EXPECT_EQ(list->info().shape, (Index3{3, 2, 1}));
+  EXPECT_EQ(list->info().space.spacing, (Vector3{1, 2, 3}));
+  EXPECT_EQ(read_all(*list), labels);
+  const auto plain = open_volume(dir.file("b.nrrd", head + "sizes: 3 2 1 1\n\nabcdef"));
+  EXPECT_EQ(plain->info().shape, (Index3{3, 2, 1}));
+  expect_error(ErrorKind::kInput, {"c.nrrd", "4 axes"}, [&] {
+    static_cast<void>(open_volume(dir.file("c.nrrd", head + "sizes: 3 1 1 2\n\nabcdef")));
+  });
+}
+
 TEST(Raw, BothByteOrdersAndOverrides) {
   const TempDir dir;
   const auto labels = sample_labels(kShape, VoxelType::kI32);
