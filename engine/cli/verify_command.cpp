@@ -17,10 +17,13 @@
 #include "engine/cli/speck_facts.h"
 #include "engine/cli/values.h"
 #include "engine/cli/volume_options.h"
+#include "engine/label_scan.h"
+#include "engine/reading_tiles.h"
 #include "io/mesh/array_axes.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/audit/audit.h"
 #include "kernels/audit/kept_orientation.h"
+#include "kernels/core/each_index.h"
 #include "kernels/core/error.h"
 #include "kernels/core/layers.h"
 
@@ -152,14 +155,34 @@ audit::AuditReport audit_turned(const audit::VoxelLabels& subject, std::size_t l
   return report;
 }
 
+/// All voxels, tile by tile, so that no chunk of a store is unpacked twice.
+std::vector<Label> read_all(const io::DenseVolume& volume) {
+  const Box3 all{{0, 0, 0}, volume.info().shape};
+  std::vector<Label> out(static_cast<std::size_t>(all.voxels()));
+  const engine::ReadingTiles tiles(volume.info());
+  std::vector<Label> tile;
+  each_index(tiles.count(), [&](Index3 t) {
+    const Box3 box = tiles.box(t);
+    tile.resize(static_cast<std::size_t>(box.voxels()));
+    volume.read(box, tile);
+    auto row = tile.begin();
+    for (Index3 v = box.lo; v.z < box.hi.z; ++v.z) {
+      for (v.y = box.lo.y; v.y < box.hi.y; ++v.y, row += box.shape().x) {
+        std::copy_n(row, box.shape().x, out.begin() + all.offset(v));
+      }
+    }
+  });
+  return out;
+}
+
 Verdict judge(const VerifyJob& job) {
   const std::unique_ptr<io::LabelVolume> opened = open(job.volume);
   const io::PreparedInput input(*opened, job.volume.steps);
   const io::LabelVolume& volume = input.volume();
-  io::LabelTable table = io::collect_labels(volume);
+  io::LabelTable table = engine::collect_labels(volume, 1);
   const io::VolumeInfo& info = volume.info();
-  std::vector<Label> voxels(static_cast<std::size_t>(info.shape.product()));
-  io::DenseVolume(volume, table).read({{0, 0, 0}, info.shape}, voxels);
+  const std::vector<Label> voxels = read_all(io::DenseVolume(volume, table));
+  volume.drop_buffers();
   io::MeshData mesh = io::read_mesh(job.mesh);
   const std::vector<Label> labels = dense_labels(mesh, table);
   Verdict verdict{.specks = input.specks()};

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <vector>
 
 #include "io/file/errors.h"
@@ -149,11 +150,24 @@ std::vector<T> parse_numbers(const std::string& value, std::string_view field,
   return numbers;
 }
 
-/// For each axis whether `space directions` has a vector for it rather than "none".
-std::vector<bool> has_direction(const FieldMap& fields) {
+/// For each axis whether its kind is one of space; empty when the file does not say.
+std::vector<bool> is_domain(const FieldMap& fields) {
   std::vector<bool> out;
-  const auto found = fields.find("spacedirections");
+  const auto found = fields.find("kinds");
   if (found == fields.end()) return out;
+  std::istringstream kinds(lower(found->second));
+  for (std::string kind; kinds >> kind;) {
+    out.push_back(kind == "domain" || kind == "space" || kind == "none" || kind == "???");
+  }
+  return out;
+}
+
+/// For each axis whether it lies in space: `space directions` has a vector for it rather than
+/// "none", else its kind says so.
+std::vector<bool> is_spatial(const FieldMap& fields) {
+  const auto found = fields.find("spacedirections");
+  if (found == fields.end()) return is_domain(fields);
+  std::vector<bool> out;
   const std::string& value = found->second;
   for (std::size_t at = value.find_first_of("(n"); at != std::string::npos;) {
     const bool is_vector = value[at] == '(';
@@ -168,13 +182,14 @@ std::vector<bool> has_direction(const FieldMap& fields) {
 std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, const NrrdKeys& keys,
                                         std::string_view file) {
   auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
-  const std::vector<bool> directed = has_direction(fields);
-  for (std::size_t i = directed.size(); i-- > 0;) {
-    if (directed[i] || directed.size() != sizes.size()) continue;
+  const std::vector<bool> spatial = is_spatial(fields);
+  for (std::size_t i = spatial.size(); i-- > 0;) {
+    if (spatial[i] || spatial.size() != sizes.size()) continue;
     if (sizes[i] != 1) {
-      fail_input(file, "NRRD field 'space directions'",
-                 text("none for an axis of ", sizes[i], " elements"),
-                 has_segments(keys) ? kSegmentsWayOut : "pick one channel");
+      fail_input(
+          file, "NRRD fields 'dimension', 'space directions' and 'kinds'",
+          text("of ", sizes.size(), " axes one that is none of space has ", sizes[i], " elements"),
+          has_segments(keys) ? kSegmentsWayOut : "pick one channel");
     }
     sizes.erase(sizes.begin() + static_cast<std::ptrdiff_t>(i));
   }

@@ -175,7 +175,7 @@ TEST(Nrrd, GeometryAndByteSkip) {
 TEST(FurtherAxes, OfOneElementGo) {
   const TempDir dir;
   const std::vector<RawLabel> labels{'a', 'b', 'c', 'd', 'e', 'f'};
-  for (const std::string shape : {"(1, 1, 2, 3)", "(1, 2, 3, 1)", "(1, 1, 1, 2, 3, 1)"}) {
+  for (const std::string shape : {"(1, 2, 3, 1)", "(1, 1, 2, 3)", "(1, 1, 1, 2, 3)"}) {
     const auto volume = open_volume(dir.file("a.npy", npy_file("|u1", false, shape, "abcdef")));
     EXPECT_EQ(read_all(*volume), labels) << shape;
   }
