@@ -7,21 +7,11 @@
 
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
+#include "kernels/core/cells.h"
 #include "kernels/core/each_index.h"
 
 namespace mw::io {
 namespace {
-
-std::int64_t ceiling_quotient(std::int64_t a, std::int64_t b) {
-  return (a + b - 1) / b;
-}
-
-/// Numbers of the chunks that a box meets.
-Box3 chunks_of(const Box3& box, Index3 chunk) {
-  return {{box.lo.x / chunk.x, box.lo.y / chunk.y, box.lo.z / chunk.z},
-          {ceiling_quotient(box.hi.x, chunk.x), ceiling_quotient(box.hi.y, chunk.y),
-           ceiling_quotient(box.hi.z, chunk.z)}};
-}
 
 /// Whether the bytes hold every voxel that the strides lead to.
 bool holds(const Chunk& chunk, Index3 shape, VoxelType type) {
@@ -53,7 +43,7 @@ Box3 ChunkedVolume::box_of(Index3 chunk) const {
 }
 
 ChunkCache::Loaded ChunkedVolume::load(Index3 chunk) const {
-  const Box3 grid = chunks_of({{0, 0, 0}, info_.shape}, info_.chunk);
+  const Box3 grid = cells_of({{0, 0, 0}, info_.shape}, info_.chunk);
   return cache_.get(static_cast<std::uint64_t>(grid.offset(chunk)), [&] {
     const Box3 box = box_of(chunk);
     std::optional<Chunk> loaded = source_->load(chunk, box);
@@ -68,7 +58,7 @@ ChunkCache::Loaded ChunkedVolume::load(Index3 chunk) const {
 void ChunkedVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
   if (out.empty()) return;
-  each_index(chunks_of(box, info_.chunk), [&](Index3 number) {
+  each_index(cells_of(box, info_.chunk), [&](Index3 number) {
     const Box3 held = box_of(number);
     const Box3 part = intersection(held, box);
     if (const ChunkCache::Loaded chunk = load(number)) return copy(*chunk, held, part, box, out);

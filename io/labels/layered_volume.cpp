@@ -7,21 +7,11 @@
 #include <vector>
 
 #include "kernels/core/assert.h"
+#include "kernels/core/cells.h"
 #include "kernels/core/layers.h"
 
 namespace mw::io {
 namespace {
-
-std::int64_t ceiling_quotient(std::int64_t a, std::int64_t b) {
-  return (a + b - 1) / b;
-}
-
-/// The voxels that a box of layers cuts through.
-Box3 voxels_below(const Box3& box, Index3 layers) {
-  return {{box.lo.x / layers.x, box.lo.y / layers.y, box.lo.z / layers.z},
-          {ceiling_quotient(box.hi.x, layers.x), ceiling_quotient(box.hi.y, layers.y),
-           ceiling_quotient(box.hi.z, layers.z)}};
-}
 
 /// Repeats the labels of a row from layer `lo` to layer `hi`; from: the voxel that holds `lo`.
 void spread(const RawLabel* from, std::int64_t lo, std::int64_t hi, std::int64_t layers,
@@ -46,7 +36,7 @@ void LayeredVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
   if (out.empty()) return;
   if (layers_ == Index3{1, 1, 1}) return below().read(box, out);
-  const Box3 under = voxels_below(box, layers_);
+  const Box3 under = cells_of(box, layers_);
   std::vector<RawLabel> labels(static_cast<std::size_t>(under.voxels()));
   below().read(under, labels);
   const std::int64_t row = box.shape().x, plane = row * box.shape().y;
