@@ -15,18 +15,21 @@ namespace {
 
 using Stream = TiffHandle::Stream;
 
-/// Gives fewer bytes at the end.  Errors must not pass through libtiff: they become its own.
+/// Gives fewer bytes at the end.  Errors must not pass through libtiff: they become its own, as too
+/// few bytes.  Never -1: libtiff 4.5 takes it for a length when it clears the rest of a block, and
+/// writes in front of its buffer.
 tmsize_t read_bytes(thandle_t handle, void* out, tmsize_t count) {
   auto* stream = static_cast<Stream*>(handle);
   const std::uint64_t size = stream->source->size();
   const std::uint64_t left = size - std::min(stream->at, size);
   const auto length =
       static_cast<std::size_t>(std::min<std::uint64_t>(left, static_cast<std::uint64_t>(count)));
+  if (length == 0) return 0;
   try {
     stream->source->read_at(stream->at, {static_cast<std::byte*>(out), length});
   } catch (const std::exception& error) {
     stream->complaint = error.what();
-    return -1;
+    return 0;
   }
   stream->at += length;
   return static_cast<tmsize_t>(length);
