@@ -22,23 +22,6 @@ std::size_t size_at(std::span<const std::byte> bytes, std::size_t at) {
   return load<std::uint32_t>(bytes.data() + at, ByteOrder::kLittle);
 }
 
-/// Appends the `size` bytes of a block to out.  Nothing is allocated before the claim is possible.
-void append_block(std::vector<std::byte>& out, std::span<const std::byte> block, std::size_t size,
-                  const PackedName& name) {
-  if (size / kMostRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
-      block.size() > LZ4_MAX_INPUT_SIZE) {
-    fail_packed(name, "damaged or truncated: it is too short for the size that it claims");
-  }
-  const std::size_t first = out.size();
-  out.resize(first + size);
-  const int count = LZ4_decompress_safe(reinterpret_cast<const char*>(block.data()),
-                                        reinterpret_cast<char*>(out.data()) + first,
-                                        static_cast<int>(block.size()), static_cast<int>(size));
-  if (count < 0 || static_cast<std::size_t>(count) != size) {
-    fail_packed(name, "damaged or truncated");
-  }
-}
-
 // A block of lz4-java: magic, token (method in the upper half), sizes and checksum, then its bytes.
 constexpr std::string_view kMagic = "LZ4Block";
 constexpr std::size_t kTokenAt = 8, kPackedSizeAt = 9, kSizeAt = 13, kChecksumAt = 17;
@@ -73,7 +56,7 @@ void append_java_block(std::vector<std::byte>& out, const JavaBlock& block,
                        const PackedName& name) {
   const std::size_t first = out.size();
   if (!block.is_stored) {
-    append_block(out, block.bytes, block.size, name);
+    append_lz4_block(out, block.bytes, block.size, name);
   } else if (block.bytes.size() == block.size) {
     out.insert(out.end(), block.bytes.begin(), block.bytes.end());
   } else {
@@ -85,6 +68,22 @@ void append_java_block(std::vector<std::byte>& out, const JavaBlock& block,
 
 }  // namespace
 
+void append_lz4_block(std::vector<std::byte>& out, std::span<const std::byte> block,
+                      std::size_t size, const PackedName& name) {
+  if (size / kMostRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
+      block.size() > LZ4_MAX_INPUT_SIZE) {
+    fail_packed(name, "damaged or truncated: it is too short for the size that it claims");
+  }
+  const std::size_t first = out.size();
+  out.resize(first + size);
+  const int count = LZ4_decompress_safe(reinterpret_cast<const char*>(block.data()),
+                                        reinterpret_cast<char*>(out.data()) + first,
+                                        static_cast<int>(block.size()), static_cast<int>(size));
+  if (count < 0 || static_cast<std::size_t>(count) != size) {
+    fail_packed(name, "damaged or truncated");
+  }
+}
+
 std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t most,
                                   std::string_view name) {
   const PackedName named{"lz4", name};
@@ -92,7 +91,7 @@ std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t
   const std::size_t size = size_at(packed, 0);
   if (size > most) fail_too_much(named, most);
   std::vector<std::byte> out;
-  append_block(out, packed.subspan(4), size, named);
+  append_lz4_block(out, packed.subspan(4), size, named);
   return out;
 }
 

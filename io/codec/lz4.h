@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/codec/damage.h"
+
 namespace mw::io {
 
 /// numcodecs' framing (Zarr): the unpacked size in 4 bytes, least significant first, and one block.
@@ -20,5 +22,10 @@ namespace mw::io {
 /// The framing of lz4-java's LZ4BlockOutputStream (N5): blocks with magic, sizes and a checksum.
 [[nodiscard]] std::vector<std::byte> unpack_lz4_java(std::span<const std::byte> packed,
                                                      std::size_t most, std::string_view name);
+
+/// Appends the `size` bytes of one bare block to out.  Nothing is allocated before the claim is
+/// possible.  ERRORS: as above.
+void append_lz4_block(std::vector<std::byte>& out, std::span<const std::byte> block,
+                      std::size_t size, const PackedName& name);
 
 }  // namespace mw::io

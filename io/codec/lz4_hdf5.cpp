@@ -3,20 +3,17 @@
 // Unpacks LZ4 in the framing of HDF5's registered filter (32004).
 #include "io/codec/lz4_hdf5.h"
 
-#include <lz4.h>
-
 #include <algorithm>
 #include <cstdint>
 
 #include "io/codec/damage.h"
+#include "io/codec/lz4.h"
 #include "io/file/byte_order.h"
 
 namespace mw::io {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 12;
-/// What a packed byte unpacks to at most.
-constexpr std::size_t kMostRatio = 255;
 
 void append_block(std::vector<std::byte>& out, std::span<const std::byte> block, std::size_t size,
                   const PackedName& name) {
@@ -24,19 +21,7 @@ void append_block(std::vector<std::byte>& out, std::span<const std::byte> block,
     out.insert(out.end(), block.begin(), block.end());
     return;
   }
-  // Nothing is allocated before the claim is possible.
-  if (size / kMostRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
-      block.size() > LZ4_MAX_INPUT_SIZE) {
-    fail_packed(name, "damaged or truncated: it is too short for the size that it claims");
-  }
-  const std::size_t first = out.size();
-  out.resize(first + size);
-  const int count = LZ4_decompress_safe(reinterpret_cast<const char*>(block.data()),
-                                        reinterpret_cast<char*>(out.data()) + first,
-                                        static_cast<int>(block.size()), static_cast<int>(size));
-  if (count < 0 || static_cast<std::size_t>(count) != size) {
-    fail_packed(name, "damaged or truncated");
-  }
+  append_lz4_block(out, block, size, name);
 }
 
 }  // namespace
