@@ -74,6 +74,18 @@ io::LabelNames written_names(const io::DenseVolume& volume, const LabelSelection
       [&](RawLabel label) { return table.contains(label) && selection.keeps(table.dense(label)); });
 }
 
+io::MeshBox box_of(const io::VolumeInfo& info) {
+  const io::Vector3 extent{static_cast<double>(info.shape.x), static_cast<double>(info.shape.y),
+                           static_cast<double>(info.shape.z)};
+  io::MeshBox box{.origin = to_world(info.space, {0, 0, 0})};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.edges[i][k] = info.space.spacing[i] * extent[i] * info.space.axes[i][k];
+    }
+  }
+  return box;
+}
+
 /// Second pass.
 class Writer {
  public:
@@ -185,7 +197,8 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
   });
   sink.begin({.tets = out.tets,
               .labels_signed = volume.table().is_signed(),
-              .names = written_names(volume, selection)});
+              .names = written_names(volume, selection),
+              .box = box_of(volume.info())});
   Remembered remembered(options.hold);
   Writer writer(std::move(uses), volume, options.layers, sink, remembered);
   audit::QualityMeter quality;

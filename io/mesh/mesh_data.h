@@ -16,11 +16,15 @@ struct MeshData {
   std::vector<RawLabel> labels;
   bool labels_signed = false;
   LabelNames names;
+  std::optional<MeshBox> box;
 };
 
 /// Writes all of a mesh: begin to finish.
 inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
-  sink.begin({.tets = mesh.tets.size(), .labels_signed = mesh.labels_signed, .names = mesh.names});
+  sink.begin({.tets = mesh.tets.size(),
+              .labels_signed = mesh.labels_signed,
+              .names = mesh.names,
+              .box = mesh.box});
   sink.write_vertices(mesh.vertices);
   sink.write_tets(mesh.tets, mesh.labels);
   sink.finish();
@@ -32,6 +36,7 @@ class MeshDataSink : public MeshSink {
   void begin(const MeshHeader& header) override {
     mesh_.labels_signed = header.labels_signed;
     mesh_.names = header.names;
+    mesh_.box = header.box;
     mesh_.tets.reserve(header.tets);
     mesh_.labels.reserve(header.tets);
   }

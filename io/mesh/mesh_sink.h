@@ -5,14 +5,15 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
+#include "io/mesh/mesh_box.h"
 #include "io/names/label_names.h"
 #include "kernels/core/label.h"
 
 namespace mw::io {
 
-using Position = std::array<double, 3>;        ///< physical units
 using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive orientation
 
 /// What is known before the first row.  The number of vertices is not: whoever merges blocks learns
@@ -21,6 +22,7 @@ struct MeshHeader {
   std::uint64_t tets = 0;
   bool labels_signed = false;  ///< labels are two's complement int64 and are written as such
   LabelNames names;            ///< of labels that are written
+  std::optional<MeshBox> box;  ///< of the volume, whether its labels are all written or not
 };
 
 /// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink

@@ -3,6 +3,8 @@
 // Reads and writes meshes, the format chosen by extension.
 #include "io/mesh/open_mesh.h"
 
+#include <array>
+
 #include "io/file/errors.h"
 #include "io/file/open_bytes.h"
 #include "io/mesh/medit/medit_reader.h"
@@ -15,38 +17,78 @@
 namespace mw::io {
 namespace {
 
-[[noreturn]] void fail_extension(const std::filesystem::path& path) {
-  throw Error(
-      ErrorKind::kUsage,
-      text(path.string(), ": extension '", path.extension().string(),
-           "' is no mesh format known here; supported are .vtkhdf, .vtu and .mesh (MEDIT)"));
+/// One format: a file ending, how to read it and how to write it.
+struct MeshFormat {
+  const char* extension;
+  /// Reads it whole; null where `stream` is there.
+  MeshData (*read)(const std::filesystem::path&);
+  /// Reads it in bounded memory; null where `read` is there.
+  void (*stream)(const std::filesystem::path&, MeshSink&);
+  std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element);
+};
+
+/// A sink that writes corners alone.
+template <class Sink>
+std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Element element) {
+  if (element == Element::kTet4) return std::make_unique<Sink>(path);
+  throw Error(ErrorKind::kUsage,
+              text(path.string(), ": ", path.extension().string(), " is written with tet4 only"));
+}
+
+const std::array kFormats{
+    MeshFormat{".vtkhdf", nullptr, &read_vtkhdf, &open_corners<VtkhdfSink>},
+    MeshFormat{".vtu", [](const auto& path) { return read_vtu(*open_bytes(path)); }, nullptr,
+               &open_corners<VtuSink>},
+    MeshFormat{".mesh", [](const auto& path) { return read_medit(*open_bytes(path)); }, nullptr,
+               &open_corners<MeditSink>},
+};
+
+const MeshFormat* find_format(const std::filesystem::path& path) {
+  for (const MeshFormat& format : kFormats) {
+    if (path.extension() == format.extension) return &format;
+  }
+  return nullptr;
+}
+
+const MeshFormat& format_of(const std::filesystem::path& path) {
+  if (const MeshFormat* format = find_format(path)) return *format;
+  throw Error(ErrorKind::kUsage,
+              text(path.string(), ": extension '", path.extension().string(),
+                   "' is no mesh format known here; supported are ", mesh_extensions()));
 }
 
 }  // namespace
 
+std::string mesh_extensions() {
+  std::string out;
+  for (const MeshFormat& format : kFormats)
+    out += (out.empty() ? "" : ", ") + text(format.extension);
+  return out;
+}
+
+bool is_mesh_path(const std::filesystem::path& path) {
+  return find_format(path) != nullptr;
+}
+
 MeshData read_mesh(const std::filesystem::path& path) {
-  const std::filesystem::path extension = path.extension();
-  if (extension == ".vtu") return read_vtu(*open_bytes(path));
-  if (extension == ".mesh") return read_medit(*open_bytes(path));
-  if (extension != ".vtkhdf") fail_extension(path);
+  const MeshFormat& format = format_of(path);
+  if (format.read != nullptr) return format.read(path);
   MeshDataSink sink;
-  read_vtkhdf(path, sink);
+  format.stream(path, sink);
   return std::move(sink.mesh());
 }
 
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
-  if (path.extension() == ".vtkhdf") {
-    read_vtkhdf(path, sink);
+  const MeshFormat& format = format_of(path);
+  if (format.stream != nullptr) {
+    format.stream(path, sink);
   } else {
-    write_mesh(read_mesh(path), sink);
+    write_mesh(format.read(path), sink);
   }
 }
 
-std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path) {
-  if (path.extension() == ".vtkhdf") return std::make_unique<VtkhdfSink>(path);
-  if (path.extension() == ".vtu") return std::make_unique<VtuSink>(path);
-  if (path.extension() == ".mesh") return std::make_unique<MeditSink>(path);
-  fail_extension(path);
+std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element) {
+  return format_of(path).open(path, element);
 }
 
 }  // namespace mw::io

@@ -5,19 +5,27 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
+#include "io/mesh/element.h"
 #include "io/mesh/mesh_data.h"
 
 namespace mw::io {
 
-/// .vtkhdf, .vtu and .mesh.  ERRORS: mw::Error(kUsage) for another extension; kInput with file and
-/// place when missing, truncated, corrupt or not of tetrahedra.
+/// The extensions that are read and written, as ".vtkhdf, .vtu, .mesh".
+[[nodiscard]] std::string mesh_extensions();
+[[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
+
+/// ERRORS: mw::Error(kUsage) for an unknown extension; kInput with file and place when missing,
+/// truncated, corrupt or not of tetrahedra.
 [[nodiscard]] MeshData read_mesh(const std::filesystem::path& path);
 
 /// The same into a sink, begin to finish; .vtkhdf in bounded memory, the others by way of MeshData.
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
-/// ERRORS: mw::Error(kUsage) for another extension or a path that cannot be written.
-[[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path);
+/// ERRORS: mw::Error(kUsage) for an unknown extension, an element that the format does not have, or
+/// a path that cannot be written.
+[[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
+                                                       Element element = Element::kTet4);
 
 }  // namespace mw::io

@@ -153,9 +153,9 @@ TEST(MeshFiles, EveryTruncationIsRefused) {
 
 TEST(MeshFiles, UnknownExtensions) {
   for (const char* name : {"m.stl", "m"}) {
-    expect_error(ErrorKind::kUsage, {name, ".vtkhdf, .vtu and .mesh"},
+    expect_error(ErrorKind::kUsage, {name, ".vtkhdf, .vtu, .mesh"},
                  [&] { static_cast<void>(read_mesh(name)); });
-    expect_error(ErrorKind::kUsage, {name, ".vtkhdf, .vtu and .mesh"},
+    expect_error(ErrorKind::kUsage, {name, ".vtkhdf, .vtu, .mesh"},
                  [&] { static_cast<void>(open_mesh_sink(name)); });
   }
   expect_error(ErrorKind::kInput, {"gone.vtu"}, [] { static_cast<void>(read_mesh("gone.vtu")); });

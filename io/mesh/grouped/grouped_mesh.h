@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A mesh as solvers take it: tets by label, facets by what they bound, nodes in the middle of
+// edges.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "io/file/paged_file.h"
+#include "io/labels/label_table.h"
+#include "io/mesh/element.h"
+#include "io/mesh/grouped/box_sides.h"
+#include "io/mesh/mesh_sink.h"
+
+namespace mw::io {
+
+/// Numbers begin .. end - 1.
+struct RowRange {
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;
+
+  [[nodiscard]] std::uint64_t size() const { return end - begin; }
+};
+
+/// Facets that bound the same: an interface of two labels, first < second by rank; one side of the
+/// box, or the outer surface, at one label (second is kExterior).
+struct FacetGroup {
+  Side side = Side::kInterface;
+  Label first = 0;
+  Label second = kExterior;
+  RowRange facets;
+};
+
+/// A triangle.
+struct Facet {
+  std::array<std::uint64_t, 3> rows{};  ///< its normal (by the right hand) points out of `first`
+  std::uint64_t tet = 0;                ///< that of label `first`
+  std::uint64_t opposite = 0;           ///< which corner of that tet is not in it, 0 to 3
+};
+
+/// The six edges of a tet by its corners, in the order of VTK's, Abaqus' and FEBio's ten nodes.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
+    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
+/// Everything waits in temporary files, so memory (8 MiB a list that is looked into) does not grow
+/// with the mesh.  Rows of nodes: vertices as they came, then middles of edges, edges ascending by
+/// their rows.  Made by GroupedSink, asked in any order, fastest in row order.
+/// ERRORS (of all that look something up): see ScratchFile.  Thread safety: none.
+class GroupedMesh {
+ public:
+  /// The labels that occur, ascending; label groups and facet groups hold their ranks.
+  [[nodiscard]] const LabelTable& table() const { return table_; }
+  [[nodiscard]] const LabelNames& names() const { return header_.names; }
+  /// Where the file of the mesh told of no box, that of the vertices along the world's axes.
+  [[nodiscard]] const MeshBox& box() const { return box_; }
+  [[nodiscard]] Element element() const { return element_; }
+
+  /// Vertices, and with kTet10 as many more nodes as the mesh has edges.
+  [[nodiscard]] std::uint64_t vertex_count() const { return vertices_.size(); }
+  [[nodiscard]] std::uint64_t node_count() const { return vertices_.size() + edges_.size(); }
+  /// Position of a node.  REQUIRES: row < node_count().
+  [[nodiscard]] Position node(std::uint64_t row);
+
+  /// Tets are numbered by label, those of a label as they came.  Corners are VTK-positive: the
+  /// normal of the first three points at the fourth.  (Of a flat one they are as they came.)
+  [[nodiscard]] std::uint64_t tet_count() const { return tets_.size(); }
+  [[nodiscard]] TetRows tet(std::uint64_t number) { return tets_[number]; }
+  /// By rank of label.
+  [[nodiscard]] const std::vector<RowRange>& label_tets() const { return label_tets_; }
+  [[nodiscard]] Label label_of(std::uint64_t tet) const;
+  /// Rows of the middles of kTetEdges.  REQUIRES: kTet10.
+  [[nodiscard]] std::array<std::uint64_t, 6> middles(std::uint64_t tet) { return middles_[tet]; }
+
+  /// Ascending by side, first, second.
+  [[nodiscard]] const std::vector<FacetGroup>& facet_groups() const { return facet_groups_; }
+  [[nodiscard]] std::uint64_t facet_count() const { return facets_.size(); }
+  /// Facets are numbered by group, in a group by tet.
+  [[nodiscard]] Facet facet(std::uint64_t number) { return facets_[number]; }
+  /// Rows of the middles of the facet's edges 0 1, 1 2 and 2 0.  REQUIRES: kTet10.
+  [[nodiscard]] std::array<std::uint64_t, 3> facet_middles(const Facet& facet);
+
+ private:
+  friend class MeshGrouping;
+
+  explicit GroupedMesh(const std::filesystem::path& folder);
+
+  MeshHeader header_;
+  LabelTable table_;
+  MeshBox box_;
+  Element element_ = Element::kTet4;
+  PagedFile<Position> vertices_;
+  PagedFile<TetRows> tets_;
+  std::vector<RowRange> label_tets_;
+  PagedFile<Facet> facets_;
+  std::vector<FacetGroup> facet_groups_;
+  PagedFile<std::array<std::uint64_t, 2>> edges_;    ///< corners of each edge; kTet10 only
+  PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet; kTet10 only
+};
+
+/// Writes a grouped mesh into one file, which its constructor has opened.
+class GroupedWriter {
+ public:
+  virtual ~GroupedWriter() = default;
+  /// Writes and commits.  Called once.  ERRORS: as MeshSink.
+  virtual void write(GroupedMesh& mesh) = 0;
+};
+
+}  // namespace mw::io

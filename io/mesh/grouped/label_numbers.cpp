@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Labels of 64 bits in formats whose numbers are smaller.
+#include "io/mesh/grouped/label_numbers.h"
+
+#include <algorithm>
+#include <set>
+
+#include "io/file/atomic_file.h"
+#include "io/file/errors.h"
+#include "io/file/open_bytes.h"
+#include "io/names/csv_names.h"
+#include "io/names/csv_records.h"
+#include "io/names/name_fields.h"
+
+namespace mw::io {
+namespace {
+
+bool fits(const LabelTable& table, Label rank, NumberRange range) {
+  const RawLabel raw = table.raw(rank);
+  const auto number = static_cast<std::int64_t>(raw);
+  if (!table.is_signed() && number < 0) return false;  // 2^63 and more
+  return number >= range.least && number <= range.most;
+}
+
+std::string label_text(const LabelTable& table, Label rank) {
+  const RawLabel raw = table.raw(rank);
+  return table.is_signed() ? text(static_cast<std::int64_t>(raw)) : text(raw);
+}
+
+/// In quotes, those inside doubled.
+std::string quoted(const std::string& name) {
+  if (name.empty()) return {};
+  std::string out = "\"";
+  for (const char c : name) {
+    out += c;
+    if (c == '"') out += c;
+  }
+  return out + '"';
+}
+
+std::string colour_text(const LabelName* row) {
+  if (row == nullptr || !row->colour) return ",,,,";
+  std::string out;
+  for (const std::uint8_t part : *row->colour) out += text(",", part);
+  return out;
+}
+
+std::optional<std::int64_t> number_in(const std::string& field) {
+  const auto number = label_of(field);
+  if (!number) return std::nullopt;
+  return static_cast<std::int64_t>(*number);
+}
+
+/// One record of a table that write_label_table() made.
+void take_record(const CsvRecord& record, std::string_view file, LabelMap& map) {
+  const auto label = record.fields.size() < 2 ? std::nullopt : label_of(record.fields[0]);
+  const auto number = label ? number_in(record.fields[1]) : std::nullopt;
+  if (!number) {
+    fail_line(file, record.line, "no label and its number",
+              "the table belongs to the mesh beside it; convert that anew, or remove the table");
+  }
+  if (!map.labels.emplace(*number, *label).second) {
+    fail_line(file, record.line, text("number ", *number, " stands for two labels"),
+              "convert the mesh anew");
+  }
+  map.labels_signed = map.labels_signed || record.fields[0].starts_with('-');
+}
+
+}  // namespace
+
+LabelNumbers::LabelNumbers(const LabelTable& table, NumberRange range) : numbers_(table.size()) {
+  std::set<std::int64_t> taken;
+  for (Label rank = 0; rank < table.size(); ++rank) {
+    if (fits(table, rank, range)) taken.insert(static_cast<std::int64_t>(table.raw(rank)));
+  }
+  if (table.size() > static_cast<std::uint64_t>(range.most - range.least) + 1) {
+    throw Error(ErrorKind::kUsage,
+                text(table.size(), " labels are more than this format has numbers; write .vtkhdf"));
+  }
+  std::int64_t last = taken.empty() ? range.least - 1 : *taken.rbegin();
+  std::int64_t low = range.least - 1;
+  for (Label rank = 0; rank < table.size(); ++rank) {
+    if (fits(table, rank, range)) {
+      numbers_[rank] = static_cast<std::int64_t>(table.raw(rank));
+      continue;
+    }
+    if (last < range.most) {
+      numbers_[rank] = ++last;
+      continue;
+    }
+    do ++low;
+    while (taken.contains(low));
+    numbers_[rank] = low;
+  }
+}
+
+std::filesystem::path label_table_path(const std::filesystem::path& mesh) {
+  return mesh.string() + ".labels.csv";
+}
+
+void write_label_table(const std::filesystem::path& mesh, const LabelTable& table,
+                       const LabelNames& names, const LabelNumbers& numbers) {
+  AtomicFile file(label_table_path(mesh));
+  file.append(std::string_view("id,number,name,r,g,b,a\n"));
+  for (Label rank = 0; rank < table.size(); ++rank) {
+    const LabelName* row = names.find(table.raw(rank));
+    file.append(text(label_text(table, rank), ",", numbers[rank], ",",
+                     quoted(names.name(table.raw(rank))), colour_text(row), "\n"));
+  }
+  file.commit();
+}
+
+std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh) {
+  const std::filesystem::path path = label_table_path(mesh);
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const std::unique_ptr<ByteSource> source = open_bytes(path);
+  constexpr std::uint64_t kMostBytes = 1 << 30;
+  if (source->size() > kMostBytes) {
+    fail_input(source->name(), {}, "is too large for a table of labels", "remove it");
+  }
+  std::string content(source->size(), '\0');
+  source->read_at(0, std::as_writable_bytes(std::span(content)));
+  CsvRecords records(content, ',', source->name());
+  LabelMap map;
+  CsvRecord record;
+  if (!records.next(record)) fail_input(source->name(), {}, "is empty", "convert the mesh anew");
+  while (records.next(record)) take_record(record, source->name(), map);
+  map.names = parse_csv_names(content, source->name());
+  return map;
+}
+
+NumberedLabels::NumberedLabels(const std::filesystem::path& mesh)
+    : mesh_(mesh), map_(read_label_table(mesh)) {}
+
+RawLabel NumberedLabels::label(std::int64_t number) {
+  negative_ = negative_ || number < 0;
+  if (!map_) return static_cast<RawLabel>(number);
+  const auto found = map_->labels.find(number);
+  if (found != map_->labels.end()) return found->second;
+  fail_input(mesh_.string(), "labels",
+             text(number, " is not in the table ", label_table_path(mesh_).string()),
+             "the table belongs to another mesh; move it away");
+}
+
+}  // namespace mw::io

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Labels of 64 bits in formats whose numbers are smaller.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "io/labels/label_table.h"
+#include "io/names/label_names.h"
+
+namespace mw::io {
+
+/// What a format can hold, both ends included; least is 0 or 1.
+struct NumberRange {
+  std::int64_t least = 1;
+  std::int64_t most = 2147483647;
+};
+
+/// Labels that a format can hold keep their number; the others get, in their order, the smallest
+/// numbers above those, and those that are free below where none is left above.
+class LabelNumbers {
+ public:
+  /// ERRORS: mw::Error(kUsage) when there are more labels than numbers.
+  LabelNumbers(const LabelTable& table, NumberRange range = {});
+
+  /// By rank.
+  [[nodiscard]] std::int64_t operator[](Label rank) const { return numbers_[rank]; }
+
+ private:
+  std::vector<std::int64_t> numbers_;
+};
+
+/// The table that lies beside a mesh: MESH.labels.csv.
+[[nodiscard]] std::filesystem::path label_table_path(const std::filesystem::path& mesh);
+
+/// Writes it: columns id (the label), number (in the mesh), name, r, g, b, a.  It is a table of
+/// names too (parse_csv_names).  ERRORS: see AtomicFile.
+void write_label_table(const std::filesystem::path& mesh, const LabelTable& table,
+                       const LabelNames& names, const LabelNumbers& numbers);
+
+/// What such a table says.
+struct LabelMap {
+  std::map<std::int64_t, RawLabel> labels;  ///< by number
+  bool labels_signed = false;               ///< one of them is negative
+  LabelNames names;
+};
+
+/// Empty when there is no file of that name.
+/// ERRORS: mw::Error(kInput) naming file and line.
+[[nodiscard]] std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh);
+
+/// The labels of numbers as a mesh of that name has them: through the table beside it, or as they
+/// are where there is none.
+class NumberedLabels {
+ public:
+  explicit NumberedLabels(const std::filesystem::path& mesh);
+
+  /// ERRORS: mw::Error(kInput) when the table does not know the number.
+  [[nodiscard]] RawLabel label(std::int64_t number);
+  /// Whether labels are to be read as signed; without a table, whether a number was negative.
+  [[nodiscard]] bool labels_signed() const { return map_ ? map_->labels_signed : negative_; }
+  [[nodiscard]] LabelNames names() const { return map_ ? map_->names : LabelNames{}; }
+
+ private:
+  std::filesystem::path mesh_;
+  std::optional<LabelMap> map_;
+  bool negative_ = false;
+};
+
+}  // namespace mw::io
