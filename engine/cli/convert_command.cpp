@@ -21,8 +21,8 @@ int run_convert(const std::string& from, const std::string& to) {
 void add_convert_command(CLI::App& program, Action& chosen) {
   CLI::App* command = program.add_subcommand("convert", "writes a mesh in another format");
   const auto paths = std::make_shared<std::pair<std::string, std::string>>();
-  command->add_option("MESH", paths->first, "mesh to read: .vtkhdf, .vtu or .mesh")->required();
-  command->add_option("OUT", paths->second, "mesh to write: .vtkhdf, .vtu or .mesh")->required();
+  command->add_option("MESH", paths->first, "mesh to read: " + io::mesh_extensions())->required();
+  command->add_option("OUT", paths->second, "mesh to write: " + io::mesh_extensions())->required();
   command->callback(
       [paths, &chosen] { chosen = [paths] { return run_convert(paths->first, paths->second); }; });
 }

@@ -106,7 +106,7 @@ void VtkhdfSink::begin(const MeshHeader& header) {
   const Hdf5Handle cell_data = make_group(group_.get(), "CellData");
   require(group_.valid() && cell_data.valid());
   write_attributes();
-  require(write_vtkhdf_names(hdf5_.get(), group_.get(), header.names, header.labels_signed));
+  require(write_vtkhdf_facts(hdf5_.get(), group_.get(), header));
   // Small meshes are small files.  There are 5 to 6 tets a vertex, and an offset more than tets.
   const std::uint64_t rows = std::clamp<std::uint64_t>(header.tets + 1, 4, kMaxChunkRows);
   const Hdf5Type real{H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
