@@ -36,18 +36,33 @@ constexpr const char* kNone = "none";
 constexpr const char* kInterfaces = "interfaces";
 constexpr const char* kVoxel = "voxel";
 
+/// What is asked of a mesh whose file tells of no run.
+constexpr io::MeshPromises kOtherPromises{.max_distance = 1.5,
+                                          .quality_floor = audit::kSliverRadiusRatio};
+
 struct VerifyJob {
   OptionSet options;
   VolumeRequest volume;
   LabelChoice choice;
   std::filesystem::path mesh;
   std::filesystem::path report;
-  audit::AuditOptions audit;
-  bool in_layers = true;  ///< distances in voxels of the lattice of smooth surfaces
+  // What is not given is what the run promised that made the mesh.
+  std::optional<bool> count_places;
+  std::optional<double> quality_floor;
+  std::optional<std::optional<double>> max_distance;
+  std::optional<bool> in_layers;  ///< distances in voxels of the lattice of smooth surfaces
+  std::optional<double> max_volume_error;
+};
+
+/// What the checks ask.
+struct Bounds {
+  io::MeshPromises promises;
+  bool of_run = false;  ///< the mesh's file told what its run promised
 };
 
 struct Verdict {
   std::optional<io::SpeckFacts> specks;
+  Bounds bounds;
   audit::AuditReport audit;
   std::vector<std::string> labels_changed;  ///< as the input has them, or "exterior"
   io::LabelTable table;
@@ -78,30 +93,29 @@ void add_verify_options(VerifyJob& job) {
   options.add(
       {.name = "topology",
        .value = "WHAT",
-       .help = "what P1 looks at: labels, or interfaces and meetings of labels as well",
-       .fallback = "labels",
+       .help = "what P1 looks at: labels, or interfaces and meetings of labels as well [what the "
+               "run kept, else labels]",
        .choices = {"labels", kInterfaces},
-       .assign = [&](const std::string& text) { job.audit.count_places = text == kInterfaces; }});
+       .assign = [&](const std::string& text) { job.count_places = text == kInterfaces; }});
   options.add({.name = "quality-floor",
                .value = "R",
-               .help = "P3 fails for a tet below this radius ratio",
+               .help = "P3 fails for a tet below this radius ratio [the run's, else " +
+                       format_number(kOtherPromises.quality_floor) + "]",
                .kind = ValueKind::kNumber,
-               .fallback = format_number(audit::AuditOptions{}.radius_ratio_floor),
-               .assign = [&](const std::string& text) {
-                 job.audit.radius_ratio_floor = parse_number(text);
-               }});
+               .assign = [&](const std::string& text) { job.quality_floor = parse_number(text); }});
   options.add(
       {.name = "max-distance",
        .value = "D",
-       .help = "P4 fails above this many voxels (see --surface) between label boundaries, or none",
+       .help = "P4 fails above this many voxels (see --surface) between label boundaries, or none "
+               "[the run's, else " +
+               format_number(*kOtherPromises.max_distance) + "]",
        .kind = ValueKind::kNumberOrNone,
-       .fallback = kNone,
-       .assign = [&](const std::string& text) { job.audit.max_distance = parse_bound(text); }});
+       .assign = [&](const std::string& text) { job.max_distance = parse_bound(text); }});
   options.add({.name = "surface",
                .value = "SHAPE",
                .help = "how the mesh was made, hence what distances count in: smooth, voxels of "
-                       "the lattice where thick slices are cut into layers; voxel, the input's",
-               .fallback = "smooth",
+                       "the lattice where thick slices are cut into layers; voxel, the input's "
+                       "[the run's, else smooth]",
                .choices = {"smooth", kVoxel},
                .assign = [&](const std::string& text) { job.in_layers = text != kVoxel; }});
   options.add(
@@ -111,7 +125,7 @@ void add_verify_options(VerifyJob& job) {
                "volume, or none",
        .kind = ValueKind::kNumberOrNone,
        .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
-       .assign = [&](const std::string& text) { job.audit.max_volume_error = parse_bound(text); }});
+       .assign = [&](const std::string& text) { job.max_volume_error = parse_bound(text); }});
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes the result as JSON",
@@ -137,6 +151,26 @@ audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& t
   }
   const bool leaves_out = std::find(kept.begin(), kept.end(), false) != kept.end();
   return leaves_out ? kept : audit::KeptLabels{};
+}
+
+Bounds bounds_of(const VerifyJob& job, const io::MeshRecord& record) {
+  Bounds bounds{record.promises.value_or(kOtherPromises), record.promises.has_value()};
+  io::MeshPromises& asked = bounds.promises;
+  if (job.max_distance) asked.max_distance = *job.max_distance;
+  asked.quality_floor = job.quality_floor.value_or(asked.quality_floor);
+  asked.smooth = job.in_layers.value_or(asked.smooth);
+  const bool all_labels = !job.choice.labels && !job.choice.background;
+  asked.interfaces = job.count_places.value_or(asked.interfaces && all_labels);
+  return bounds;
+}
+
+/// Without the labels that are kept.
+audit::AuditOptions audit_options(const VerifyJob& job, const Bounds& bounds, Index3 layers) {
+  return {.radius_ratio_floor = bounds.promises.quality_floor,
+          .count_places = bounds.promises.interfaces,
+          .max_distance = bounds.promises.max_distance,
+          .layers = bounds.promises.smooth ? layers : Index3{1, 1, 1},
+          .max_volume_error = job.max_volume_error};
 }
 
 /// Audits in the array's axes a mesh that lies in another direction, and that the file's
@@ -185,10 +219,9 @@ Verdict judge(const VerifyJob& job) {
   volume.drop_buffers();
   io::MeshData mesh = io::read_mesh(job.mesh);
   const std::vector<Label> labels = dense_labels(mesh, table);
-  Verdict verdict{.specks = input.specks()};
-  audit::AuditOptions options = job.audit;
+  Verdict verdict{.specks = input.specks(), .bounds = bounds_of(job, mesh.record)};
+  audit::AuditOptions options = audit_options(job, verdict.bounds, layers_of(info.space.spacing));
   options.kept = kept_labels(job.choice, table);
-  if (job.in_layers) options.layers = layers_of(info.space.spacing);
   verdict.layers = options.layers;
   const audit::VoxelLabels subject{.shape = info.shape, .labels = voxels};
   if (is_upright(info.space)) {
@@ -217,9 +250,19 @@ std::string changed_text(Label label, const Verdict& verdict) {
   return label_text(verdict.table.raw(label), verdict.table.is_signed(), verdict.names);
 }
 
+void print_bounds(const Bounds& bounds) {
+  const io::MeshPromises& asked = bounds.promises;
+  std::cout << "asked         distance "
+            << (asked.max_distance ? format_number(*asked.max_distance) : kNone)
+            << ", radius ratio " << format_number(asked.quality_floor) << ", topology "
+            << (asked.interfaces ? kInterfaces : "labels")
+            << (bounds.of_run ? " (what is not given is what the run promised)\n" : "\n");
+}
+
 void print_verdict(const Verdict& verdict) {
   const auto& checks = verdict.audit.checks;
   print_specks(verdict.specks);
+  print_bounds(verdict.bounds);
   for (const audit::Check& check : checks) {
     std::string name = check.name;
     name.resize(std::max<std::size_t>(name.size(), 16), ' ');
@@ -287,11 +330,21 @@ ordered_json volume_json(const Verdict& verdict) {
   return out;
 }
 
+ordered_json asked_json(const Bounds& bounds) {
+  const io::MeshPromises& asked = bounds.promises;
+  return {{"max_distance", asked.max_distance ? ordered_json(*asked.max_distance) : ordered_json()},
+          {"quality_floor", asked.quality_floor},
+          {"topology", asked.interfaces ? kInterfaces : "labels"},
+          {"surface", asked.smooth ? "smooth" : kVoxel},
+          {"of_run", bounds.of_run}};
+}
+
 ordered_json verify_report(const VerifyJob& job, const Verdict& verdict,
                            const Resources& resources) {
   const bool measured = verdict.looked_at();
   return {{"version", MW_VERSION},
           {"settings", job.options.json()},
+          {"asked", asked_json(verdict.bounds)},
           {"labels", verdict.table.size()},
           {"specks", specks_json(verdict.specks)},
           {"lattice", {{"layers_xyz", {verdict.layers.x, verdict.layers.y, verdict.layers.z}}}},
@@ -312,7 +365,7 @@ int run_verify(VerifyJob& job) {
   job.options.resolve();
   require_path(job.mesh, "MESH");
   check_choice(job.choice);
-  if (job.audit.count_places && (job.choice.labels || job.choice.background)) {
+  if (job.count_places.value_or(false) && (job.choice.labels || job.choice.background)) {
     throw Error(ErrorKind::kUsage,
                 "--topology interfaces: is for meshes of all labels, without --labels and "
                 "--background");

@@ -101,12 +101,12 @@ class ValidityAudit {
   }
 
   void conclude_orientation() {
-    const int majority = report_.positive_tets >= report_.negative_tets ? 1 : -1;
-    Offenders wrong("tets that are flat or turned the other way");
+    Offenders wrong("tets that are flat or turned over");
     for (std::size_t t = 0; t < sign_.size(); ++t) {
-      if (sign_[t] != majority) wrong.add([t] { return std::to_string(t); });
+      if (sign_[t] != 1) wrong.add([t] { return std::to_string(t); });
     }
-    report_.orientation = wrong.count() == 0 ? majority : 0;
+    if (wrong.count() == 0) report_.orientation = 1;
+    if (report_.negative_tets == sign_.size() && !sign_.empty()) report_.orientation = -1;
     conclude("orientation", wrong.count() == 0,
              std::to_string(report_.positive_tets) + " positive, " +
                  std::to_string(report_.negative_tets) + " negative, " +
@@ -119,19 +119,21 @@ class ValidityAudit {
       std::uint32_t vertex;
       auto operator<=>(const Placed&) const = default;
     };
+    Offenders unused("vertices in no tet");
     std::vector<Placed> placed(mesh_.vertices.size());
     for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
       placed[v] = {mesh_.vertices[v], v};
-      if (stars.star(v).empty()) ++report_.unused_vertices;
+      if (stars.star(v).empty()) unused.add([v] { return std::to_string(v); });
     }
+    report_.unused_vertices = unused.count();
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a < b; });
     Offenders same("vertices where another one is");
     for (std::size_t i = 1; i < placed.size(); ++i) {
       if (placed[i].at != placed[i - 1].at) continue;
       same.add([&] { return std::to_string(placed[i].vertex); });
     }
-    conclude("vertices", same.count() == 0,
-             same.text() + "; " + std::to_string(report_.unused_vertices) + " in no tet");
+    conclude("vertices", same.count() == 0 && unused.count() == 0,
+             same.text() + "; " + unused.text());
   }
 
   void check_tets(const MeshStars& stars) {
