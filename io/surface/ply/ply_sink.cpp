@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a surface as a binary .ply file.
+#include "io/surface/ply/ply_sink.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "io/file/errors.h"
+#include "io/mesh/medit/medit_names.h"
+#include "io/surface/append_little.h"
+#include "io/surface/surface_limits.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::string_view kColours =
+    "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+
+}  // namespace
+
+void PlySink::begin(const SurfaceHeader& header) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
+  check_most(name_, "vertices", header.vertices(), kMost);
+  header_ = header;
+  numbers_.emplace(header.labels->table, NumberRange{.least = 0});
+  cursor_.emplace(header_);
+  face_colours_ = has_colours(header);
+  vertex_colours_ = face_colours_ &&
+                    std::all_of(header.shells.begin(), header.shells.end(),
+                                [](const SurfaceShell& shell) { return shell.label.has_value(); });
+  file_.append(std::string_view("ply\nformat binary_little_endian 1.0\n"));
+  append_comments();
+  file_.append(text("element vertex ", header.vertices(),
+                    "\nproperty double x\nproperty double y\nproperty double z\n",
+                    vertex_colours_ ? kColours : "", "element face ", header.triangles(),
+                    "\nproperty list uchar int vertex_indices\nproperty int label_in\n"
+                    "property int label_out\nproperty uchar side\n",
+                    face_colours_ ? kColours : "", "end_header\n"));
+}
+
+void PlySink::append_comments() {
+  const LabelTable& table = header_.labels->table;
+  for (const Label rank : ranks_of(header_)) {
+    const RawLabel raw = table.raw(rank);
+    if (const LabelName* row = header_.labels->names.find(raw)) {
+      // Without the '#' of the other format.
+      file_.append("comment" + medit_comment(*row, table.is_signed()).substr(1));
+    }
+    const std::int64_t number = (*numbers_)[rank];
+    if (static_cast<RawLabel>(number) != raw) {
+      file_.append(text("comment number ", number, " is label ",
+                        table.is_signed() ? text(static_cast<std::int64_t>(raw)) : text(raw),
+                        "\n"));
+    }
+  }
+}
+
+void PlySink::append_colour(Label rank) {
+  const Colour colour = header_.labels->colour(rank);
+  for (std::size_t i = 0; i < 3; ++i) append_little(file_, colour[i]);
+}
+
+void PlySink::write_vertices(std::span<const Position> positions) {
+  for (const Position& position : positions) {
+    for (const double x : position) append_little(file_, x);
+    if (!vertex_colours_) continue;
+    while (shell_vertex_ == header_.shells[shell_].vertices) {
+      ++shell_;
+      shell_vertex_ = 0;
+    }
+    ++shell_vertex_;
+    append_colour(*header_.shells[shell_].label);
+  }
+}
+
+void PlySink::write_triangles(std::span<const Triangle> triangles) {
+  for (const Triangle& triangle : triangles) {
+    cursor_->next();
+    const SurfaceRun& run = cursor_->run();
+    append_little(file_, std::uint8_t{3});
+    for (const std::uint64_t vertex : triangle) {
+      append_little(file_, static_cast<std::int32_t>(vertex));
+    }
+    const bool between = run.side == Side::kInterface;
+    append_little(file_, static_cast<std::int32_t>((*numbers_)[run.inside]));
+    append_little(file_, static_cast<std::int32_t>(between ? (*numbers_)[run.outside] : 0));
+    append_little(file_, static_cast<std::uint8_t>(run.side));
+    if (face_colours_) append_colour(run.inside);
+  }
+}
+
+}  // namespace mw::io
