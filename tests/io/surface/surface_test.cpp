@@ -157,6 +157,60 @@ TEST_P(Surfaces, ManifoldIsAManifoldOfTheSamePlaces) {
   }
 }
 
+/// Which of the label's tets at a vertex are reached from which through triangles there: by tet the
+/// least of those.
+std::map<std::size_t, std::size_t> parts_at(const MeshData& mesh, RawLabel label,
+                                            std::uint64_t row) {
+  std::map<std::size_t, std::size_t> part;
+  std::map<std::size_t, std::set<std::uint64_t>> corners;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const std::set<std::uint64_t> here(mesh.tets[t].begin(), mesh.tets[t].end());
+    if (mesh.labels[t] != label || !here.contains(row)) continue;
+    part[t] = t;
+    corners[t] = here;
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (auto& [a, of_a] : part) {
+      for (auto& [b, of_b] : part) {
+        const auto shared = std::count_if(corners[a].begin(), corners[a].end(),
+                                          [&](std::uint64_t c) { return corners[b].contains(c); });
+        if (shared < 3 || of_a == of_b) continue;
+        of_a = of_b = std::min(of_a, of_b);
+        changed = true;
+      }
+    }
+  }
+  return part;
+}
+
+TEST_P(Surfaces, ManifoldKeepsTogetherWhatBoundsTheSameTets) {
+  const ShellPlans plans(mesh_.mesh(), true);
+  std::map<Position, std::uint64_t> row_at;
+  for (std::uint64_t row = 0; row < data_.vertices.size(); ++row) row_at[data_.vertices[row]] = row;
+  for (Label rank = 0; rank < labels(); ++rank) {
+    const CollectSurface surface = mesh_.collect({plans.of_label(rank)}, true);
+    std::map<std::uint64_t, std::map<std::size_t, std::size_t>> parts;
+    std::map<std::uint64_t, std::size_t> part_of;  // by vertex of the surface
+    for (const Triangle& triangle : surface.triangles) {
+      std::set<std::uint64_t> rows;
+      for (const std::uint64_t v : triangle) rows.insert(row_at.at(surface.vertices[v]));
+      for (const std::uint64_t v : triangle) {
+        const std::uint64_t row = row_at.at(surface.vertices[v]);
+        if (!parts.contains(row)) parts[row] = parts_at(data_, raw(rank), row);
+        const auto inside =
+            std::find_if(parts[row].begin(), parts[row].end(), [&](const auto& tet) {
+              const std::set<std::uint64_t> here(data_.tets[tet.first].begin(),
+                                                 data_.tets[tet.first].end());
+              return std::includes(here.begin(), here.end(), rows.begin(), rows.end());
+            });
+        ASSERT_TRUE(inside != parts[row].end());
+        ASSERT_EQ(part_of.emplace(v, inside->second).first->second, inside->second);
+      }
+    }
+  }
+}
+
 TEST_P(Surfaces, OpenLeavesTheBoxOutAndNothingElse) {
   const ShellPlans closed(mesh_.mesh(), true);
   const ShellPlans open(mesh_.mesh(), false);
