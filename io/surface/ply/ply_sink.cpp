@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::string_view kColours =
     "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+constexpr std::string_view kOnVertices = "property int label\n";
+constexpr std::string_view kOnFaces =
+    "property int label_in\nproperty int label_out\nproperty uchar side\n";
 
 }  // namespace
 
@@ -25,18 +28,19 @@ void PlySink::begin(const SurfaceHeader& header) {
   header_ = header;
   numbers_.emplace(header.labels->table, NumberRange{.least = 0});
   cursor_.emplace(header_);
-  face_colours_ = has_colours(header);
-  vertex_colours_ = face_colours_ &&
-                    std::all_of(header.shells.begin(), header.shells.end(),
-                                [](const SurfaceShell& shell) { return shell.label.has_value(); });
+  colours_ = has_colours(header);
+  of_labels_ = std::all_of(header.shells.begin(), header.shells.end(),
+                           [](const SurfaceShell& shell) { return shell.label.has_value(); });
+  const std::string_view colours = colours_ ? kColours : "";
   file_.append(std::string_view("ply\nformat binary_little_endian 1.0\n"));
   append_comments();
   file_.append(text("element vertex ", header.vertices(),
-                    "\nproperty double x\nproperty double y\nproperty double z\n",
-                    vertex_colours_ ? kColours : "", "element face ", header.triangles(),
-                    "\nproperty list uchar int vertex_indices\nproperty int label_in\n"
-                    "property int label_out\nproperty uchar side\n",
-                    face_colours_ ? kColours : "", "end_header\n"));
+                    "\nproperty double x\nproperty double y\nproperty double z\n"));
+  if (of_labels_) file_.append(text(kOnVertices, colours));
+  file_.append(
+      text("element face ", header.triangles(), "\nproperty list uchar int vertex_indices\n"));
+  if (!of_labels_) file_.append(text(kOnFaces, colours));
+  file_.append(std::string_view("end_header\n"));
 }
 
 void PlySink::append_comments() {
@@ -56,7 +60,12 @@ void PlySink::append_comments() {
   }
 }
 
+void PlySink::append_number(Label rank) {
+  append_little(file_, static_cast<std::int32_t>((*numbers_)[rank]));
+}
+
 void PlySink::append_colour(Label rank) {
+  if (!colours_) return;
   const Colour colour = header_.labels->colour(rank);
   for (std::size_t i = 0; i < 3; ++i) append_little(file_, colour[i]);
 }
@@ -64,29 +73,34 @@ void PlySink::append_colour(Label rank) {
 void PlySink::write_vertices(std::span<const Position> positions) {
   for (const Position& position : positions) {
     for (const double x : position) append_little(file_, x);
-    if (!vertex_colours_) continue;
+    if (!of_labels_) continue;
     while (shell_vertex_ == header_.shells[shell_].vertices) {
       ++shell_;
       shell_vertex_ = 0;
     }
     ++shell_vertex_;
+    append_number(*header_.shells[shell_].label);
     append_colour(*header_.shells[shell_].label);
   }
 }
 
 void PlySink::write_triangles(std::span<const Triangle> triangles) {
   for (const Triangle& triangle : triangles) {
-    cursor_->next();
-    const SurfaceRun& run = cursor_->run();
     append_little(file_, std::uint8_t{3});
     for (const std::uint64_t vertex : triangle) {
       append_little(file_, static_cast<std::int32_t>(vertex));
     }
-    const bool between = run.side == Side::kInterface;
-    append_little(file_, static_cast<std::int32_t>((*numbers_)[run.inside]));
-    append_little(file_, static_cast<std::int32_t>(between ? (*numbers_)[run.outside] : 0));
+    if (of_labels_) continue;
+    cursor_->next();
+    const SurfaceRun& run = cursor_->run();
+    append_number(run.inside);
+    if (run.side == Side::kInterface) {
+      append_number(run.outside);
+    } else {
+      append_little(file_, std::int32_t{0});
+    }
     append_little(file_, static_cast<std::uint8_t>(run.side));
-    if (face_colours_) append_colour(run.inside);
+    append_colour(run.inside);
   }
 }
 

@@ -9,11 +9,12 @@
 
 namespace mw::io {
 
-/// Little-endian.  Vertices: x y z (double); faces: vertex_indices (int), label_in, label_out (int;
-/// 0 where a face is on no interface) and side (uchar, see Side).  Where colours of labels are
-/// known faces have red green blue, those of label_in, and vertices too if every shell is the
-/// surface of a label.  Comments hold names and colours; labels beyond 31 bits get numbers, and a
-/// comment says which.
+/// Little-endian.  Vertices: x y z (double); faces: vertex_indices (int).
+/// Surfaces of labels have more on their vertices alone, which simple readers expect: label (int),
+/// red green blue (uchar).  Those of interfaces have it on their faces: label_in, label_out (int; 0
+/// where a face is on no interface), side (uchar, see Side), red green blue, those of label_in.
+/// Colours are there if that of any label is known.  Comments hold names and colours; labels beyond
+/// 31 bits get numbers, and a comment says which.
 class PlySink : public SurfaceSink {
  public:
   explicit PlySink(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
@@ -25,6 +26,7 @@ class PlySink : public SurfaceSink {
 
  private:
   void append_comments();
+  void append_number(Label rank);
   void append_colour(Label rank);
 
   std::string name_;
@@ -32,8 +34,8 @@ class PlySink : public SurfaceSink {
   SurfaceHeader header_;
   std::optional<LabelNumbers> numbers_;
   std::optional<RunCursor> cursor_;
-  bool face_colours_ = false;
-  bool vertex_colours_ = false;
+  bool of_labels_ = false;
+  bool colours_ = false;
   std::size_t shell_ = 0;           ///< that the next vertex belongs to
   std::uint64_t shell_vertex_ = 0;  ///< its number there
 };
