@@ -144,8 +144,10 @@ void add_surface_command(CLI::App& program, Action& chosen) {
                       "surface of this label, with what lies on the box; of a list, 1,2,5, the "
                       "surface of each");
   command->add_option("--pair", flags->pair, "A,B: the interface of these two");
-  command->add_flag("--each", flags->each,
-                    "each label in a file of its own: -o 'parts/{label}.stl'");
+  command->add_flag(
+      "--each", flags->each,
+      "each label in a file of its own: -o 'parts/{label}.stl', which says as much by "
+      "itself, or --format stl -o parts");
   command->add_flag("--manifold", flags->manifold,
                     "vertices are doubled where a surface touches itself, so every surface is a "
                     "manifold; of interfaces each gets its own vertices");

@@ -73,6 +73,10 @@ std::string format_of(const SurfaceFlags& flags) {
   return flags.format;
 }
 
+bool names_each(const SurfaceFlags& flags) {
+  return flags.each || flags.output.find(kLabelPlace) != std::string::npos;
+}
+
 /// Where each label goes: as it is with `{label}` in it, else into a folder.
 std::string pattern_of(const SurfaceFlags& flags, const std::string& format) {
   if (flags.output.find(kLabelPlace) != std::string::npos) return flags.output;
@@ -88,13 +92,16 @@ void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
   const std::string format = format_of(flags);
   if (is_folder_format(format)) {
     if (request.pair) fail("--pair: precomputed meshes are surfaces of labels; write .vtp or .ply");
+    if (flags.output.find(kLabelPlace) != std::string::npos) {
+      fail("-o " + flags.output + ": one folder of precomputed meshes holds all labels");
+    }
     request.target = SurfaceTarget::kFolder;
     if (format == "draco") request.folder.kind = io::FragmentKind::kDraco;
     if (!flags.unit.empty()) request.folder.nm_per_unit = nm_of(flags.unit);
     return;
   }
   if (!flags.unit.empty()) fail("--unit: only precomputed meshes have a unit, nm");
-  if (flags.each) {
+  if (names_each(flags)) {
     request.target = SurfaceTarget::kEachFile;
     request.output = pattern_of(flags, format);
   } else if (!io::is_surface_path(flags.output)) {
@@ -112,8 +119,8 @@ SurfaceRequest parse_surface_request(const SurfaceFlags& flags) {
                          .pair = {},
                          .manifold = flags.manifold,
                          .closed = !flags.open};
-  if (!flags.pair.empty() && (!flags.label.empty() || flags.each)) {
-    fail("--pair: not together with --label or --each");
+  if (!flags.pair.empty() && (!flags.label.empty() || names_each(flags))) {
+    fail(std::string("--pair: not together with --label, --each or ") + kLabelPlace);
   }
   if (!flags.label.empty()) request.labels = parse_label_list(flags.label);
   if (!flags.pair.empty()) request.pair = parse_pair(flags.pair);

@@ -22,8 +22,10 @@ TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
   expect_failure(2, "surface m.vtu -o s.stl --each", "{label}");
   expect_failure(2, "surface m.vtu -o s.stl --unit nm", "--unit");
   expect_failure(2, "surface m.vtu -o s --unit ft", "--unit ft");
+  expect_failure(2, "surface m.vtu -o 's/{label}'", "all labels");
   expect_failure(2, "surface m.vtu -o s --pair 1,2", "--pair");
   expect_failure(2, "surface m.vtu -o s.stl --pair 1,2 --label 1", "--pair");
+  expect_failure(2, "surface m.vtu -o '{label}.stl' --pair 1,2", "--pair");
   expect_failure(2, "surface m.vtu -o s.stl --pair 1", "--pair 1");
   expect_failure(2, "surface m.vtu -o s.stl --pair 3,3", "--pair 3,3");
   expect_failure(2, "surface m.vtu -o s.stl --label x", "--label x");

@@ -203,7 +203,7 @@ class Surfaces(unittest.TestCase):
         self.assertGreater(touching, 0)
 
     def test_each(self):
-        run("surface", "v.vtu", "--each", "-o", "parts/{label}.stl")
+        run("surface", "v.vtu", "-o", "parts/{label}.stl")
         self.assertEqual(set(os.listdir("parts")), {f"{label}.stl" for label in self.volumes})
         run("surface", "v.vtu", "--each", "--format", "stl", "-o", "more")
         for label, expected in self.volumes.items():
