@@ -22,6 +22,7 @@ void add_digest_command(CLI::App& program, Action& chosen);
 void add_info_command(CLI::App& program, Action& chosen);
 void add_stats_command(CLI::App& program, Action& chosen);
 void add_convert_command(CLI::App& program, Action& chosen);
+void add_surface_command(CLI::App& program, Action& chosen);
 void add_synth_command(CLI::App& program, Action& chosen);
 
 }  // namespace mw::cli

@@ -55,7 +55,8 @@ bool is_concrete_io(const std::string& name) {
   }
   const std::string folder = folder_of(name);
   return (folder.starts_with("io/volume/") && folder != "io/volume/") ||
-         (folder.starts_with("io/mesh/") && folder != "io/mesh/");
+         (folder.starts_with("io/mesh/") && folder != "io/mesh/") ||
+         folder.starts_with("io/surface/");
 }
 
 bool kernels_may(const std::string& file, const Include& include) {
@@ -76,8 +77,9 @@ bool io_may(const Include& include) {
   const std::string& name = include.name;
   if (include.quoted) return is_below(name, {"io/", "kernels/core/"});
   return is_standard(name) || is_posix(name) ||
-         is_below(name, {"blosc.h", "bzlib.h", "hdf5.h", "lz4.h", "lzma.h", "nlohmann/", "openssl/",
-                         "png.h", "pugixml.hpp", "tiffio.h", "zlib.h", "zstd.h", "zstd_errors.h"});
+         is_below(name, {"blosc.h", "bzlib.h", "draco/", "hdf5.h", "lz4.h", "lzma.h", "nlohmann/",
+                         "openssl/", "png.h", "pugixml.hpp", "tiffio.h", "zlib.h", "zstd.h",
+                         "zstd_errors.h"});
 }
 
 bool engine_may(const std::string& file, const Include& include) {

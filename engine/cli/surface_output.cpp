@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where surfaces go.
+#include "engine/cli/surface_output.h"
+
+#include <cerrno>
+#include <filesystem>
+
+#include "io/file/errors.h"
+#include "io/surface/open_surface.h"
+
+namespace mw::cli {
+namespace {
+
+class FileOutput : public SurfaceOutput {
+ public:
+  explicit FileOutput(const std::string& path) : sink_(io::open_surface_sink(path)) {}
+
+  std::unique_ptr<io::SurfaceSink> sink(RawLabel, const std::string&) override {
+    return std::move(sink_);
+  }
+  void finish(const io::LabelNames&) override {}
+
+ private:
+  std::unique_ptr<io::SurfaceSink> sink_;
+};
+
+class EachFileOutput : public SurfaceOutput {
+ public:
+  explicit EachFileOutput(std::string pattern) : pattern_(std::move(pattern)) {}
+
+  std::unique_ptr<io::SurfaceSink> sink(RawLabel, const std::string& digits) override {
+    const std::string_view place(kLabelPlace);
+    std::string name = pattern_;
+    for (std::size_t at = name.find(place); at != name.npos; at = name.find(place, at)) {
+      name.replace(at, place.size(), digits);
+    }
+    const std::filesystem::path path(name);
+    std::error_code failed;
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
+    if (failed) io::fail_output(path.parent_path().string(), "create", failed.value());
+    return io::open_surface_sink(path);
+  }
+  void finish(const io::LabelNames&) override {}
+
+ private:
+  std::string pattern_;
+};
+
+class FolderOutput : public SurfaceOutput {
+ public:
+  explicit FolderOutput(const SurfaceRequest& request) : folder_(request.output, request.folder) {}
+
+  std::unique_ptr<io::SurfaceSink> sink(RawLabel label, const std::string&) override {
+    return folder_.sink(label);
+  }
+  void finish(const io::LabelNames& names) override { folder_.finish(names); }
+
+ private:
+  io::MeshFolder folder_;
+};
+
+}  // namespace
+
+bool is_folder_format(std::string_view format) {
+  return format == "precomputed" || format == "draco";
+}
+
+std::unique_ptr<SurfaceOutput> open_surface_output(const SurfaceRequest& request) {
+  switch (request.target) {
+    case SurfaceTarget::kFolder:
+      return std::make_unique<FolderOutput>(request);
+    case SurfaceTarget::kEachFile:
+      return std::make_unique<EachFileOutput>(request.output);
+    case SurfaceTarget::kFile:
+      break;
+  }
+  return std::make_unique<FileOutput>(request.output);
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What mwmesh surface is asked for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/surface/precomputed/mesh_folder.h"
+#include "kernels/core/label.h"
+
+namespace mw::cli {
+
+/// The command line as it was typed; empty: not given.
+struct SurfaceFlags {
+  std::string mesh;
+  std::string output;
+  std::string label;
+  std::string pair;
+  std::string format;
+  std::string unit;
+  bool each = false;
+  bool manifold = false;
+  bool open = false;
+};
+
+enum class SurfaceTarget {
+  kFile,      ///< all in one
+  kEachFile,  ///< one a label, `{label}` in the path
+  kFolder,    ///< precomputed meshes
+};
+
+struct SurfaceRequest {
+  std::string mesh;
+  std::string output;
+  SurfaceTarget target = SurfaceTarget::kFile;
+  io::MeshFolderOptions folder;  ///< with kFolder
+  std::vector<RawLabel> labels;  ///< surfaces of these; empty: of all, or interfaces
+  std::optional<std::array<RawLabel, 2>> pair;
+  bool manifold = false;
+  bool closed = true;
+};
+
+/// ERRORS: mw::Error(kUsage) for values that are none, contradict each other or are not written.
+[[nodiscard]] SurfaceRequest parse_surface_request(const SurfaceFlags& flags);
+
+}  // namespace mw::cli

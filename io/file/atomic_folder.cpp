@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// An output folder that appears under its name only when it is whole.
+#include "io/file/atomic_folder.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+
+#include "io/file/errors.h"
+
+namespace mw::io {
+namespace {
+
+/// Without a '/' at its end; nothing may be there but an empty folder.
+std::filesystem::path free_target(const std::filesystem::path& target) {
+  const std::filesystem::path name = target.has_filename() ? target : target.parent_path();
+  std::error_code failed;
+  const bool exists = std::filesystem::exists(name, failed);
+  const bool is_free = !exists || (std::filesystem::is_directory(name, failed) &&
+                                   std::filesystem::is_empty(name, failed));
+  if (is_free && !failed && name.has_filename()) return name;
+  throw Error(ErrorKind::kUsage,
+              target.string() +
+                  ": is written as a new folder, and there is something already; "
+                  "remove it or give another name");
+}
+
+std::filesystem::path partial_name(const std::filesystem::path& target) {
+  static std::atomic<unsigned> counter{0};
+  return target.parent_path() /
+         text(".", target.filename().string(), ".partial-", ::getpid(), "-", counter++);
+}
+
+}  // namespace
+
+AtomicFolder::AtomicFolder(const std::filesystem::path& target) : target_(free_target(target)) {
+  int made = 0;
+  do {
+    partial_ = partial_name(target_);
+    made = ::mkdir(partial_.c_str(), 0777);
+  } while (made != 0 && errno == EEXIST);
+  if (made != 0) fail_output(target_.string(), "create", errno);
+}
+
+AtomicFolder::~AtomicFolder() {
+  std::error_code ignored;
+  if (!committed_) std::filesystem::remove_all(partial_, ignored);
+}
+
+void AtomicFolder::commit() {
+  if (std::rename(partial_.c_str(), target_.c_str()) != 0) {
+    fail_output(target_.string(), "rename to", errno);
+  }
+  committed_ = true;
+}
+
+}  // namespace mw::io

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes surfaces in every format there is.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "io/surface/surface_sink.h"
+
+namespace mw::io {
+
+/// The extensions that are written, as ".stl, .ply, .obj, .vtp".
+[[nodiscard]] std::string surface_extensions();
+[[nodiscard]] bool is_surface_path(const std::filesystem::path& path);
+
+/// By extension.  ERRORS: mw::Error(kUsage) for one that is not known, or a path that cannot be
+/// written.
+[[nodiscard]] std::unique_ptr<SurfaceSink> open_surface_sink(const std::filesystem::path& path);
+
+}  // namespace mw::io

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a surface as a binary .ply file.
+#pragma once
+
+#include "io/file/atomic_file.h"
+#include "io/mesh/grouped/label_numbers.h"
+#include "io/surface/surface_sink.h"
+
+namespace mw::io {
+
+/// Little-endian.  Vertices: x y z (double); faces: vertex_indices (int).
+/// Surfaces of labels have more on their vertices alone, which simple readers expect: label (int),
+/// red green blue (uchar).  Those of interfaces have it on their faces: label_in, label_out (int; 0
+/// where a face is on no interface), side (uchar, see Side), red green blue, those of label_in.
+/// Colours are there if that of any label is known.  Comments hold names and colours; labels beyond
+/// 31 bits get numbers, and a comment says which.
+class PlySink : public SurfaceSink {
+ public:
+  explicit PlySink(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
+
+  void begin(const SurfaceHeader& header) override;
+  void write_vertices(std::span<const Position> positions) override;
+  void write_triangles(std::span<const Triangle> triangles) override;
+  void finish() override { file_.commit(); }
+
+ private:
+  void append_comments();
+  void append_number(Label rank);
+  void append_colour(Label rank);
+
+  std::string name_;
+  AtomicFile file_;
+  SurfaceHeader header_;
+  std::optional<LabelNumbers> numbers_;
+  std::optional<RunCursor> cursor_;
+  bool of_labels_ = false;
+  bool colours_ = false;
+  std::size_t shell_ = 0;           ///< that the next vertex belongs to
+  std::uint64_t shell_vertex_ = 0;  ///< its number there
+};
+
+}  // namespace mw::io

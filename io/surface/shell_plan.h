@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which facets of a mesh make a surface.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "io/mesh/grouped/grouped_mesh.h"
+
+namespace mw::io {
+
+/// Facets of one group.
+struct ShellPart {
+  std::size_t group = 0;  ///< of GroupedMesh::facet_groups()
+  bool turned = false;    ///< normals are to point out of its second label
+};
+
+/// Facets that make one shell.
+struct ShellPlan {
+  std::optional<Label> label;    ///< the surface of this one; empty: of interfaces
+  std::vector<ShellPart> parts;  ///< ascending by group
+};
+
+/// Finds the facets of labels and pairs.  Memory: 32 bytes a group of facets.
+class ShellPlans {
+ public:
+  /// closed: surfaces of labels have their facets on the sides of the box.
+  /// REQUIRES: mesh outlives it.
+  ShellPlans(const GroupedMesh& mesh, bool closed);
+
+  /// All that bounds a label, normals outwards.
+  [[nodiscard]] ShellPlan of_label(Label rank) const;
+  /// Where both meet, normals out of the lower one; without parts where they do not.
+  [[nodiscard]] ShellPlan of_pair(Label one, Label other) const;
+  /// All interfaces of two labels, normals out of the lower one, and where labels meet what was
+  /// left out of the mesh.  The box is no interface.
+  [[nodiscard]] ShellPlan of_interfaces() const;
+  /// The same, each a shell of its own.
+  [[nodiscard]] std::vector<ShellPlan> of_each_interface() const;
+
+ private:
+  const GroupedMesh& mesh_;
+  std::vector<std::vector<ShellPart>> by_label_;
+};
+
+}  // namespace mw::io

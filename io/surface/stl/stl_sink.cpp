@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes triangles as a binary .stl file.
+#include "io/surface/stl/stl_sink.h"
+
+#include <cmath>
+#include <limits>
+
+#include "io/surface/append_little.h"
+#include "io/surface/surface_limits.h"
+
+namespace mw::io {
+namespace {
+
+/// Does not begin with "solid", by which readers know the other kind of .stl.
+constexpr std::string_view kTitle = "binary STL, surface of a labelled mesh";
+constexpr std::size_t kTitleBytes = 80;
+
+Position minus(const Position& a, const Position& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// Of length 1; 0 0 0 where the corners are on one line.
+Position normal_of(const std::array<Position, 3>& corners) {
+  const Position u = minus(corners[1], corners[0]);
+  const Position v = minus(corners[2], corners[0]);
+  Position n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  const double length = std::hypot(n[0], n[1], n[2]);
+  for (double& x : n) x = length > 0 ? x / length : 0;
+  return n;
+}
+
+void append_floats(AtomicFile& file, const Position& p) {
+  for (const double x : p) append_little(file, static_cast<float>(x));
+}
+
+}  // namespace
+
+StlSink::StlSink(const std::filesystem::path& path)
+    : name_(path.string()), file_(path), vertices_(scratch_folder()) {}
+
+void StlSink::begin(const SurfaceHeader& header) {
+  const std::uint64_t count = header.triangles();
+  check_most(name_, "triangles", count, std::numeric_limits<std::uint32_t>::max());
+  std::string title(kTitle);
+  title.resize(kTitleBytes, ' ');
+  file_.append(title);
+  append_little(file_, static_cast<std::uint32_t>(count));
+}
+
+void StlSink::write_vertices(std::span<const Position> positions) {
+  for (const Position& p : positions) vertices_.append(p);
+}
+
+void StlSink::write_triangles(std::span<const Triangle> triangles) {
+  for (const Triangle& triangle : triangles) {
+    std::array<Position, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = vertices_[triangle[i]];
+    append_floats(file_, normal_of(corners));
+    for (const Position& corner : corners) append_floats(file_, corner);
+    append_little(file_, std::uint16_t{0});
+  }
+}
+
+}  // namespace mw::io

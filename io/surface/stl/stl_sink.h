@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes triangles as a binary .stl file.
+#pragma once
+
+#include "io/file/atomic_file.h"
+#include "io/file/paged_file.h"
+#include "io/surface/surface_sink.h"
+
+namespace mw::io {
+
+/// 80 bytes of text, the number of triangles in 32 bits, then for each its normal and its corners
+/// as 32-bit floats and two bytes of 0.  The format has neither labels nor vertices: who reads it
+/// puts together what has the same coordinates.
+/// Memory: 10 MiB; corners wait in a temporary file.
+class StlSink : public SurfaceSink {
+ public:
+  explicit StlSink(const std::filesystem::path& path);
+
+  void begin(const SurfaceHeader& header) override;
+  void write_vertices(std::span<const Position> positions) override;
+  void write_triangles(std::span<const Triangle> triangles) override;
+  void finish() override { file_.commit(); }
+
+ private:
+  std::string name_;
+  AtomicFile file_;
+  PagedFile<Position> vertices_;
+};
+
+}  // namespace mw::io

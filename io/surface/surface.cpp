@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Facets of a mesh as a surface with vertices of its own.
+#include "io/surface/surface.h"
+
+#include <algorithm>
+
+#include "io/file/external_sort.h"
+#include "io/surface/vertex_sheets.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kSortBytes = 8 << 20;
+
+/// Row of the mesh, sheet, corner.
+using CornersByVertex = ExternalSort<3>;
+/// Corner, vertex of the surface.
+using VerticesByCorner = ExternalSort<2>;
+
+void add_corners(const SurfaceSource& source, const ShellPlan& plan, CornersByVertex& corners) {
+  std::uint64_t corner = 0;
+  each_facet(source.mesh, plan, [&](const Triangle& rows) {
+    for (const std::uint64_t row : rows) corners.add({row, 0, corner++});
+  });
+}
+
+SurfaceShell shell_of(const GroupedMesh& mesh, const ShellPlan& plan) {
+  SurfaceShell shell{.label = plan.label, .runs = {}};
+  for (const ShellPart& part : plan.parts) {
+    const FacetGroup& group = mesh.facet_groups()[part.group];
+    shell.runs.push_back({.side = group.side,
+                          .inside = inside_of(mesh, part),
+                          .outside = part.turned ? group.first : group.second,
+                          .triangles = group.facets.size()});
+  }
+  return shell;
+}
+
+/// Calls use(records) on all of a file, some at a time.
+template <class Record, class Use>
+void each_batch(ScratchFile& file, Use use) {
+  std::vector<Record> batch;
+  for (std::uint64_t at = 0; at < file.size(); at += batch.size() * sizeof(Record)) {
+    batch.resize(std::min<std::uint64_t>(4096, (file.size() - at) / sizeof(Record)));
+    file.read_at(at, std::as_writable_bytes(std::span(batch)));
+    use(batch);
+  }
+}
+
+}  // namespace
+
+Surface::Surface(const SurfaceSource& source, std::shared_ptr<const SurfaceLabels> labels,
+                 const std::vector<ShellPlan>& plans, bool manifold)
+    : vertices_(source.folder), triangles_(source.folder) {
+  header_.labels = std::move(labels);
+  for (const ShellPlan& plan : plans) add_shell(source, plan, manifold);
+}
+
+void Surface::add_shell(const SurfaceSource& source, const ShellPlan& plan, bool manifold) {
+  CornersByVertex corners(source.folder, kSortBytes);
+  if (manifold) {
+    each_sheet_corner(source, plan, [&](const SheetCorner& at) {
+      corners.add({at.row, at.sheet, at.corner});
+    });
+  } else {
+    add_corners(source, plan, corners);
+  }
+  header_.shells.push_back(shell_of(source.mesh, plan));
+  const std::uint64_t first = vertices_.size() / sizeof(Position);
+  std::uint64_t& count = header_.shells.back().vertices;
+  VerticesByCorner vertices(source.folder, kSortBytes);
+  std::array<std::uint64_t, 2> last{};
+  corners.each([&](const CornersByVertex::Record& record) {
+    const std::array<std::uint64_t, 2> vertex{record[0], record[1]};
+    if (count == 0 || vertex != last) {
+      const Position position = source.mesh.node(record[0]);
+      vertices_.append(std::as_bytes(std::span(position)));
+      ++count;
+    }
+    last = vertex;
+    vertices.add({record[2], first + count - 1});
+  });
+  vertices.each([&](const VerticesByCorner::Record& record) {
+    triangles_.append(std::as_bytes(std::span(&record[1], 1)));
+  });
+}
+
+void Surface::write(SurfaceSink& sink) {
+  sink.begin(header_);
+  each_batch<Position>(vertices_, [&](const auto& batch) { sink.write_vertices(batch); });
+  each_batch<Triangle>(triangles_, [&](const auto& batch) { sink.write_triangles(batch); });
+  sink.finish();
+}
+
+}  // namespace mw::io

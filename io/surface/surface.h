@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Facets of a mesh as a surface with vertices of its own.
+#pragma once
+
+#include "io/surface/shell_facets.h"
+
+namespace mw::io {
+
+/// Vertices and triangles of shells, in temporary files.
+class Surface {
+ public:
+  /// Vertices of a shell ascend by their row in the mesh, triangles are as planned.
+  /// manifold: see each_sheet_corner(), for every shell.  REQUIRES: all parts of a shell have the
+  /// same label inside then.
+  /// Memory: 32 MiB, and with manifold what each_sheet_corner() takes.
+  /// Cost: two sorts of three numbers a corner.
+  Surface(const SurfaceSource& source, std::shared_ptr<const SurfaceLabels> labels,
+          const std::vector<ShellPlan>& plans, bool manifold);
+
+  [[nodiscard]] const SurfaceHeader& header() const { return header_; }
+  /// Begin to finish.
+  void write(SurfaceSink& sink);
+
+ private:
+  void add_shell(const SurfaceSource& source, const ShellPlan& plan, bool manifold);
+
+  SurfaceHeader header_;
+  ScratchFile vertices_;
+  ScratchFile triangles_;
+};
+
+}  // namespace mw::io

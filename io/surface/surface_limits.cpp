@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What formats with numbers of 32 bits can hold.
+#include "io/surface/surface_limits.h"
+
+#include "io/file/errors.h"
+
+namespace mw::io {
+
+void check_most(std::string_view file, std::string_view what, std::uint64_t count,
+                std::uint64_t most) {
+  if (count <= most) return;
+  throw Error(ErrorKind::kUsage, text(file, ": ", count, " ", what, " are more than the ", most,
+                                      " that this format can hold; write .vtp"));
+}
+
+}  // namespace mw::io

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which corners of facets at a vertex are one vertex of a surface that is a manifold.
+#include "io/surface/vertex_sheets.h"
+
+#include <algorithm>
+
+#include "io/file/external_sort.h"
+#include "io/surface/edge_strands.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kSortBytes = 8 << 20;
+constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
+
+/// A facet as seen from one of its corners: it leaves along the edge to `to`, and comes back along
+/// that from `from`.
+struct StarCorner {
+  std::uint64_t to = 0;
+  std::uint64_t from = 0;
+  std::uint64_t corner = 0;
+  std::uint64_t sheet = 0;
+};
+
+/// All facets at one vertex, ascending by `to`.
+struct Star {
+  std::uint64_t row = 0;
+  std::vector<StarCorner> corners;
+};
+
+/// The corner of the facet that leaves along the edge to `to` and has `from` as third corner; with
+/// kNoCorner the first that leaves there.  Null when there is none.
+StarCorner* leaving(Star& star, std::uint64_t to, std::uint64_t from) {
+  auto at = std::lower_bound(star.corners.begin(), star.corners.end(), to,
+                             [](const StarCorner& c, std::uint64_t row) { return c.to < row; });
+  for (; at != star.corners.end() && at->to == to; ++at) {
+    if (from == kNoCorner || at->from == from) return &*at;
+  }
+  return nullptr;
+}
+
+/// The facet that follows around the vertex: the partner at the edge by which this one comes back.
+StarCorner* next_corner(Star& star, const StarCorner& at, const EdgeStrands& strands) {
+  const auto shared = strands.find({std::min(star.row, at.from), std::max(star.row, at.from)});
+  if (shared == strands.end()) return leaving(star, at.from, kNoCorner);
+  const bool comes_back = star.row < at.from;  // against the order of rows
+  for (const Strand& strand : shared->second) {
+    if ((comes_back ? strand.backward : strand.forward) != at.to) continue;
+    const std::uint64_t partner = comes_back ? strand.forward : strand.backward;
+    return partner == kNoCorner ? nullptr : leaving(star, at.from, partner);
+  }
+  return nullptr;
+}
+
+/// Gives the corners from here on their sheet, if they have none.
+void name_sheet(Star& star, StarCorner& first, const EdgeStrands& strands) {
+  std::vector<StarCorner*> fan;
+  std::uint64_t least = kUnknown;
+  for (StarCorner* at = &first; at != nullptr && at->sheet == kUnknown;
+       at = next_corner(star, *at, strands)) {
+    at->sheet = first.corner;
+    least = std::min(least, at->corner);
+    fan.push_back(at);
+  }
+  for (StarCorner* const at : fan) at->sheet = least;
+}
+
+/// Every sheet is called by the least corner in it.
+void find_sheets(Star& star, const EdgeStrands& strands) {
+  std::vector<bool> begins(star.corners.size(), true);
+  for (StarCorner& corner : star.corners) {
+    corner.sheet = kUnknown;
+    const StarCorner* next = next_corner(star, corner, strands);
+    if (next != nullptr) begins[static_cast<std::size_t>(next - star.corners.data())] = false;
+  }
+  // Open fans from their beginning on, then those that are closed.
+  for (const bool open : {true, false}) {
+    for (std::size_t i = 0; i < star.corners.size(); ++i) {
+      if (begins[i] == open) name_sheet(star, star.corners[i], strands);
+    }
+  }
+}
+
+/// Stars of the ends of shared edges, by row.
+using Stars = std::map<std::uint64_t, Star>;
+
+/// The sheet of a strand's facets at one end of the edge.
+std::uint64_t sheet_at(Star& star, std::uint64_t other_end, const Strand& strand) {
+  const bool ascends = star.row < other_end;
+  // The facet that leaves along the edge, or else the one that comes back.
+  const std::uint64_t leaves = ascends ? strand.forward : strand.backward;
+  const StarCorner* const at =
+      leaves != kNoCorner ? leaving(star, other_end, leaves)
+                          : leaving(star, ascends ? strand.backward : strand.forward, other_end);
+  return at == nullptr ? kUnknown : at->sheet;  // there is none where a tet has a corner twice
+}
+
+/// Whether two strands of one edge would be one edge of more than two facets.
+bool clash(Stars& stars, const EdgeRows& edge, const Strand& one, const Strand& other) {
+  const bool two_rims = (one.forward == kNoCorner && other.backward == kNoCorner) ||
+                        (one.backward == kNoCorner && other.forward == kNoCorner);
+  if (two_rims) return false;  // two facets in opposite directions
+  for (std::size_t end = 0; end < 2; ++end) {
+    Star& star = stars.at(edge[end]);
+    if (sheet_at(star, edge[1 - end], one) != sheet_at(star, edge[1 - end], other)) return false;
+  }
+  return true;
+}
+
+/// To change partners splits the sheet at either end in two, so what does not clash never will.
+void part_clashes(Stars& stars, EdgeStrands& strands) {
+  for (auto& [edge, here] : strands) {
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      for (std::size_t j = i + 1; j < here.size(); ++j) {
+        if (!clash(stars, edge, here[i], here[j])) continue;
+        std::swap(here[i].backward, here[j].backward);
+        for (const std::uint64_t row : edge) find_sheets(stars.at(row), strands);
+      }
+    }
+  }
+}
+
+void pass_on(const Star& star, const std::function<void(const SheetCorner&)>& visit) {
+  for (const StarCorner& corner : star.corners) visit({star.row, corner.sheet, corner.corner});
+}
+
+/// Row, next corner's row, third corner's row, corner.
+using Corners = ExternalSort<4>;
+
+void add_corners(const SurfaceSource& source, const ShellPlan& plan, Corners& corners) {
+  std::uint64_t corner = 0;
+  each_facet(source.mesh, plan, [&](const Triangle& rows) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners.add({rows[i], rows[(i + 1) % 3], rows[(i + 2) % 3], corner++});
+    }
+  });
+}
+
+/// Calls use(star) on every star, ascending by row; its sheets are not known yet.
+template <class Use>
+void each_star(Corners& corners, Use use) {
+  Star star;
+  const auto close = [&] {
+    if (!star.corners.empty()) use(star);
+    star.corners.clear();
+  };
+  corners.each([&](const Corners::Record& record) {
+    if (record[0] != star.row) close();
+    star.row = record[0];
+    star.corners.push_back({.to = record[1], .from = record[2], .corner = record[3]});
+  });
+  close();
+}
+
+}  // namespace
+
+void each_sheet_corner(const SurfaceSource& source, const ShellPlan& plan,
+                       const std::function<void(const SheetCorner&)>& visit) {
+  EdgeStrands strands = find_strands(source, plan);
+  Stars held;
+  for (const auto& [edge, here] : strands) {
+    for (const std::uint64_t row : edge) held[row].row = row;
+  }
+  Corners corners(source.folder, kSortBytes);
+  add_corners(source, plan, corners);
+  each_star(corners, [&](Star& star) {
+    find_sheets(star, strands);
+    const auto at_shared_edge = held.find(star.row);
+    if (at_shared_edge == held.end()) {
+      pass_on(star, visit);
+    } else {
+      at_shared_edge->second = star;
+    }
+  });
+  part_clashes(held, strands);
+  for (const auto& [row, star] : held) pass_on(star, visit);
+}
+
+}  // namespace mw::io

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which corners of facets at a vertex are one vertex of a surface that is a manifold.
+#pragma once
+
+#include <functional>
+
+#include "io/surface/shell_facets.h"
+
+namespace mw::io {
+
+/// A corner of a facet: 3 * number in the shell + place in the facet.  Corners of one row of the
+/// mesh are one vertex when they have the same sheet.
+struct SheetCorner {
+  std::uint64_t row = 0;
+  std::uint64_t sheet = 0;
+  std::uint64_t corner = 0;
+};
+
+/// Calls visit on every corner of the shell, in no order to rely on.
+///
+/// Corners are in one sheet when facets that share edges lead around the vertex from one to the
+/// other.  Where more than two facets share an edge, those are neighbours that bound the same fan
+/// of tets of the label inside (find_strands).  Only where two pairs of facets would then share
+/// both ends of the edge as vertices, which makes it one edge of four facets, they change partners:
+/// that parts both ends. ENSURES: with vertices made so, each edge has at most two facets, in
+/// opposite directions, and the facets at each vertex form one fan, closed where the shell is.
+/// REQUIRES: all parts have the same label inside.
+/// Memory: that of find_strands, 16 MiB, and 100 bytes for each facet at a vertex of such an edge.
+void each_sheet_corner(const SurfaceSource& source, const ShellPlan& plan,
+                       const std::function<void(const SheetCorner&)>& visit);
+
+}  // namespace mw::io

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// mwmesh surface as its user runs it: what it refuses, and what it leaves behind.
+#include "tests/engine/cli/run_program.h"
+
+namespace mw::cli {
+namespace {
+
+class SurfaceCommand : public ProgramTest {
+ protected:
+  void make_mesh() const {
+    make_volume();
+    expect_done("mesh v.npy -o v.vtu");
+  }
+};
+
+TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
+  expect_failure(2, "surface m.vtu -o s.foo", "'.foo'");
+  expect_failure(2, "surface m.vtu -o s.stl --format ply", "contradict");
+  expect_failure(2, "surface m.vtu -o s.stl --format foo", "--format foo");
+  expect_failure(2, "surface m.vtu -o s --format stl", "extension .stl");
+  expect_failure(2, "surface m.vtu -o s.stl --each", "{label}");
+  expect_failure(2, "surface m.vtu -o s.stl --unit nm", "--unit");
+  expect_failure(2, "surface m.vtu -o s --unit ft", "--unit ft");
+  expect_failure(2, "surface m.vtu -o 's/{label}'", "all labels");
+  expect_failure(2, "surface m.vtu -o s --pair 1,2", "--pair");
+  expect_failure(2, "surface m.vtu -o s.stl --pair 1,2 --label 1", "--pair");
+  expect_failure(2, "surface m.vtu -o '{label}.stl' --pair 1,2", "--pair");
+  expect_failure(2, "surface m.vtu -o s.stl --pair 1", "--pair 1");
+  expect_failure(2, "surface m.vtu -o s.stl --pair 3,3", "--pair 3,3");
+  expect_failure(2, "surface m.vtu -o s.stl --label x", "--label x");
+  expect_failure(2, "surface m.vtu", "output");
+  expect_failure(3, "surface m.vtu -o s.stl", "m.vtu");
+  expect_failure(3, "surface m.vtu -o s", "m.vtu");
+}
+
+TEST_F(SurfaceCommand, RefusesWhatTheMeshDoesNotHave) {
+  make_mesh();
+  expect_failure(2, "surface v.vtu -o s.stl --label 77", "no label 77; mwmesh info v.vtu");
+  expect_failure(2, "surface v.vtu -o s.stl --pair 77,1", "no label 77");
+  expect_failure(2, "surface v.vtu -o 's/{label}.stl' --each --label 77", "no label 77");
+  expect_failure(2, "surface v.vtu -o s --label 77", "no label 77");
+  write("x", "");
+  expect_failure(2, "surface v.vtu -o x", "folder");
+  expect_failure(2, "surface v.vtu -o missing/s.stl", "missing/s.stl");
+  expect_done("mesh v.npy -o one.vtu --labels 1");
+  expect_failure(2, "surface v.vtu --pair 4,4 -o s.stl", "two labels");
+}
+
+TEST_F(SurfaceCommand, AMeshOfOneLabelHasItsSurfaceAlone) {
+  expect_done("synth voronoi --shape 8,8,8 --labels 1 --seed 1 -o v.npy");
+  expect_done("mesh v.npy -o v.vtu");
+  expect_failure(2, "surface v.vtu -o s.stl", "no interfaces");
+  expect_failure(2, "surface v.vtu -o s.stl --manifold", "no interfaces");
+  expect_failure(2, "surface v.vtu -o s.stl --label 1 --open", "no interfaces");
+  expect_failure(2, "surface v.vtu -o '{label}.stl' --each --open", "no interfaces");
+  expect_done("surface v.vtu -o s.stl --label 1");
+}
+
+TEST_F(SurfaceCommand, FilesAreTheSameEachTimeAndFromEveryMesh) {
+  make_mesh();
+  expect_done("convert v.vtu v.mesh");
+  for (const std::string what : {"", " --label 1,2 --manifold", " --pair 1,2", " --manifold"}) {
+    expect_done("surface v.vtu -o a.vtp" + what);
+    expect_done("surface v.vtu -o b.vtp" + what);
+    expect_done("surface v.mesh -o c.vtp" + what);
+    EXPECT_EQ(read("a.vtp"), read("b.vtp")) << what;
+    EXPECT_EQ(read("a.vtp"), read("c.vtp")) << what;
+  }
+  expect_done("surface v.vtu -o a --format draco --label 1,2");
+  expect_done("surface v.vtu -o b --format draco --label 2,1");
+  for (const std::string file : {"/info", "/1", "/1.index", "/2", "/2.index"}) {
+    EXPECT_FALSE(read("a" + file).empty()) << file;
+    EXPECT_EQ(read("a" + file), read("b" + file)) << file;
+  }
+}
+
+TEST_F(SurfaceCommand, NothingIsLeftWhenTheDiskIsFull) {
+  make_mesh();
+  // A limit on the size of files instead of a full disk.
+  for (const std::string out : {"s.stl", "s.vtp", "s"}) {
+    expect_failure(4, "surface v.vtu -o " + out, "s", "ulimit -f 1;");
+  }
+}
+
+}  // namespace
+}  // namespace mw::cli

@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""VTK, meshio and numpy read the surfaces of `mwmesh surface`, and find them whole."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import meshio
+    import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkMassProperties
+    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+    from vtkmodules.vtkIOPLY import vtkPLYReader
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+PROGRAM = os.environ["MW_PROGRAM"]
+READERS = {
+    ".stl": vtkSTLReader,
+    ".ply": vtkPLYReader,
+    ".obj": vtkOBJReader,
+    ".vtp": vtkXMLPolyDataReader,
+}
+NAMES = {
+    1: ('Left "big" one', (255, 0, 10)),
+    2: ("<grain> & two", (1, 200, 3)),
+    3: ("Größe 漢字", None),
+}
+PLAIN = (160, 160, 160)
+
+
+def run(*arguments):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout
+
+
+def read(path):
+    reader = READERS[os.path.splitext(path)[1]]()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def points_of(poly):
+    return vtk_to_numpy(poly.GetPoints().GetData()).astype(float)
+
+
+def triangles_of(poly):
+    return vtk_to_numpy(poly.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def cells_of(poly, name):
+    return vtk_to_numpy(poly.GetCellData().GetArray(name))
+
+
+def volume_of(points, triangles):
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+
+
+def wrong_edges(poly, manifold=True):
+    edges = vtkFeatureEdges()
+    edges.SetInputData(poly)
+    edges.FeatureEdgesOff()
+    edges.BoundaryEdgesOn()
+    edges.SetNonManifoldEdges(manifold)
+    edges.ManifoldEdgesOff()
+    edges.Update()
+    return edges.GetOutput().GetNumberOfCells()
+
+
+class Surfaces(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        os.chdir(cls.folder.name)
+        for kind, edge, labels, name in (("voronoi", 24, 12, "v"), ("noise", 8, 3, "noise")):
+            shape = ("--shape", f"{edge},{edge},{edge}", "--labels", labels, "--seed", 1)
+            run("synth", kind, *shape, "-o", name + ".npy")
+        with open("names.csv", "w", encoding="utf-8") as file:
+            file.write("id;name;r;g;b\n")
+            for label, (name, colour) in NAMES.items():
+                quoted = name.replace('"', '""')
+                file.write(f'{label};"{quoted}";{";".join(map(str, colour or ("", "", "")))}\n')
+        run("mesh", "v.npy", "-o", "v.vtu", "--names", "names.csv")
+        run("mesh", "noise.npy", "-o", "noise.vtu", "--surface", "voxel")
+        facts = json.loads(run("info", "v.vtu", "--json"))
+        cls.volumes = {row["label"]: row["volume"] for row in facts["volume"]["per_label"]}
+        cls.area = facts["shape"]["area"]
+
+    @classmethod
+    def tearDownClass(cls):
+        os.chdir("/")
+        cls.folder.cleanup()
+
+    def test_a_label_is_closed_and_the_same_in_every_format(self):
+        for label in (1, 2, 3):
+            run("surface", "v.vtu", "--label", label, "-o", "all.vtp")
+            expected = read("all.vtp")
+            corners = points_of(expected)[triangles_of(expected)]
+            self.assertEqual(wrong_edges(expected, manifold=False), 0)
+            volume = volume_of(points_of(expected), triangles_of(expected))
+            self.assertAlmostEqual(volume / self.volumes[label], 1, places=9)
+            for extension in (".stl", ".ply", ".obj"):
+                run("surface", "v.vtu", "--label", label, "-o", "one" + extension)
+                poly = read("one" + extension)
+                found = points_of(poly)[triangles_of(poly)]
+                np.testing.assert_allclose(found, corners, atol=1e-5, err_msg=extension)
+                mesh = meshio.read("one" + extension)
+                np.testing.assert_allclose(
+                    mesh.points[mesh.cells_dict["triangle"]], corners, atol=1e-5, err_msg=extension
+                )
+
+    def test_volumes_by_vtk(self):
+        run("surface", "v.vtu", "--label", 2, "-o", "two.ply")
+        properties = vtkMassProperties()
+        properties.SetInputData(read("two.ply"))
+        self.assertAlmostEqual(properties.GetVolume() / self.volumes[2], 1, places=5)
+
+    def test_interfaces_have_labels_on_both_sides(self):
+        run("surface", "v.vtu", "-o", "all.vtp")
+        poly = read("all.vtp")
+        inside, outside = cells_of(poly, "label_in"), cells_of(poly, "label_out")
+        self.assertTrue((inside < outside).all())
+        self.assertTrue((cells_of(poly, "side") == 0).all())
+        self.assertEqual(set(inside) | set(outside), set(self.volumes))
+        a, b, c = (points_of(poly)[triangles_of(poly)[:, i]] for i in range(3))
+        area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+        self.assertAlmostEqual(area / self.area, 1, places=9)
+        run("surface", "v.vtu", "-o", "all.ply")
+        colours = vtk_to_numpy(read("all.ply").GetCellData().GetArray("RGB"))
+        expected = [NAMES.get(label, ("", None))[1] or PLAIN for label in inside]
+        np.testing.assert_array_equal(colours, expected)
+        first, second = int(inside[0]), int(outside[0])
+        for pair in (f"{first},{second}", f"{second},{first}"):
+            run("surface", "v.vtu", "--pair", pair, "-o", "pair.vtp")
+            some = (inside == first) & (outside == second)
+            pair_corners = points_of(read("pair.vtp"))[triangles_of(read("pair.vtp"))]
+            np.testing.assert_array_equal(
+                pair_corners, points_of(poly)[triangles_of(poly)[some]]
+            )
+
+    def test_sides_of_the_box(self):
+        run("surface", "v.vtu", "--label", 1, "-o", "one.vtp")
+        poly = read("one.vtp")
+        corners, side = points_of(poly)[triangles_of(poly)], cells_of(poly, "side")
+        self.assertTrue((cells_of(poly, "label_out")[side > 0] == 0).all())
+        for number in range(1, 7):
+            plane = corners[side == number][:, :, (number - 1) // 2]
+            self.assertTrue((plane == (24 if number % 2 == 0 else 0)).all())
+        self.assertTrue((side < 7).all())
+        run("surface", "v.vtu", "--label", 1, "--open", "-o", "open.vtp")
+        opened = read("open.vtp")
+        np.testing.assert_array_equal(
+            points_of(opened)[triangles_of(opened)], corners[side == 0]
+        )
+
+    def test_names_and_colours(self):
+        run("surface", "v.vtu", "--label", "1,2,3", "-o", "some.vtp")
+        fields = read("some.vtp").GetFieldData()
+        ids, names = fields.GetAbstractArray("label_id"), fields.GetAbstractArray("label_name")
+        found = {int(ids.GetTuple1(i)): names.GetValue(i) for i in range(ids.GetNumberOfTuples())}
+        for label, (name, _) in NAMES.items():
+            self.assertEqual(found[label], name)
+        run("surface", "v.vtu", "--label", "1,2,3", "-o", "some.ply")
+        poly = read("some.ply")
+        points = vtk_to_numpy(poly.GetPointData().GetArray("RGB"))
+        labels = meshio.read("some.ply").point_data["label"]
+        np.testing.assert_array_equal(points, [NAMES[label][1] or PLAIN for label in labels])
+        for label, expected in ((label, self.volumes[label]) for label in NAMES):
+            mine = triangles_of(poly)[labels[triangles_of(poly)[:, 0]] == label]
+            self.assertAlmostEqual(volume_of(points_of(poly), mine) / expected, 1, places=5)
+        run("surface", "v.vtu", "--label", "1,2,3", "-o", "some.obj")
+        with open("some.obj", encoding="utf-8") as file:
+            groups = [line.split(maxsplit=1)[1].strip() for line in file if line.startswith("g ")]
+        self.assertEqual(groups, ['Left_"big"_one', "<grain>_&_two", "Größe_漢字"])
+        with open("some.mtl", encoding="utf-8") as file:
+            materials = [line.split()[1] for line in file if line.startswith("newmtl ")]
+        self.assertEqual(materials, groups)
+
+    def test_manifold(self):
+        for mesh in ("v", "noise"):
+            facts = json.loads(run("info", mesh + ".vtu", "--json"))
+            touching = 0
+            for row in facts["volume"]["per_label"]:
+                run("surface", mesh + ".vtu", "--label", row["label"], "-o", "as_is.vtp")
+                touching += wrong_edges(read("as_is.vtp"))
+                for extension in (".vtp", ".obj", ".ply"):
+                    out = "parted" + extension
+                    run("surface", mesh + ".vtu", "--label", row["label"], "--manifold", "-o", out)
+                    poly = read(out)
+                    self.assertEqual(wrong_edges(poly), 0, (mesh, row["label"], extension))
+                    volume = volume_of(points_of(poly), triangles_of(poly))
+                    self.assertAlmostEqual(volume / row["volume"], 1, places=5)
+        self.assertGreater(touching, 0)
+
+    def test_each(self):
+        run("surface", "v.vtu", "-o", "parts/{label}.stl")
+        self.assertEqual(set(os.listdir("parts")), {f"{label}.stl" for label in self.volumes})
+        run("surface", "v.vtu", "--each", "--format", "stl", "-o", "more")
+        for label, expected in self.volumes.items():
+            poly = read(f"parts/{label}.stl")
+            volume = volume_of(points_of(poly), triangles_of(poly))
+            self.assertAlmostEqual(volume / expected, 1, places=4)
+            with open(f"parts/{label}.stl", "rb") as one, open(f"more/{label}.stl", "rb") as other:
+                self.assertEqual(one.read(), other.read())
+
+    def test_precomputed(self):
+        run("surface", "v.vtu", "--unit", "um", "-o", "meshes")
+        with open("meshes/info", encoding="utf-8") as file:
+            info = json.load(file)
+        self.assertEqual(info["@type"], "neuroglancer_legacy_mesh")
+        for label, expected in self.volumes.items():
+            with open(f"meshes/{label}:0", encoding="utf-8") as file:
+                (fragment,) = json.load(file)["fragments"]
+            data = np.fromfile(f"meshes/{fragment}", np.uint8)
+            count = int(data[:4].view("<u4")[0])
+            points = data[4 : 4 + 12 * count].view("<f4").reshape(-1, 3).astype(float)
+            triangles = data[4 + 12 * count :].view("<u4").reshape(-1, 3)
+            self.assertEqual(set(triangles.ravel()), set(range(count)))
+            self.assertAlmostEqual(volume_of(points / 1000, triangles) / expected, 1, places=4)
+        with open(f"meshes/{info['segment_properties']}/info", encoding="utf-8") as file:
+            inline = json.load(file)["inline"]
+        (labels,) = inline["properties"]
+        self.assertEqual(labels["type"], "label")
+        found = dict(zip(map(int, inline["ids"]), labels["values"]))
+        self.assertEqual(found, {k: v[0] for k, v in NAMES.items()})
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Files of surfaces: the same bytes each time, whole or not there, in memory that does not grow.
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "io/file/atomic_folder.h"
+#include "io/surface/open_surface.h"
+#include "tests/io/surface/collected_surface.h"
+#include "tests/peak_growth.h"
+#include "tests/sanitizers.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::array<const char*, 4> kExtensions{".stl", ".ply", ".obj", ".vtp"};
+
+MeshData named_mesh(unsigned seed) {
+  MeshData mesh = touching_mesh(seed);
+  mesh.names = LabelNames({{0, "", Colour{1, 2, 3, 4}}, {1, "one # 1", {}}});
+  return mesh;
+}
+
+void write_file(const MeshData& data, const std::filesystem::path& path) {
+  SurfaceMesh mesh(data);
+  const ShellPlans plans(mesh.mesh(), true);
+  const std::unique_ptr<SurfaceSink> sink = open_surface_sink(path);
+  mesh.surface({plans.of_label(1), plans.of_label(0)}, true).write(*sink);
+}
+
+TEST(SurfaceFiles, SameBytesEachTime) {
+  for (const char* extension : kExtensions) {
+    const TempDir one, other;
+    const std::string name = std::string("s") + extension;
+    write_file(named_mesh(3), one.path() / name);
+    write_file(named_mesh(3), other.path() / name);
+    EXPECT_EQ(content_of(one.path() / name), content_of(other.path() / name));
+    EXPECT_EQ(content_of(one.path() / "s.mtl"), content_of(other.path() / "s.mtl"));
+  }
+}
+
+TEST(SurfaceFiles, NothingIsLeftOfOneThatWasNotFinished) {
+  SurfaceMesh mesh(named_mesh(2));
+  const ShellPlans plans(mesh.mesh(), true);
+  const TempDir dir;
+  for (const char* extension : kExtensions) {
+    const auto path = dir.path() / (std::string("s") + extension);
+    const std::unique_ptr<SurfaceSink> sink = open_surface_sink(path);
+    sink->begin(mesh.surface({plans.of_label(0)}, false).header());
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+  EXPECT_EQ(dir.entries(), 0U);
+}
+
+TEST(SurfaceFiles, LabelsThatAPlyCannotHoldGetNumbers) {
+  MeshData data = grid_mesh({2, 1, 1}, 4);
+  for (std::size_t t = 0; t < data.tets.size(); ++t) {
+    data.labels[t] = t < 6 ? 5 : (1ULL << 40) + 7;
+  }
+  SurfaceMesh mesh(data);
+  const ShellPlans plans(mesh.mesh(), true);
+  const TempDir dir;
+  const auto path = dir.path() / "s.ply";
+  mesh.surface({plans.of_interfaces()}, false).write(*open_surface_sink(path));
+  const std::string content = content_of(path);
+  EXPECT_THAT(content, testing::HasSubstr("comment number 6 is label 1099511627783\n"));
+  // The last face: 3, three vertices, label_in, label_out, side.
+  const std::string face = content.substr(content.size() - 9);
+  EXPECT_EQ(face, number_bytes(5, 4, false) + number_bytes(6, 4, false) + std::string(1, '\0'));
+}
+
+/// As many triangles as are asked for, on no vertices that were ever written.
+SurfaceHeader large_header(std::uint64_t vertices, std::uint64_t triangles) {
+  auto labels = std::make_shared<SurfaceLabels>();
+  labels->table = LabelTable({1, 2}, false);
+  labels->titles = {"a", "b"};
+  SurfaceShell shell{.label = 0, .runs = {{.outside = 1, .triangles = triangles}}};
+  shell.vertices = vertices;
+  return {.labels = labels, .shells = {shell}};
+}
+
+TEST(SurfaceFiles, MoreThanTheFormatHoldsIsRefused) {
+  const TempDir dir;
+  const SurfaceHeader header = large_header(1ULL << 32, 1ULL << 32);
+  for (const char* extension : {".stl", ".ply"}) {
+    const auto sink = open_surface_sink(dir.path() / (std::string("s") + extension));
+    expect_error(ErrorKind::kUsage, {"s.", "4294967296", ".vtp"}, [&] { sink->begin(header); });
+  }
+  expect_error(ErrorKind::kUsage, {".foo", ".stl, .ply, .obj, .vtp"},
+               [&] { static_cast<void>(open_surface_sink(dir.path() / "s.foo")); });
+}
+
+TEST(SurfaceFiles, MemoryDoesNotGrow) {
+  if (!test::kResidentMemoryIsOurs) GTEST_SKIP() << "resident memory is a sanitizer's";
+  constexpr std::uint64_t kBatch = 1000;
+  constexpr std::uint64_t kBatches = 1500;
+  constexpr long kRoomKib = 20 * 1024;
+  const TempDir dir;
+  for (const char* extension : kExtensions) {
+    const auto path = dir.path() / (std::string("s") + extension);
+    const long growth = test::growth_of([&] {
+      const std::unique_ptr<SurfaceSink> sink = open_surface_sink(path);
+      sink->begin(large_header(kBatch * kBatches / 2, kBatch * kBatches));
+      const std::vector<Position> positions(kBatch / 2, {1.0 / 3, 2.0 / 3, 1e3 / 7});
+      for (std::uint64_t b = 0; b < kBatches; ++b) sink->write_vertices(positions);
+      std::vector<Triangle> triangles(kBatch);
+      for (std::uint64_t b = 0; b < kBatches; ++b) {
+        for (std::uint64_t t = 0; t < kBatch; ++t) {
+          const std::uint64_t v = (b * kBatch + t) / 2;
+          triangles[t] = {v, v / 2, v / 3};
+        }
+        sink->write_triangles(triangles);
+      }
+      sink->finish();
+    });
+    EXPECT_GE(growth, 0) << extension;
+    EXPECT_LE(growth, kRoomKib) << extension;
+    EXPECT_GT(std::filesystem::file_size(path), 30U << 20) << extension;
+    std::filesystem::remove(path);
+  }
+}
+
+TEST(AtomicFolder, AppearsWholeOrNotAtAll) {
+  const TempDir dir;
+  const auto target = dir.path() / "out";
+  {
+    const AtomicFolder folder(target);
+    std::ofstream(folder.path() / "file") << "x";
+    EXPECT_FALSE(std::filesystem::exists(target));
+  }
+  EXPECT_EQ(dir.entries(), 0U);
+  for (const char* name : {"out", "slash/"}) {  // the second time over an empty folder
+    std::filesystem::create_directory(dir.path() / "slash");
+    AtomicFolder folder(dir.path() / name);
+    std::ofstream(folder.path() / "file") << "x";
+    folder.commit();
+    EXPECT_EQ(content_of(dir.path() / name / "file"), "x");
+  }
+  EXPECT_EQ(dir.entries(), 2U);
+}
+
+TEST(AtomicFolder, RefusesWhatIsThere) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir.path() / "full");
+  dir.file("full/x", "kept");
+  dir.file("file", "kept");
+  for (const char* name : {"full", "file", "full/", "missing/out"}) {
+    expect_error(ErrorKind::kUsage, {name}, [&] { AtomicFolder folder(dir.path() / name); });
+  }
+  EXPECT_EQ(content_of(dir.path() / "full/x"), "kept");
+  EXPECT_EQ(dir.entries(), 2U);
+}
+
+}  // namespace
+}  // namespace mw::io
