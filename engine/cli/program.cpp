@@ -8,7 +8,9 @@
 #include <iostream>
 
 #include "engine/cli/commands.h"
+#include "engine/cli/environment.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/unknown_word.h"
 
 namespace mw::cli {
 namespace {
@@ -19,6 +21,7 @@ constexpr const char* kAbout =
     "5 a check failed, 75 interrupted and --resume can go on, 130 interrupted.";
 
 void add_commands(CLI::App& app, Action& chosen) {
+  app.option_defaults()->configurable(false);  // OptionSet says otherwise of its own
   add_mesh_command(app, chosen);
   add_verify_command(app, chosen);
   add_digest_command(app, chosen);
@@ -41,9 +44,10 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);  // --help and --version
   } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::kUsage, std::string(error.what()) + "; see mwmesh --help");
+    throw Error(ErrorKind::kUsage, explain(app, error));
   }
   if (!chosen) throw Error(ErrorKind::kUsage, "a subcommand is needed; see mwmesh --help");
+  refuse_unknown_variables(app);
   const int code = chosen();
   if (!std::cout.flush()) throw Error(ErrorKind::kResource, "cannot write to standard output");
   return code;

@@ -77,7 +77,6 @@ void add_verify_options(VerifyJob& job) {
   add_choice_options(options, job.choice);
   options.add(
       {.name = "topology",
-       .value = "WHAT",
        .help = "what P1 looks at: labels, or interfaces and meetings of labels as well",
        .fallback = "labels",
        .choices = {"labels", kInterfaces},
@@ -98,7 +97,6 @@ void add_verify_options(VerifyJob& job) {
        .fallback = kNone,
        .assign = [&](const std::string& text) { job.audit.max_distance = parse_bound(text); }});
   options.add({.name = "surface",
-               .value = "SHAPE",
                .help = "how the mesh was made, hence what distances count in: smooth, voxels of "
                        "the lattice where thick slices are cut into layers; voxel, the input's",
                .fallback = "smooth",
