@@ -18,7 +18,12 @@ std::int64_t bricks_along(std::int64_t voxels) {
   return (voxels + kBrick - 1) / kBrick;
 }
 
-/// Of the voxels x0 to x1 of a row; up, out: steps to the voxel above in y and z, 0 for none.
+bool is_empty(const Box3& box) {
+  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
+}
+
+/// Of `count` voxels of a row, with the next in x of `next` of them; up, out: steps to the one
+/// above in y and z, 0 for none.
 std::uint32_t faces_of_row(const Label* row, std::int64_t count, std::int64_t next, std::int64_t up,
                            std::int64_t out) {
   std::uint32_t faces = 0;
@@ -57,7 +62,7 @@ void BoundaryFaces::count(const LabelBox& labels, Index3 brick, bool uniform) {
 double BoundaryFaces::in(const Box3& box) const {
   const auto below = [](std::int64_t voxel) { return voxel / kBrick; };
   const Box3 inside = intersection(box, {{0, 0, 0}, volume_});
-  if (inside.voxels() == 0) return 0;
+  if (is_empty(inside)) return 0;
   const Box3 touched{
       {below(inside.lo.x), below(inside.lo.y), below(inside.lo.z)},
       {bricks_along(inside.hi.x), bricks_along(inside.hi.y), bricks_along(inside.hi.z)}};

@@ -28,6 +28,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_info_command(app, chosen);
   add_convert_command(app, chosen);
   add_synth_command(app, chosen);
+  add_generate_command(app, chosen);
   app.require_subcommand(0, 1);
   app.set_version_flag("--version", "mwmesh " MW_VERSION);
   for (CLI::App* command : app.get_subcommands({})) {
@@ -47,7 +48,7 @@ int parse_and_run(int argc, char** argv) {
     throw Error(ErrorKind::kUsage, explain(app, error));
   }
   if (!chosen) throw Error(ErrorKind::kUsage, "a subcommand is needed; see mwmesh --help");
-  refuse_unknown_variables(app);
+  if (!app.got_subcommand("generate")) refuse_unknown_variables(app);
   const int code = chosen();
   if (!std::cout.flush()) throw Error(ErrorKind::kResource, "cannot write to standard output");
   return code;
