@@ -226,7 +226,7 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
       prepare(lattice.labels(), settings, report.threads, hooks.store, store, room);
   watch.lap(report.prepare_seconds);
   const Metric metric(lattice.info().space.spacing);
-  RunForecast forecast(labels.faces(), layout, settings);
+  RunForecast forecast(labels.faces(), layout, settings, report.threads);
   Marches marches(hooks, forecast, store.facts().resumed_windows, layout.windows());
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));

@@ -8,6 +8,8 @@
 namespace mw::engine {
 namespace {
 
+constexpr double kSecondsPerWork = 1e-6;  // the unit of MarchWork
+
 std::vector<MarchWork> marches_of(const BoundaryFaces& faces, const RunLayout& layout,
                                   const MeshSettings& settings) {
   std::vector<MarchWork> out;
@@ -22,11 +24,11 @@ std::vector<MarchWork> marches_of(const BoundaryFaces& faces, const RunLayout& l
 }  // namespace
 
 RunForecast::RunForecast(const BoundaryFaces& faces, const RunLayout& layout,
-                         const MeshSettings& settings)
+                         const MeshSettings& settings, int threads)
     : faces_(faces),
       layout_(layout),
       marches_(marches_of(faces, layout, settings)),
-      left_(work_of_parts()) {}
+      left_(work_of_parts(), kSecondsPerWork / threads) {}
 
 void RunForecast::begin_march(const IsFinished& finished_before) {
   const MarchWork& march = marches_[begun_];

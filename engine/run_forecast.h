@@ -18,7 +18,8 @@ namespace mw::engine {
 class RunForecast {
  public:
   /// REQUIRES: the references outlive it.
-  RunForecast(const BoundaryFaces& faces, const RunLayout& layout, const MeshSettings& settings);
+  RunForecast(const BoundaryFaces& faces, const RunLayout& layout, const MeshSettings& settings,
+              int threads);
 
   /// The first march begins, or the next one.
   void begin_march(const IsFinished& finished_before);
@@ -27,8 +28,7 @@ class RunForecast {
   /// A block of the last march; the output reads each twice.
   void reading(Index3 block);
 
-  /// Nothing before the first visit.
-  [[nodiscard]] std::optional<double> seconds_left() const { return left_.seconds(); }
+  [[nodiscard]] double seconds_left() const { return left_.seconds(); }
 
  private:
   [[nodiscard]] std::vector<double> work_of_parts() const;

@@ -13,11 +13,12 @@ namespace mw::engine {
 namespace {
 
 /// The share of a part's work for which the speed of the parts before stands beside its own.
-constexpr double kShareOfBefore = 0.05;
+constexpr double kShareOfBefore = 0.02;
 
 }  // namespace
 
-TimeLeft::TimeLeft(std::vector<double> work) : work_(std::move(work)) {}
+TimeLeft::TimeLeft(std::vector<double> work, double guess)
+    : work_(std::move(work)), before_{guess, 1} {}
 
 void TimeLeft::begin(double now, double skipped) {
   MW_ASSERT(next_ < work_.size());
@@ -37,15 +38,11 @@ void TimeLeft::done(double now, double work) {
   left = std::max(0.0, left - work);
 }
 
-std::optional<double> TimeLeft::seconds() const {
-  Pace pace = part_;
-  if (before_.work > 0) {
-    const double more = kShareOfBefore * size_;
-    pace.work += more;
-    pace.seconds += more * before_.seconds / before_.work;
-  }
-  if (pace.work <= 0) return std::nullopt;
-  return work_left() * pace.seconds / pace.work;
+double TimeLeft::seconds() const {
+  const double before = kShareOfBefore * size_;
+  const double known = before_.seconds / before_.work;
+  const double work = part_.work + before;
+  return work_left() * (work > 0 ? (part_.seconds + before * known) / work : known);
 }
 
 double TimeLeft::work_left() const {

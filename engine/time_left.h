@@ -4,26 +4,25 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace mw::engine {
 
 /// The seconds left of work in several parts, one after the other.  How much work each part is
 /// need only be right up to one factor, which is what is measured; from one part to the next that
-/// factor may change, and the next part's own speed soon replaces that of those before.
+/// factor may change, and the next part's own speed soon replaces that of those before, as that of
+/// the first replaces a guess: a stall in the first window says nothing of the others.
 /// A pure function of what it is told, times included.
 class TimeLeft {
  public:
-  /// work: of each part, in any unit, none negative.
-  explicit TimeLeft(std::vector<double> work);
+  /// work: of each part, in any unit, none negative.  guess: seconds a unit, positive.
+  TimeLeft(std::vector<double> work, double guess);
 
   /// The next part begins, `now` seconds from any moment on; skipped: what of it was done before.
   void begin(double now, double skipped);
   /// So much of it has been done since the last call.
   void done(double now, double work);
-  /// Nothing before any work is done.
-  [[nodiscard]] std::optional<double> seconds() const;
+  [[nodiscard]] double seconds() const;
 
  private:
   struct Pace {
@@ -37,7 +36,7 @@ class TimeLeft {
   std::size_t next_ = 0;      ///< part to begin
   double begun_ = 0;
   double size_ = 0;  ///< work of the part without what was skipped
-  Pace before_;      ///< of all parts that are over
+  Pace before_;      ///< of all parts that are over, and one unit of work as guessed
   Pace part_;
 };
 
