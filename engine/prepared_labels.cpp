@@ -59,6 +59,7 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                int threads, const std::filesystem::path& folder)
     : original_(volume.info().shape, volume.table().size(), folder),
+      faces_(volume.info().shape),
       label_voxels_(volume.table().size()) {
   read_bricks(volume, threads);
   volume.raw().drop_buffers();  // it is not read again
@@ -94,6 +95,7 @@ void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) 
     cut_brick(labels, original_.box_of(brick), one);
     original_.write(brick, one);
     count(brick, one);
+    faces_.count(labels, brick, original_.uniform_label(brick) != kExterior);
   });
 }
 

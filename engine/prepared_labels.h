@@ -3,6 +3,7 @@
 // The labels that windows work from, made once before the march.
 #pragma once
 
+#include "engine/boundary_faces.h"
 #include "engine/settings.h"
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
@@ -28,6 +29,8 @@ class PreparedLabels {
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
+  /// Where there is much to do.
+  [[nodiscard]] const BoundaryFaces& faces() const { return faces_; }
   /// How many voxels of the input have each dense label.
   [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return label_voxels_; }
 
@@ -43,6 +46,7 @@ class PreparedLabels {
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;
   LevelMap levels_;
+  BoundaryFaces faces_;
   std::vector<std::uint64_t> label_voxels_;
 };
 

@@ -11,6 +11,7 @@
 #include "engine/march/timed_visit.h"
 #include "engine/prepared_labels.h"
 #include "engine/resident_memory.h"
+#include "engine/run_forecast.h"
 #include "engine/stopwatch.h"
 #include "engine/store/run_identity.h"
 #include "engine/store/workdir.h"
@@ -40,11 +41,12 @@ double seconds_between(Visited::Time a, Visited::Time b) {
 class Marches {
  public:
   /// done: windows of an earlier run.
-  Marches(const RunHooks& hooks, std::uint64_t done, std::uint64_t total)
-      : hooks_(hooks), total_(total), done_(done) {}
+  Marches(const RunHooks& hooks, RunForecast& forecast, std::uint64_t done, std::uint64_t total)
+      : hooks_(hooks), forecast_(forecast), total_(total), done_(done) {}
 
   void run(int march_number, const WindowOrder& order, BlockStore& store,
            const WindowVisitor& visitor) {
+    forecast_.begin_march([&](Index3 w) { return store.is_done(w); });
     const std::uint64_t budget = hooks_.store.memory;
     const bool roomy = is_roomy(budget, order.grid(), thread_count(hooks_.threads));
     if (!roomy) return_large_pieces_at_once();
@@ -103,10 +105,13 @@ class Marches {
                     .slot = v.slot});
     }
     ++done_;
-    if (hooks_.progress) hooks_.progress(done_, total_);
+    if (!hooks_.progress) return;
+    forecast_.visited(v.window);
+    hooks_.progress({.done = done_, .total = total_, .seconds_left = forecast_.seconds_left()});
   }
 
   const RunHooks& hooks_;
+  RunForecast& forecast_;
   std::uint64_t total_;
   std::uint64_t done_;
   Visited::Time begin_ = std::chrono::steady_clock::now();
@@ -117,17 +122,22 @@ class Marches {
 /// The blocks of the last march; a run may be stopped while they are read.
 class FinishedBlocks : public FinalBlocks {
  public:
-  FinishedBlocks(const BlockStore& store, const OnProgress& progress, std::uint64_t windows)
-      : store_(store), progress_(progress), windows_(windows) {}
+  FinishedBlocks(const BlockStore& store, const OnProgress& progress, RunForecast& forecast,
+                 std::uint64_t windows)
+      : store_(store), progress_(progress), forecast_(forecast), windows_(windows) {}
 
   [[nodiscard]] BlockMesh load(Index3 block) override {
-    if (progress_) progress_(windows_, windows_);
+    if (progress_) {
+      progress_({.done = windows_, .total = windows_, .seconds_left = forecast_.seconds_left()});
+      forecast_.reading(block);
+    }
     return store_.load(block);
   }
 
  private:
   const BlockStore& store_;
   const OnProgress& progress_;
+  RunForecast& forecast_;
   std::uint64_t windows_;
 };
 
@@ -181,9 +191,8 @@ io::MeshPromises promises_of(const MeshSettings& settings) {
 }
 
 /// Writes what the last march left; memory for that comes first, blocks are spilled to make room.
-FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice,
-                        const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
-                        const RunHooks& hooks) {
+FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, RunStore& store,
+                        io::MeshSink& sink, const RunHooks& hooks, RunForecast& forecast) {
   const std::uint32_t last = layout.marches() - 1;
   const WindowGrid& grid = layout.grid(last);
   const BlockStore& stored = store.march(last);
@@ -195,12 +204,12 @@ FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice,
   MemoryBudget::Reservation rows;
   OutputOptions options = hooks.output;
   options.layers = lattice.layers();
-  options.promises = promises_of(settings);
   options.hold = [&](std::uint64_t bytes) {
     rows = {};
     rows = store.reserve(Purpose::kOutput, bytes);
   };
-  FinishedBlocks blocks(stored, hooks.progress, layout.windows());
+  forecast.begin_output();
+  FinishedBlocks blocks(stored, hooks.progress, forecast, layout.windows());
   return finish(blocks, grid, lattice.volume(), sink, options);
 }
 
@@ -224,7 +233,8 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
       prepare(lattice.labels(), settings, report.threads, hooks.store, store, room);
   watch.lap(report.prepare_seconds);
   const Metric metric(lattice.info().space.spacing);
-  Marches marches(hooks, store.facts().resumed_windows, layout.windows());
+  RunForecast forecast(labels.faces(), layout, settings, report.threads);
+  Marches marches(hooks, forecast, store.facts().resumed_windows, layout.windows());
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
     if (report.threads > 1) visitor.seed_with(tbb_for);
@@ -238,7 +248,7 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();
   watch.restart();
-  FinishedMesh finished = write_mesh(layout, lattice, settings, store, sink, hooks);
+  FinishedMesh finished = write_mesh(layout, lattice, store, sink, hooks, forecast);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;
@@ -265,8 +275,10 @@ void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
 }  // namespace
 
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
-                      io::MeshSink& sink, const RunHooks& hooks) {
+                      io::MeshSink& sink, const RunHooks& asked) {
   check(volume.info(), settings);
+  RunHooks hooks = asked;
+  hooks.output.promises = promises_of(settings);
   const VoxelLattice lattice(volume, settings.surface);
   RunReport report;
   report.lattice = {lattice.info().shape, lattice.info().space.spacing, lattice.layers()};

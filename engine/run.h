@@ -44,9 +44,17 @@ struct RunReport : VisitStats {
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
 };
 
-/// Called after each window with the number done and the total, never by two threads at a time; may
-/// throw to stop the run.
-using OnProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
+/// How far a run is.
+struct RunProgress {
+  std::uint64_t done = 0;   ///< windows, those of an earlier run included
+  std::uint64_t total = 0;  ///< windows
+  /// An estimate (RunForecast); nothing before this run has done any.
+  std::optional<double> seconds_left;
+};
+
+/// Called after each window and for each block that is read for output, never by two threads at a
+/// time; may throw to stop the run.
+using OnProgress = std::function<void(const RunProgress& progress)>;
 
 /// One visit in a run's trace; seconds since the run began.
 struct TraceEvent {

@@ -25,8 +25,8 @@ constexpr std::uint64_t kBytesPerThread = kMebibyte;
 // The label table, and what is counted of each label in voxels and mesh.
 constexpr std::uint64_t kBytesPerLabel = 96;
 
-// Places of a brick of the input and of a coarsened one, and its large cells.
-constexpr std::uint64_t kBytesPerBrick = 20;
+// Places of a brick of the input and of a coarsened one, its large cells and faces.
+constexpr std::uint64_t kBytesPerBrick = 22;
 // A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;

@@ -66,9 +66,9 @@ engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& v
   Progress progress(request.progress);
   engine::RunHooks hooks{.threads = request.threads};
   hooks.store = store;
-  hooks.progress = [&](std::uint64_t done, std::uint64_t total) {
+  hooks.progress = [&](const engine::RunProgress& at) {
     stop_if_interrupted();
-    progress.show(done, total);
+    progress.show(at);
   };
   if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
   hooks.output = {.wanted = wanted_labels(request.choice, volume.table()),

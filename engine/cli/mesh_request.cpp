@@ -140,7 +140,6 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
       [](engine::MeshSettings& s, const std::string& t) { s.target_reduction = parse_bound(t); });
   add_setting(options, request,
               {.name = "topology",
-               .value = "WHAT",
                .help = "what is kept: labels, or interfaces as well",
                .fallback = kLabelsKept,
                .choices = {kLabelsKept, kInterfacesKept}},
@@ -151,7 +150,6 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
   add_setting(
       options, request,
       {.name = "surface",
-       .value = "SHAPE",
        .help =
            "what interfaces are: smooth, with the labels' volumes kept, on a lattice where slices "
            "much thicker than the smallest spacing are cut into layers; voxel, as the paper's "
@@ -161,7 +159,6 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
       [](engine::MeshSettings& s, const std::string& t) { s.surface = parse_name(kSurfaces, t); });
   add_setting(options, request,
               {.name = "optimizer",
-               .value = "WHICH",
                .help = "what improves tets after collapse: local, none, or tetgen (local, and "
                        "the paper's constrained ODT in the last march)",
                .fallback = text_of(kOptimizers, defaults.optimizer),
@@ -180,7 +177,6 @@ void add_method_options(OptionSet& options, MeshRequest& request) {
   add_setting(
       options, request,
       {.name = "start",
-       .value = "MESH",
        .help = "start mesh: coarse (labels coarsened first, larger cells inside them), octree "
                "(larger cells only), dense (the paper's)",
        .fallback = text_of(kStartMeshes, defaults.start),
@@ -211,14 +207,16 @@ void add_resource_options(OptionSet& options, MeshRequest& request) {
                .kind = ValueKind::kInteger,
                .fallback = "0",
                .assign = [&](const std::string& text) { request.threads = parse_threads(text); }});
-  options.add(
-      {.name = "memory",
-       .value = "SIZE",
-       .help = "hard budget for the process, e.g. 512MiB [half of the memory that is available]",
-       .kind = ValueKind::kSize,
-       .assign = [&](const std::string& text) {
-         if (!text.empty()) request.memory = parse_size(text);
-       }});
+  options.add({.name = "memory",
+               .value = "SIZE",
+               .help =
+                   "hard budget for the process, e.g. 512M, 1.5G or 4GiB; K M G T, also with iB, "
+                   "are powers of "
+                   "1024, KB MB GB TB of 1000, in any case [half of the memory that is available]",
+               .kind = ValueKind::kSize,
+               .assign = [&](const std::string& text) {
+                 if (!text.empty()) request.memory = parse_size(text);
+               }});
   options.add({.name = "workdir",
                .value = "DIR",
                .help = "folder of the block store and journal, removed after success [OUTPUT.work]",
@@ -236,7 +234,6 @@ void add_resource_options(OptionSet& options, MeshRequest& request) {
                .assign = [&](const std::string& text) { request.save_every = parse_delay(text); }});
   add_setting(options, request,
               {.name = "order",
-               .value = "ORDER",
                .help = "march order: raster, the paper's; colour, far wider on small volumes",
                .fallback = "raster",
                .choices = {"raster", "colour"}},
@@ -256,13 +253,11 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = [&](const std::string& text) { request.trace = text; }});
   options.add(
       {.name = "progress",
-       .value = "HOW",
-       .help = "auto (a bar on a terminal), none, jsonl (lines on stderr)",
+       .help = "auto (a bar on a terminal), none, jsonl (lines on stderr, with the seconds left)",
        .fallback = "auto",
        .choices = {"auto", "none", "jsonl"},
        .assign = [&](const std::string& text) { request.progress = parse_progress(text); }});
   options.add({.name = "log-level",
-               .value = "LEVEL",
                .help = "debug, info, warn, error, off",
                .fallback = "warn",
                .choices = {"debug", "info", "warn", "error", "off"},

@@ -5,12 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "engine/cli/environment.h"
+#include "engine/cli/nearest.h"
 #include "engine/cli/option_text.h"
 #include "kernels/core/error.h"
 
@@ -27,15 +28,9 @@ std::string key_of(const Option& option) {
   return key;
 }
 
-std::string variable_of(const Option& option) {
-  std::string name = "MW_" + key_of(option);
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
-}
-
-std::string joined(const std::vector<std::string>& words) {
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
   std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
   return out;
 }
 
@@ -78,8 +73,9 @@ void OptionSet::add_flags(CLI::App& app) {
       entry.flag = app.add_flag(flags, entry.flag_switch, help_of(option));
     } else {
       entry.flag = app.add_option(flags, entry.flag_text, help_of(option));
-      entry.flag->type_name(option.value);
+      entry.flag->type_name(option.choices.empty() ? option.value : joined(option.choices, "|"));
     }
+    entry.flag->configurable();
   }
 }
 
@@ -102,7 +98,7 @@ void OptionSet::read_config(const std::filesystem::path& path) {
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
       return key_of(entry.option) == name;
     });
-    if (found == entries_.end()) refuse(place, ": unknown key; see mwmesh mesh --print-config");
+    if (found == entries_.end()) refuse(place, unknown_key(name));
     const ValueKind kind = found->option.kind;
     const std::optional<std::string> text = text_of_toml(kind, node);
     if (!text) refuse(place, std::string(": wrong type; expected ") + toml_type(kind));
@@ -112,9 +108,15 @@ void OptionSet::read_config(const std::filesystem::path& path) {
   }
 }
 
+std::string OptionSet::unknown_key(const std::string& name) const {
+  std::vector<std::string> keys;
+  for (const Entry& entry : entries_) keys.push_back(key_of(entry.option));
+  return ": unknown key" + did_you_mean(name, keys) + "; see mwmesh mesh --print-config";
+}
+
 void OptionSet::read_environment() {
   for (Entry& entry : entries_) {
-    const std::string name = variable_of(entry.option);
+    const std::string name = variable_of(entry.option.name);
     const char* text = std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe)
     if (text == nullptr || *text == '\0') continue;
     entry.text = text;
@@ -140,7 +142,7 @@ void OptionSet::settle(Entry& entry) {
     const auto& choices = option.choices;
     if (!choices.empty() &&
         std::find(choices.begin(), choices.end(), entry.text) == choices.end()) {
-      throw Error(ErrorKind::kUsage, "expected one of " + joined(choices));
+      throw Error(ErrorKind::kUsage, "expected one of " + joined(choices, ", "));
     }
     if (option.assign) option.assign(entry.text);
   } catch (const Error& error) {

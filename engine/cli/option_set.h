@@ -34,7 +34,7 @@ enum class ValueKind {
 
 struct Option {
   std::string name;   ///< of the flag without dashes; the config key has '_' for '-'
-  std::string value;  ///< what help calls the value
+  std::string value;  ///< what help calls the value; nothing where it shows the choices
   std::string help;
   ValueKind kind = ValueKind::kText;
   std::string fallback;              ///< the default as text; empty: unset
@@ -49,7 +49,8 @@ struct Option {
 class OptionSet {
  public:
   void add(Option option);
-  /// Adds a flag for each option.  REQUIRES: this outlives the parsing.
+  /// Adds a flag for each option, configurable (environment.h).  REQUIRES: this outlives the
+  /// parsing.
   void add_flags(CLI::App& app);
   /// Finds and assigns every value, in the order of the list.
   /// ERRORS: mw::Error(kUsage) naming flag, variable, or file, line and key.
@@ -69,6 +70,7 @@ class OptionSet {
     std::string place;  ///< "--window 41", "MW_WINDOW=41", "run.toml:3: window = 41"
   };
 
+  [[nodiscard]] std::string unknown_key(const std::string& name) const;
   void read_config(const std::filesystem::path& path);
   void read_environment();
   void read_flags();

@@ -136,7 +136,7 @@ const char* toml_type(ValueKind kind) {
     case ValueKind::kLabels:
       return "integers [1, 2] or a string \"1,2\"";
     case ValueKind::kSize:
-      return "a string such as \"4GiB\"";
+      return "a string such as \"4G\"";
     case ValueKind::kSwitch:
       return "true or false";
     case ValueKind::kIntegerOrText:

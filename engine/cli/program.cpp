@@ -8,7 +8,9 @@
 #include <iostream>
 
 #include "engine/cli/commands.h"
+#include "engine/cli/environment.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/unknown_word.h"
 
 namespace mw::cli {
 namespace {
@@ -19,6 +21,7 @@ constexpr const char* kAbout =
     "5 a check failed, 75 interrupted and --resume can go on, 130 interrupted.";
 
 void add_commands(CLI::App& app, Action& chosen) {
+  app.option_defaults()->configurable(false);  // OptionSet says otherwise of its own
   add_mesh_command(app, chosen);
   add_verify_command(app, chosen);
   add_digest_command(app, chosen);
@@ -27,6 +30,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_convert_command(app, chosen);
   add_surface_command(app, chosen);
   add_synth_command(app, chosen);
+  add_generate_command(app, chosen);
   app.require_subcommand(0, 1);
   app.set_version_flag("--version", "mwmesh " MW_VERSION);
   for (CLI::App* command : app.get_subcommands({})) {
@@ -43,9 +47,10 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);  // --help and --version
   } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::kUsage, std::string(error.what()) + "; see mwmesh --help");
+    throw Error(ErrorKind::kUsage, explain(app, error));
   }
   if (!chosen) throw Error(ErrorKind::kUsage, "a subcommand is needed; see mwmesh --help");
+  if (!app.got_subcommand("generate")) refuse_unknown_variables(app);
   const int code = chosen();
   if (!std::cout.flush()) throw Error(ErrorKind::kResource, "cannot write to standard output");
   return code;

@@ -20,6 +20,30 @@ double seconds_between(std::chrono::steady_clock::time_point a,
   return std::chrono::duration<double>(b - a).count();
 }
 
+/// "47 s", "12 min", "3.4 h".
+std::string rough_time(double seconds) {
+  if (seconds < 100) return format_fixed(seconds, 0) + " s";
+  if (seconds < 100 * 60) return format_fixed(seconds / 60, 0) + " min";
+  return format_fixed(seconds / 3600, 1) + " h";
+}
+
+void show_bar(const engine::RunProgress& at) {
+  const std::uint64_t cells = kBarCells * at.done / at.total;
+  std::string text = "[" + std::string(cells, '#') + std::string(kBarCells - cells, '.') + "] " +
+                     std::to_string(at.done) + "/" + std::to_string(at.total) + " windows";
+  if (at.seconds_left) text += ", about " + rough_time(*at.seconds_left) + " left";
+  std::fprintf(stderr, "\r\033[K%s", text.c_str());
+}
+
+/// seconds: since the run began.
+void show_line(const engine::RunProgress& at, double seconds) {
+  const std::string left = at.seconds_left ? format_fixed(*at.seconds_left, 3) : "null";
+  const std::string text = "{\"event\":\"window\",\"done\":" + std::to_string(at.done) +
+                           ",\"total\":" + std::to_string(at.total) +
+                           ",\"wall_s\":" + format_fixed(seconds, 3) + ",\"left_s\":" + left + "}";
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
 }  // namespace
 
 ProgressKind parse_progress(const std::string& text) {
@@ -27,32 +51,22 @@ ProgressKind parse_progress(const std::string& text) {
   return text == "auto" && ::isatty(STDERR_FILENO) == 1 ? ProgressKind::kBar : ProgressKind::kNone;
 }
 
-void Progress::show(std::uint64_t done, std::uint64_t total) {
+Progress::~Progress() {
+  if (kind_ == ProgressKind::kBar && done_ > 0) std::fprintf(stderr, "\n");
+}
+
+void Progress::show(const engine::RunProgress& at) {
   const Clock::time_point now = Clock::now();
-  const bool due = done <= 1 || done == total || seconds_between(shown_, now) >= kPauseSeconds;
+  const bool is_end = at.done == at.total && done_ != at.done;
+  const bool due = at.done <= 1 || is_end || seconds_between(shown_, now) >= kPauseSeconds;
   if (kind_ == ProgressKind::kNone || !due) return;
   shown_ = now;
+  done_ = at.done;
   if (kind_ == ProgressKind::kBar) {
-    show_bar(done, total, seconds_between(start_, now));
+    show_bar(at);
   } else {
-    show_line(done, total, seconds_between(start_, now));
+    show_line(at, seconds_between(start_, now));
   }
-}
-
-void Progress::show_bar(std::uint64_t done, std::uint64_t total, double seconds) const {
-  const std::uint64_t cells = kBarCells * done / total;
-  const double left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
-  const std::string text = "[" + std::string(cells, '#') + std::string(kBarCells - cells, '.') +
-                           "] " + std::to_string(done) + "/" + std::to_string(total) +
-                           " windows, " + format_fixed(left, 0) + " s left";
-  std::fprintf(stderr, "\r\033[K%s%s", text.c_str(), done == total ? "\n" : "");
-}
-
-void Progress::show_line(std::uint64_t done, std::uint64_t total, double seconds) {
-  const std::string text = "{\"event\":\"window\",\"done\":" + std::to_string(done) +
-                           ",\"total\":" + std::to_string(total) +
-                           ",\"wall_s\":" + format_fixed(seconds, 3) + "}";
-  std::fprintf(stderr, "%s\n", text.c_str());
 }
 
 }  // namespace mw::cli

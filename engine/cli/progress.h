@@ -4,8 +4,9 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <string>
+
+#include "engine/run.h"
 
 namespace mw::cli {
 
@@ -14,21 +15,22 @@ enum class ProgressKind { kNone, kBar, kJsonLines };
 /// "auto" (a bar when stderr is a terminal), "none", "jsonl".
 [[nodiscard]] ProgressKind parse_progress(const std::string& text);
 
-/// Shows the first and the last window and at most a few a second between.
+/// Shows the first and the last window and at most a few lines a second between and afterwards.
 class Progress {
  public:
   explicit Progress(ProgressKind kind) : kind_(kind) {}
-  void show(std::uint64_t done, std::uint64_t total);
+  ~Progress();  ///< ends the line of a bar
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void show(const engine::RunProgress& at);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void show_bar(std::uint64_t done, std::uint64_t total, double seconds) const;
-  static void show_line(std::uint64_t done, std::uint64_t total, double seconds);
-
   ProgressKind kind_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_;
+  std::uint64_t done_ = 0;  ///< windows that were shown
 };
 
 }  // namespace mw::cli

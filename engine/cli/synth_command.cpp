@@ -78,7 +78,8 @@ int run_synth(const SynthJob& job) {
 void add_synth_command(CLI::App& program, Action& chosen) {
   CLI::App* command = program.add_subcommand("synth", "writes a synthetic labelled volume");
   const auto job = std::make_shared<SynthJob>();
-  command->add_option("KIND", job->kind, "voronoi, tubes, spheres, noise, checkerboard")
+  command->add_option("KIND", job->kind, "what it looks like")
+      ->type_name("voronoi|tubes|spheres|noise|checkerboard")
       ->required();
   command->add_option("--shape", job->shape, "voxels X,Y,Z")->required();
   command->add_option("--labels", job->labels, "number of labels")->required();

@@ -23,7 +23,8 @@ namespace mw::cli {
 [[nodiscard]] RawLabel parse_label(std::string_view text);  ///< negative: two's complement
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
 [[nodiscard]] bool parse_switch(std::string_view text);  ///< "true", "false", "1", "0"
-/// "4096", "64KiB", "512MiB", "4GiB", "1TiB" in bytes.
+/// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
+/// B of 1000.  A fraction of a byte is left off.
 [[nodiscard]] std::uint64_t parse_size(std::string_view text);
 
 /// Shortest decimal that reads back as the same double.

@@ -92,7 +92,6 @@ void add_verify_options(VerifyJob& job) {
   add_choice_options(options, job.choice);
   options.add(
       {.name = "topology",
-       .value = "WHAT",
        .help = "what P1 looks at: labels, or interfaces and meetings of labels as well [what the "
                "run kept, else labels]",
        .choices = {"labels", kInterfaces},
@@ -112,7 +111,6 @@ void add_verify_options(VerifyJob& job) {
        .kind = ValueKind::kNumberOrNone,
        .assign = [&](const std::string& text) { job.max_distance = parse_bound(text); }});
   options.add({.name = "surface",
-               .value = "SHAPE",
                .help = "how the mesh was made, hence what distances count in: smooth, voxels of "
                        "the lattice where thick slices are cut into layers; voxel, the input's "
                        "[the run's, else smooth]",

@@ -59,12 +59,10 @@ void add_raw_options(OptionSet& options, VolumeRequest& request) {
                .assign = [&](const std::string& text) { request.shape = parse_shape(text); }});
   options.add(
       {.name = "dtype",
-       .value = "TYPE",
        .help = "voxel type of a raw file: u8 u16 u32 u64 i8 i16 i32 i64 f32 f64",
        .choices = {"u8", "u16", "u32", "u64", "i8", "i16", "i32", "i64", "f32", "f64"},
        .assign = [&](const std::string& text) { request.type = io::parse_voxel_type(text); }});
   options.add({.name = "endian",
-               .value = "ORDER",
                .help = "byte order of a raw file: little or big; little unless given",
                .choices = {"little", "big"},
                .assign = [&](const std::string& text) {
@@ -99,7 +97,6 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .kind = ValueKind::kNumbers,
                .assign = [&](const std::string& text) { request.origin = parse_numbers(text); }});
   options.add({.name = "frame",
-               .value = "FRAME",
                .help =
                    "world of the coordinates: the file's own; ras or lps, which a file in one of "
                    "them is turned to; voxel, spacing times voxel corner",

@@ -12,13 +12,12 @@
 namespace mw::engine::codt {
 namespace {
 
-constexpr const char* kVariable = "MW_CODT_WORKER";
 constexpr const char* kProgram = "mwmesh-codt";
 
 }  // namespace
 
 std::filesystem::path find_worker() {
-  const char* const wanted = std::getenv(kVariable);  // NOLINT(concurrency-mt-unsafe)
+  const char* const wanted = std::getenv(kWorkerVariable);  // NOLINT(concurrency-mt-unsafe)
   const std::filesystem::path program =
       wanted != nullptr ? std::filesystem::path(wanted)
                         : std::filesystem::read_symlink("/proc/self/exe").parent_path() / kProgram;

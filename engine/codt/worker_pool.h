@@ -14,7 +14,10 @@
 
 namespace mw::engine::codt {
 
-/// The worker program: MW_CODT_WORKER, or mwmesh-codt beside the running program.
+/// Names another worker program.
+inline constexpr const char* kWorkerVariable = "MW_CODT_WORKER";
+
+/// The worker program: that of kWorkerVariable, or mwmesh-codt beside the running program.
 /// ERRORS: kUsage when it is not there or cannot be executed.
 [[nodiscard]] std::filesystem::path find_worker();
 

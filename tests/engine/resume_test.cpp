@@ -152,8 +152,8 @@ TEST_F(ResumeTest, GoesOnAfterBeingStopped) {
     store.kept = [&] { ++kept; };
     const std::uint64_t stop_at = 1 + random() % 60;
     RunHooks hooks = hooks_with(store);
-    hooks.progress = [&](std::uint64_t done, std::uint64_t) {
-      if (done == stop_at) throw Stop{};
+    hooks.progress = [&](const RunProgress& at) {
+      if (at.done == stop_at) throw Stop{};
     };
     EXPECT_THROW(run_in_memory(trial, hooks), Stop);
     EXPECT_EQ(kept, 1);

@@ -66,9 +66,9 @@ TEST(MeshVolume, TellsProgressAfterEveryWindow) {
   const std::uint64_t total = windows(4) + windows(8);
   std::vector<std::uint64_t> told;
   run_in_memory(trial, {.progress =
-                            [&](std::uint64_t done, std::uint64_t all) {
-                              EXPECT_EQ(all, total);
-                              told.push_back(done);
+                            [&](const RunProgress& at) {
+                              EXPECT_EQ(at.total, total);
+                              told.push_back(at.done);
                             },
                         .pick = {}});
   // Also while the blocks are read for output, so that a run can be stopped then.
@@ -77,8 +77,8 @@ TEST(MeshVolume, TellsProgressAfterEveryWindow) {
 }
 
 TEST(MeshVolume, StopsWhenProgressThrows) {
-  const OnProgress stop = [](std::uint64_t done, std::uint64_t) {
-    if (done == 3) throw Error(ErrorKind::kInternal, "stopped");
+  const OnProgress stop = [](const RunProgress& at) {
+    if (at.done == 3) throw Error(ErrorKind::kInternal, "stopped");
   };
   EXPECT_THROW(run_in_memory(small_trial(), {.progress = stop, .pick = {}}), Error);
 }

@@ -38,7 +38,7 @@ TEST_F(UsageTest, RefusesBadValues) {
   expect_failure(2, "mesh v.npy -o v.vtu --edge-variance 0", "--edge-variance 0");
   expect_failure(2, "mesh v.npy -o v.vtu --quality-floor 0.9", "quality-floor");
   expect_failure(2, "mesh v.npy -o v.vtu --max-distance -1", "--max-distance -1");
-  expect_failure(2, "mesh v.npy -o v.vtu --memory 4GB", "4GB");
+  expect_failure(2, "mesh v.npy -o v.vtu --memory 4GX", "4GX");
   expect_failure(2, "mesh v.npy -o v.vtu --threads -1", "from 1 to 1024, or 0");
   expect_failure(2, "mesh v.npy -o v.vtu --labels 1,x", "label");
   expect_failure(2, "mesh v.npy -o ''", "empty");

@@ -26,9 +26,9 @@ using test::random_plc;
 #define NEEDS_WORKER() \
   if (!has_worker()) GTEST_SKIP() << "built without TetGen"
 
-/// How many windows; MW_CODT_WINDOWS asks for more (10,000 take minutes).
+/// How many windows; MW_TEST_CODT_WINDOWS asks for more (10,000 take minutes).
 std::size_t window_count() {
-  const char* const wanted = std::getenv("MW_CODT_WINDOWS");  // NOLINT(concurrency-mt-unsafe)
+  const char* const wanted = std::getenv("MW_TEST_CODT_WINDOWS");  // NOLINT(concurrency-mt-unsafe)
   return wanted == nullptr ? 150 : static_cast<std::size_t>(std::atoi(wanted));
 }
 

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How much there is to do where: faces between voxels of different labels, brick by brick.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/core/label_box.h"
+
+namespace mw::engine {
+
+/// Faces between two voxels of the volume with different labels; each counts for the voxel below
+/// it.  2 bytes for 16^3 voxels.
+class BoundaryFaces {
+ public:
+  BoundaryFaces() = default;
+  /// None yet.
+  explicit BoundaryFaces(Index3 volume);
+
+  /// Counts those of a brick; faces that it shares with voxels outside `labels` are left out.
+  /// uniform: the brick has one label, hence none inside.
+  /// REQUIRES: labels cover the brick.  Thread safety: different bricks may be counted at once.
+  void count(const LabelBox& labels, Index3 brick, bool uniform);
+
+  /// As if those of each brick were spread evenly over it.
+  [[nodiscard]] double in(const Box3& box) const;
+
+ private:
+  [[nodiscard]] Box3 box_of(Index3 brick) const;
+  [[nodiscard]] std::size_t row(Index3 brick) const {
+    return static_cast<std::size_t>((brick.z * bricks_.y + brick.y) * bricks_.x + brick.x);
+  }
+
+  Index3 volume_;
+  Index3 bricks_;
+  std::vector<std::uint16_t> faces_;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What shells complete, from the program's own options.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/cli/command_list.h"
+
+namespace mw::cli {
+
+/// Scripts for bash 4, zsh and fish: subcommands, flags, values that are words; files elsewhere.
+[[nodiscard]] std::string bash_completion(const std::vector<CommandFacts>& commands);
+[[nodiscard]] std::string zsh_completion(const std::vector<CommandFacts>& commands);
+[[nodiscard]] std::string fish_completion(const std::vector<CommandFacts>& commands);
+
+}  // namespace mw::cli
