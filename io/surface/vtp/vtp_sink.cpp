@@ -33,7 +33,8 @@ std::string head_of(const SurfaceHeader& header) {
   std::string out = text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PolyData>\n",
-      vtu_names(names_of(header), is_signed), "    <Piece NumberOfPoints=\"", vertices,
+      vtu_fields({.labels_signed = is_signed, .names = names_of(header)}),
+      "    <Piece NumberOfPoints=\"", vertices,
       "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"", triangles,
       "\">\n      <Points>\n");
   out += tags.next("Float64", "Points", 3, vertices * 24);
