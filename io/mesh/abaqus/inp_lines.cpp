@@ -43,8 +43,9 @@ std::string in_capitals(std::string_view text) {
 /// The next line that is neither blank nor a comment.
 bool InpLines::read() {
   do {
-    line_ = cursor_.line();
+    const std::uint64_t line = cursor_.line();
     if (!cursor_.read_line(text_, kMostLineBytes)) return false;
+    line_ = line;
     if (text_.size() == kMostLineBytes) fail("no line of an input file is that long");
     if (text_.starts_with("**")) comment_(text_);
   } while (text_.starts_with("**") || trimmed(text_).empty());

@@ -29,6 +29,7 @@ void MshInput::set_binary(ByteOrder order) {
 
 std::string_view MshInput::next_line(std::string_view expected) {
   do {
+    line_ = cursor_.line();
     if (!cursor_.read_line(text_, kMostLineBytes)) {
       text_.clear();
       fail_word(expected);
@@ -60,6 +61,7 @@ void MshInput::skip_section(std::string_view section) {
 
 std::string_view MshInput::word() {
   while (is_blank(cursor_.peek())) cursor_.take();
+  line_ = cursor_.line();
   text_.clear();
   for (int c = cursor_.peek(); c >= 0 && !is_blank(c); c = cursor_.peek()) {
     if (text_.size() == kMostWordBytes) fail("no number is that long");
@@ -113,8 +115,7 @@ void MshInput::fail_word(std::string_view expected) const {
 }
 
 void MshInput::fail(std::string_view reason) const {
-  const std::string place =
-      ascii_ ? text("line ", cursor_.line()) : text("byte ", cursor_.offset());
+  const std::string place = ascii_ ? text("line ", line_) : text("byte ", cursor_.offset());
   fail_input(name(), place, reason, "save the mesh anew, as Gmsh's .msh of version 4.1");
 }
 

@@ -46,7 +46,8 @@ class MshInput {
   [[nodiscard]] T from_bytes(std::string_view expected);
 
   ByteCursor cursor_;
-  std::string text_;  ///< the last word or line
+  std::string text_;        ///< the last word or line
+  std::uint64_t line_ = 1;  ///< where that began
   bool ascii_ = true;
   ByteOrder order_ = kHostOrder;
 };
