@@ -4,6 +4,7 @@
 """meshio and a parser by the manual see our .inp files as numpy sees the same mesh."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,9 @@ except ImportError:
 
 PROGRAM = os.environ["MW_PROGRAM"]
 LARGE = 2**64 - 3
+TEN_NODES = "--element" in subprocess.run(
+    [PROGRAM, "convert", "--help"], capture_output=True, text=True
+).stdout
 FACES = {"S1": (0, 1, 2), "S2": (0, 3, 1), "S3": (1, 3, 2), "S4": (2, 3, 0)}
 
 
@@ -174,6 +178,33 @@ class Abaqus(unittest.TestCase):
         sets = {f"LABEL_{l}": [np.flatnonzero(self.labels == np.uint64(l))] for l in names}
         meshio.write("sets.inp", meshio.Mesh(self.points, tets, cell_sets=sets), float_fmt=".17g")
         self.assertEqual(run("digest", "sets.inp"), run("digest", "v.vtu"))
+
+    @unittest.skipUnless(shutil.which("ccx"), "no CalculiX")
+    def test_calculix_solves_on_ours(self):
+        """Held at x_min, pressed at x_max and at an interface: reactions balance the pressures."""
+        # CalculiX leaves loads of held nodes out of their reactions.
+        held = set(self.sets["X_MIN"])
+        inner = max((name for name in self.surfaces
+                     if name.startswith("FACE") and held.isdisjoint(self.sets[name])),
+                    key=lambda name: len(self.surfaces[name]))
+        for options in ([], ["--element", "tet10"]) if TEN_NODES else ([],):
+            run("convert", "v.vtu", "mesh.inp", *options)
+            sets = sorted({name for name, _ in self.elements.values()})
+            with open("job.inp", "w", encoding="utf-8") as job:
+                job.write("*INCLUDE, INPUT=mesh.inp\n*MATERIAL, NAME=M\n*ELASTIC\n100, 0.3\n")
+                for name in sets:
+                    job.write(f"*SOLID SECTION, ELSET={name}, MATERIAL=M\n")
+                job.write(f"*BOUNDARY\nX_MIN, 1, 3\n*STEP\n*STATIC\n*DSLOAD\nX_MAX, P, 2\n"
+                          f"{inner}, P, 0.5\n*NODE PRINT, NSET=X_MIN, TOTALS=ONLY\nRF\n*END STEP\n")
+            subprocess.run(["ccx", "job"], capture_output=True, check=True)
+            with open("job.dat", encoding="utf-8") as file:
+                reaction = [float(x) for x in file.read().split()[-3:]]
+            pressed = 2 * self.area_vector("X_MAX") + 0.5 * self.area_vector(inner)
+            np.testing.assert_allclose(reaction, pressed, rtol=1e-4, atol=1e-3)
+
+    def area_vector(self, name):
+        a, b, c = (self.points[np.array(self.faces(name))[:, i]] for i in range(3))
+        return np.cross(b - a, c - a).sum(0) / 2
 
     @unittest.skipUnless(gmsh, "no gmsh")
     def test_we_read_gmshs(self):
