@@ -27,8 +27,7 @@ std::int64_t read_tags(MshInput& in, std::string_view expected) {
 
 void read_entity(MshInput& in, std::int64_t dimension, MshContent& out) {
   const std::int64_t tag = in.integer("the tag of an entity");
-  const int coordinates = dimension == 0 ? 3 : 6;
-  for (int i = 0; i < coordinates; ++i) static_cast<void>(in.real("a bound of an entity"));
+  in.skip_reals(dimension == 0 ? 3 : 6);  // its place or box
   const std::int64_t physical = read_tags(in, "a physical group");
   // The sign tells the orientation.
   if (dimension == kVolume && physical != 0) out.physical_of[tag] = std::abs(physical);
@@ -48,9 +47,7 @@ void read_node_block(MshInput& in, MshContent& out) {
   for (const std::uint64_t tag : tags) {
     Position position{};
     for (double& x : position) x = in.real("a coordinate");
-    for (std::int64_t i = 0; parametric && i < dimension; ++i) {
-      static_cast<void>(in.real("a parameter of a node"));
-    }
+    if (parametric) in.skip_reals(dimension);
     out.mesh.add_node(tag, position);
   }
 }

@@ -103,6 +103,16 @@ double MshInput::real(std::string_view expected) {
   return number;
 }
 
+void MshInput::skip_reals(std::int64_t how_many) {
+  for (std::int64_t i = 0; i < how_many; ++i) {
+    if (ascii_) {
+      if (word().empty()) fail_word("a number");
+    } else {
+      static_cast<void>(from_bytes<double>("a number"));
+    }
+  }
+}
+
 void MshInput::check_rows(std::uint64_t rows, std::uint64_t bytes, std::uint64_t numbers) const {
   const std::uint64_t least = ascii_ ? 2 * numbers : bytes;  // a digit and a blank
   if (rows <= cursor_.left() / least) return;

@@ -85,7 +85,7 @@ std::string foreign() {
       "$Comments\nnode 1 2 3\n$EndComments\n"
       "$PhysicalNames\n2\n2 5 \"skin\"\n3 7 \"liver \"\n$EndPhysicalNames\n"
       "$Entities\n1 0 1 2\n9 0 0 0 0\n4 0 0 0 1 1 1 1 5 0\n"
-      "11 0 0 0 1 1 1 2 7 8 1 4\n12 0 0 0 1 1 1 0 1 -4\n$EndEntities\n"
+      "11 0 -nan 0 inf 1 1 2 7 8 1 4\n12 0 0 0 1 1 1 0 1 -4\n$EndEntities\n"
       "$Nodes\n2 6 10 600\n3 11 0 4\n600\n10\n200\n30\n0 0 1\n0 0 0\n0 1 0\n1 0 0\n"
       "2 4 1 2\n400\n500\n1 1 1 0.5 0.25\n0 0 -1e0 0 0\n$EndNodes\n"
       "$Elements\n4 4 1 90\n0 9 15 1\n1 10\n2 4 2 1\n3 10 30 200\n"
