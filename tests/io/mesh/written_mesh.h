@@ -56,7 +56,7 @@ inline void try_mesh(const std::filesystem::path& path, std::size_t place, int& 
 inline int try_damage(const TempDir& dir, const std::string& name, const std::string& good) {
   std::mt19937 random(7);
   int refused = 0;
-  for (std::size_t i = 0; i < 1000; ++i) {
+  for (std::size_t i = 0; i < 600; ++i) {
     std::string bad = good;
     const std::size_t at = random() % bad.size();
     if (i % 4 == 0) bad[at] = static_cast<char>(random());
