@@ -15,7 +15,8 @@ namespace mw::io {
 /// Physical surfaces: 1 x_min, 2 x_max, .. 6 z_max, 7 outer, of all labels together; from 8 on the
 /// interfaces, in the order of their labels.  Names are GroupNames'; those that are longer than
 /// Gmsh reads are "LABEL_7", "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
-/// The table of labels is written beside it.
+/// The table of labels is written beside it.  Entities may be in several pieces, which Gmsh's
+/// createTopology() parts, forgetting their groups; createTopology(False) keeps them.
 class MshWriter : public GroupedWriter {
  public:
   MshWriter(const std::filesystem::path& path, bool ascii) : path_(path), out_(path, ascii) {}

@@ -5,17 +5,13 @@
 
 #include <algorithm>
 
-#include "io/file/external_sort.h"
-
 namespace mw::io {
 namespace {
 
 constexpr std::size_t kSortBytes = 8 << 20;
 
+/// A row of a node and an entity that has it.
 using Pairs = ExternalSort<2>;
-
-/// A row of node and an entity that has it.
-using Use = std::array<std::uint64_t, 2>;
 
 void add_uses(std::span<const std::uint64_t> rows, std::uint64_t entity, Pairs& uses) {
   for (const std::uint64_t row : rows) uses.add({row, entity});
@@ -54,32 +50,39 @@ void extend(EntityBox& box, const Position& p, bool first) {
 }  // namespace
 
 NodeClasses::NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder) : rows_(folder) {
-  const std::uint64_t groups = mesh.facet_groups().size();
-  boxes_.resize(groups + std::max<std::size_t>(mesh.table().size(), 1));
+  boxes_.resize(mesh.facet_groups().size() + std::max<std::size_t>(mesh.table().size(), 1));
   nodes_.resize(boxes_.size());
-  std::vector<bool> has_box(boxes_.size());
-  Pairs uses(folder, kSortBytes);
-  add_facet_uses(mesh, uses);
-  add_tet_uses(mesh, uses);
   Pairs places(folder, kSortBytes);  // entity, row
-  std::uint64_t next = 0;            // the first row without a place
-  Use last{mesh.node_count(), 0};
-  uses.each([&](const Use& use) {
-    if (use == last) return;
-    last = use;
-    const auto [row, entity] = use;
-    extend(boxes_[entity], mesh.node(row), !has_box[entity]);
-    has_box[entity] = true;
-    for (; next < row; ++next) places.add({groups, next});
-    if (next == row) places.add({entity, next++});
-  });
-  for (; next < mesh.node_count(); ++next) places.add({groups, next});
-  places.each([&](const Use& place) {
+  {
+    Pairs uses(folder, kSortBytes);
+    add_facet_uses(mesh, uses);
+    add_tet_uses(mesh, uses);
+    place_rows(mesh, uses, places);
+  }
+  places.each([&](const std::array<std::uint64_t, 2>& place) {
     RowRange& range = nodes_[place[0]];
     if (range.size() == 0) range = {rows_.size(), rows_.size()};
     ++range.end;
     rows_.append(place[1]);
   });
+}
+
+/// Uses come by row, those of a row by entity: the first is where it is placed.
+void NodeClasses::place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& places) {
+  const std::uint64_t unused = mesh.facet_groups().size();
+  std::vector<bool> has_box(boxes_.size());
+  std::array<std::uint64_t, 2> last{mesh.node_count(), 0};
+  std::uint64_t next = 0;  // the first row without a place
+  uses.each([&](const std::array<std::uint64_t, 2>& use) {
+    if (use == last) return;
+    last = use;
+    const auto [row, entity] = use;
+    extend(boxes_[entity], mesh.node(row), !has_box[entity]);
+    has_box[entity] = true;
+    for (; next < row; ++next) places.add({unused, next});
+    if (next == row) places.add({entity, next++});
+  });
+  for (; next < mesh.node_count(); ++next) places.add({unused, next});
 }
 
 }  // namespace mw::io

@@ -3,6 +3,7 @@
 // Which surface or volume each node of a mesh lies on.
 #pragma once
 
+#include "io/file/external_sort.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {
@@ -31,6 +32,10 @@ class NodeClasses {
   [[nodiscard]] std::uint64_t row(std::uint64_t place) { return rows_[place]; }
 
  private:
+  using Pairs = ExternalSort<2>;
+
+  void place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& places);
+
   std::vector<EntityBox> boxes_;
   std::vector<RowRange> nodes_;
   PagedFile<std::uint64_t> rows_;

@@ -3,6 +3,10 @@
 // Meshes and damage for the tests of formats that group tets.
 #pragma once
 
+#include <sys/resource.h>
+
+#include <csignal>
+
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/grid_mesh.h"
@@ -66,6 +70,25 @@ inline int try_damage(const TempDir& dir, const std::string& name, const std::st
     try_mesh(dir.file(name, bad), at, refused);
   }
   return refused;
+}
+
+/// The limit on the size of files stands in for a full disk; it is full of what waits, or of the
+/// file itself.
+inline void expect_full_disk(const std::string& name, Encoding encoding) {
+  const TempDir dir;
+  const MeshData mesh = grid_mesh({20, 20, 20}, 1);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit old{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  for (const rlim_t room : {rlim_t{100}, rlim_t{1 << 18}, rlim_t{2500 << 10}}) {
+    const rlimit small{.rlim_cur = room, .rlim_max = old.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    expect_error(ErrorKind::kResource, {dir.path().string()},
+                 [&] { save(mesh, dir.path() / name, Element::kTet10, encoding); });
+    setrlimit(RLIMIT_FSIZE, &old);
+    EXPECT_EQ(dir.entries(), 0U) << room;
+  }
+  static_cast<void>(std::signal(SIGXFSZ, old_handler));
 }
 
 }  // namespace mw::io

@@ -145,6 +145,10 @@ TEST_F(Inp, DamageIsAnErrorOrAMesh) {
   }
 }
 
+TEST_F(Inp, OutOfRoomIsAResourceErrorAndLeavesNothing) {
+  expect_full_disk("m.inp", Encoding::kUsual);
+}
+
 TEST(SetLabels, ByNumberOrInOrder) {
   const auto labels = [](const std::vector<std::string>& sets) {
     return labels_of_sets(sets).labels;

@@ -191,6 +191,11 @@ TEST_F(Msh, RefusesWhatItDoesNotRead) {
   refuse(foreign(), {"12", "labels.csv"});
 }
 
+TEST_F(Msh, OutOfRoomIsAResourceErrorAndLeavesNothing) {
+  expect_full_disk("m.msh", Encoding::kUsual);
+  expect_full_disk("m.msh", Encoding::kText);
+}
+
 TEST_F(Msh, AsciiIsForMshAlone) {
   expect_error(ErrorKind::kUsage, {"m.vtu", "ascii"}, [&] {
     static_cast<void>(open_mesh_sink(dir_.path() / "m.vtu", Element::kTet4, Encoding::kText));
