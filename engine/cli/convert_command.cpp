@@ -10,9 +10,17 @@
 namespace mw::cli {
 namespace {
 
-int run_convert(const std::string& from, const std::string& to) {
-  const std::unique_ptr<io::MeshSink> sink = io::open_mesh_sink(to);
-  io::copy_mesh(from, *sink);
+struct ConvertJob {
+  std::string from;
+  std::string to;
+  bool ascii = false;
+};
+
+int run_convert(const ConvertJob& job) {
+  const io::Encoding encoding = job.ascii ? io::Encoding::kText : io::Encoding::kUsual;
+  const std::unique_ptr<io::MeshSink> sink =
+      io::open_mesh_sink(job.to, io::Element::kTet4, encoding);
+  io::copy_mesh(job.from, *sink);
   return kExitDone;
 }
 
@@ -20,11 +28,12 @@ int run_convert(const std::string& from, const std::string& to) {
 
 void add_convert_command(CLI::App& program, Action& chosen) {
   CLI::App* command = program.add_subcommand("convert", "writes a mesh in another format");
-  const auto paths = std::make_shared<std::pair<std::string, std::string>>();
-  command->add_option("MESH", paths->first, "mesh to read: " + io::mesh_extensions())->required();
-  command->add_option("OUT", paths->second, "mesh to write: " + io::mesh_extensions())->required();
-  command->callback(
-      [paths, &chosen] { chosen = [paths] { return run_convert(paths->first, paths->second); }; });
+  const auto job = std::make_shared<ConvertJob>();
+  const std::string formats = io::mesh_extensions();
+  command->add_option("MESH", job->from, "mesh to read: " + formats)->required();
+  command->add_option("OUT", job->to, "mesh to write: " + formats)->required();
+  command->add_flag("--ascii", job->ascii, "a .msh as text instead of binary");
+  command->callback([job, &chosen] { chosen = [job] { return run_convert(*job); }; });
 }
 
 }  // namespace mw::cli

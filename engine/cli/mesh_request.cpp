@@ -11,6 +11,7 @@
 #include "engine/cli/machine_memory.h"
 #include "engine/cli/values.h"
 #include "engine/codt/worker_pool.h"
+#include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -67,7 +68,7 @@ std::string text_of(const Names& names, Value value) {
 void add_output_option(OptionSet& options, MeshRequest& request) {
   options.add({.name = "output",
                .value = "OUTPUT",
-               .help = "mesh to write: .vtkhdf, .vtu or .mesh",
+               .help = "mesh to write: " + io::mesh_extensions(),
                .flags = "-o,--output",
                .assign = [&](const std::string& text) { request.output = text; }});
 }
@@ -243,6 +244,11 @@ void add_resource_options(OptionSet& options, MeshRequest& request) {
 }
 
 void add_output_options(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "ascii",
+               .help = "a .msh as text instead of binary",
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .assign = [&](const std::string& text) { request.ascii = parse_switch(text); }});
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes a report of the run, read back from the finished mesh",

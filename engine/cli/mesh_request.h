@@ -15,6 +15,7 @@ namespace mw::cli {
 struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
+  bool ascii = false;            ///< the output as text
   std::filesystem::path report;  ///< empty: none
   std::filesystem::path trace;   ///< empty: none
   engine::MeshSettings settings;

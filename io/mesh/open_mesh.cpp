@@ -7,6 +7,11 @@
 
 #include "io/file/errors.h"
 #include "io/file/open_bytes.h"
+#include "io/mesh/abaqus/inp_reader.h"
+#include "io/mesh/abaqus/inp_writer.h"
+#include "io/mesh/gmsh/msh_reader.h"
+#include "io/mesh/gmsh/msh_writer.h"
+#include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/medit/medit_reader.h"
 #include "io/mesh/medit/medit_sink.h"
 #include "io/mesh/vtkhdf/vtkhdf_reader.h"
@@ -25,6 +30,8 @@ struct MeshFormat {
   /// Reads it in bounded memory; null where `read` is there.
   void (*stream)(const std::filesystem::path&, MeshSink&);
   std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element);
+  /// The same as text; null where there is one way to write it.
+  std::unique_ptr<MeshSink> (*open_text)(const std::filesystem::path&, Element) = nullptr;
 };
 
 /// A sink that writes corners alone.
@@ -35,12 +42,25 @@ std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Elemen
               text(path.string(), ": ", path.extension().string(), " is written with tet4 only"));
 }
 
+std::unique_ptr<MeshSink> open_inp(const std::filesystem::path& path, Element element) {
+  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<InpWriter>(path),
+                                       element);
+}
+
+template <bool ascii>
+std::unique_ptr<MeshSink> open_msh(const std::filesystem::path& path, Element element) {
+  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<MshWriter>(path, ascii),
+                                       element);
+}
+
 const std::array kFormats{
     MeshFormat{".vtkhdf", nullptr, &read_vtkhdf, &open_corners<VtkhdfSink>},
     MeshFormat{".vtu", [](const auto& path) { return read_vtu(*open_bytes(path)); }, nullptr,
                &open_corners<VtuSink>},
     MeshFormat{".mesh", [](const auto& path) { return read_medit(*open_bytes(path)); }, nullptr,
                &open_corners<MeditSink>},
+    MeshFormat{".msh", &read_msh, nullptr, &open_msh<false>, &open_msh<true>},
+    MeshFormat{".inp", &read_inp, nullptr, &open_inp},
 };
 
 const MeshFormat* find_format(const std::filesystem::path& path) {
@@ -87,8 +107,13 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
   }
 }
 
-std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element) {
-  return format_of(path).open(path, element);
+std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
+                                         Encoding encoding) {
+  const MeshFormat& format = format_of(path);
+  if (encoding == Encoding::kUsual) return format.open(path, element);
+  if (format.open_text != nullptr) return format.open_text(path, element);
+  throw Error(ErrorKind::kUsage, text(path.string(), ": ", path.extension().string(),
+                                      " is written in one way, so ascii is not for it"));
 }
 
 }  // namespace mw::io

@@ -12,6 +12,12 @@
 
 namespace mw::io {
 
+/// How numbers are written in a format that has both.
+enum class Encoding : std::uint8_t {
+  kUsual,  ///< binary
+  kText,
+};
+
 /// The extensions that are read and written, as ".vtkhdf, .vtu, .mesh".
 [[nodiscard]] std::string mesh_extensions();
 [[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
@@ -23,9 +29,10 @@ namespace mw::io {
 /// The same into a sink, begin to finish; .vtkhdf in bounded memory, the others by way of MeshData.
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
-/// ERRORS: mw::Error(kUsage) for an unknown extension, an element that the format does not have, or
-/// a path that cannot be written.
+/// ERRORS: mw::Error(kUsage) for an unknown extension, an element or encoding that the format does
+/// not have a choice of, or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
-                                                       Element element = Element::kTet4);
+                                                       Element element = Element::kTet4,
+                                                       Encoding encoding = Encoding::kUsual);
 
 }  // namespace mw::io

@@ -63,6 +63,7 @@ class NumberedLabels {
   [[nodiscard]] RawLabel label(std::int64_t number);
   /// Whether labels are to be read as signed; without a table, whether a number was negative.
   [[nodiscard]] bool labels_signed() const { return map_ ? map_->labels_signed : negative_; }
+  [[nodiscard]] bool has_table() const { return map_.has_value(); }
   [[nodiscard]] LabelNames names() const { return map_ ? map_->names : LabelNames{}; }
 
  private:

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Element types of .msh files.
+#include "io/mesh/gmsh/msh_elements.h"
+
+#include <array>
+
+namespace mw::io {
+namespace {
+
+/// By type, from 0 on: lines, triangles, quadrangles, tets, hexahedra, prisms, pyramids, points of
+/// orders up to 5, as Gmsh's manual numbers them.
+constexpr std::array<std::uint8_t, 32> kNodes{0,  2,  3,  4,  4, 8, 6,  5,  3,  6, 9,
+                                              10, 27, 18, 14, 1, 8, 20, 15, 13, 9, 10,
+                                              12, 15, 15, 21, 4, 5, 6,  20, 35, 56};
+
+}  // namespace
+
+std::uint64_t msh_nodes_of(std::int64_t type) {
+  constexpr std::int64_t kHexahedron64 = 92, kHexahedron125 = 93;
+  if (type == kHexahedron64) return 64;
+  if (type == kHexahedron125) return 125;
+  return type > 0 && type < std::ssize(kNodes) ? kNodes[static_cast<std::size_t>(type)] : 0;
+}
+
+bool is_msh_tet(std::int64_t type) {
+  constexpr std::int64_t kTet20 = 29, kTet56 = 31;
+  return type == kMshTet4 || type == kMshTet10 || (type >= kTet20 && type <= kTet56);
+}
+
+}  // namespace mw::io

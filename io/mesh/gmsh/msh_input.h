@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sections and numbers of a .msh file, from text or from bytes.
+#pragma once
+
+#include "io/file/byte_cursor.h"
+#include "io/file/byte_order.h"
+
+namespace mw::io {
+
+/// ERRORS of all: mw::Error(kInput) with file, line or byte, and what was expected.
+class MshInput {
+ public:
+  explicit MshInput(const ByteSource& source) : cursor_(source) {}
+
+  [[nodiscard]] bool ascii() const { return ascii_; }
+  [[nodiscard]] const std::string& name() const { return cursor_.source().name(); }
+  /// From now on numbers are bytes.
+  void set_binary(ByteOrder order);
+  /// The next line that is not blank, without blanks at its ends.  Valid until the next call of
+  /// any.
+  [[nodiscard]] std::string_view next_line(std::string_view expected);
+  /// The name of the section that begins here: "Nodes"; empty at the end of the file.
+  [[nodiscard]] std::string next_section();
+  /// The line "$End<section>", which comes here.
+  void end_section(std::string_view section);
+  /// Up to and with that line.
+  void skip_section(std::string_view section);
+
+  /// 32 bits in bytes.
+  [[nodiscard]] std::int64_t integer(std::string_view expected);
+  /// Not negative; 64 bits in bytes.
+  [[nodiscard]] std::uint64_t count(std::string_view expected);
+  /// Finite.
+  [[nodiscard]] double real(std::string_view expected);
+  /// Reals that do not matter, finite or not.
+  void skip_reals(std::int64_t how_many);
+  /// Such a number that each row of so many bytes at least (in binary; of so many numbers in text)
+  /// could still come: a damaged one cannot ask for all memory.
+  void check_rows(std::uint64_t rows, std::uint64_t bytes, std::uint64_t numbers) const;
+
+  [[noreturn]] void fail(std::string_view reason) const;
+
+ private:
+  [[nodiscard]] std::string_view word();
+  [[noreturn]] void fail_word(std::string_view expected) const;
+  template <class T>
+  [[nodiscard]] T from_bytes(std::string_view expected);
+
+  ByteCursor cursor_;
+  std::string text_;        ///< the last word or line
+  std::uint64_t line_ = 1;  ///< where that began
+  bool ascii_ = true;
+  ByteOrder order_ = kHostOrder;
+};
+
+}  // namespace mw::io

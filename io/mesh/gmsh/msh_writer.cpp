@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a grouped mesh as Gmsh's .msh 4.1.
+#include "io/mesh/gmsh/msh_writer.h"
+
+#include <algorithm>
+
+#include "io/file/errors.h"
+#include "io/mesh/gmsh/msh_elements.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::int32_t kSurface = 2;
+constexpr std::int32_t kVolume = 3;
+
+std::int32_t surface_tag(std::size_t group) {
+  return static_cast<std::int32_t>(group) + 1;
+}
+
+/// Interfaces are the first groups.
+std::int32_t physical_surface(const FacetGroup& group, std::size_t index) {
+  if (group.side != Side::kInterface) return static_cast<std::int32_t>(group.side);
+  return static_cast<std::int32_t>(kSides + index);
+}
+
+/// Gmsh documents 127 bytes and knows no way to write a quote.
+std::string gmsh_name(std::string name, const std::string& plain) {
+  constexpr std::size_t kMostBytes = 127;
+  if (name.size() > kMostBytes) return plain;
+  std::replace(name.begin(), name.end(), '"', '\'');
+  return name;
+}
+
+std::string name_line(std::int32_t dimension, std::int64_t tag, const std::string& name) {
+  return text(dimension, " ", tag, " \"", name, "\"");
+}
+
+/// By label, the surfaces around it; negative where their normals point into it.
+std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh) {
+  std::vector<std::vector<std::int32_t>> tags(mesh.table().size());
+  const std::vector<FacetGroup>& groups = mesh.facet_groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    tags[groups[g].first].push_back(surface_tag(g));
+    if (groups[g].second != kExterior) tags[groups[g].second].push_back(-surface_tag(g));
+  }
+  return tags;
+}
+
+}  // namespace
+
+void MshWriter::write(GroupedMesh& mesh) {
+  const std::filesystem::path folder = path_.parent_path();
+  Contents contents{mesh, LabelNumbers(mesh.table()), NodeClasses(mesh, folder)};
+  write_format();
+  write_physical_names(contents);
+  write_entities(contents);
+  write_nodes(contents);
+  write_elements(contents);
+  // The mesh last: what most likely fails has been done, and there is no mesh without its table.
+  write_label_table(path_, mesh.table(), mesh.names(), contents.numbers);
+  out_.commit();
+}
+
+MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {
+  const std::size_t groups = contents.mesh.facet_groups().size();
+  if (entity < groups) return {kSurface, surface_tag(entity)};
+  if (contents.mesh.table().size() == 0) return {kVolume, 1};
+  const auto rank = static_cast<Label>(entity - groups);
+  return {kVolume, static_cast<std::int32_t>(contents.numbers[rank])};
+}
+
+void MshWriter::write_format() {
+  out_.begin_section("MeshFormat");
+  out_.add_line(out_.ascii() ? "4.1 0 8" : "4.1 1 8");
+  if (out_.ascii()) {
+    out_.add_line("$EndMeshFormat");
+    return;
+  }
+  out_.put(std::int32_t{1});  // tells the byte order
+  out_.end_row();
+  out_.end_section("MeshFormat");
+}
+
+void MshWriter::write_physical_names(const Contents& contents) {
+  GroupedMesh& mesh = contents.mesh;
+  const GroupNames names(mesh);
+  std::vector<std::string> lines;
+  for (std::size_t g = 0; g < mesh.facet_groups().size(); ++g) {
+    const FacetGroup& group = mesh.facet_groups()[g];
+    const bool new_group =
+        g == 0 || group.side == Side::kInterface || group.side != mesh.facet_groups()[g - 1].side;
+    if (!new_group) continue;
+    const std::string plain = plain_facet_name(mesh.table(), group);
+    lines.push_back(
+        name_line(kSurface, physical_surface(group, g), gmsh_name(names.facets(group), plain)));
+  }
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    const std::string plain = plain_volume_name(mesh.table(), rank);
+    lines.push_back(
+        name_line(kVolume, contents.numbers[rank], gmsh_name(names.volume(rank), plain)));
+  }
+  out_.begin_section("PhysicalNames");
+  out_.add_line(text(lines.size()));
+  for (const std::string& line : lines) out_.add_line(line);
+  out_.add_line("$EndPhysicalNames");
+}
+
+void MshWriter::write_entities(const Contents& contents) {
+  GroupedMesh& mesh = contents.mesh;
+  const std::vector<FacetGroup>& groups = mesh.facet_groups();
+  out_.begin_section("Entities");
+  for (const std::uint64_t count :
+       {std::uint64_t{0}, std::uint64_t{0}, groups.size(), mesh.table().size()}) {
+    out_.put(count);
+  }
+  out_.end_row();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    put_entity(contents, g, physical_surface(groups[g], g));
+    out_.put(std::uint64_t{0});  // no curves
+    out_.end_row();
+  }
+  const std::vector<std::vector<std::int32_t>> surfaces = surfaces_of(mesh);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    const std::size_t entity = groups.size() + rank;
+    put_entity(contents, entity, tag_of(contents, entity).tag);
+    out_.put(std::uint64_t{surfaces[rank].size()});
+    for (const std::int32_t tag : surfaces[rank]) out_.put(tag);
+    out_.end_row();
+  }
+  out_.end_section("Entities");
+}
+
+/// Tag, box and physical group; what bounds it comes behind.
+void MshWriter::put_entity(const Contents& contents, std::size_t entity, std::int32_t physical) {
+  out_.put(tag_of(contents, entity).tag);
+  const EntityBox& box = contents.classes.box(entity);
+  for (const double x : box.lo) out_.put(x);
+  for (const double x : box.hi) out_.put(x);
+  out_.put(std::uint64_t{1});
+  out_.put(physical);
+}
+
+void MshWriter::write_nodes(Contents& contents) {
+  std::uint64_t blocks = 0;
+  for (std::size_t e = 0; e < contents.classes.entities(); ++e) {
+    if (contents.classes.nodes(e).size() > 0) ++blocks;
+  }
+  const std::uint64_t nodes = contents.mesh.node_count();
+  out_.begin_section("Nodes");
+  for (const std::uint64_t count : {blocks, nodes, std::min<std::uint64_t>(nodes, 1), nodes}) {
+    out_.put(count);
+  }
+  out_.end_row();
+  for (std::size_t e = 0; e < contents.classes.entities(); ++e) {
+    if (contents.classes.nodes(e).size() > 0) put_nodes(contents, e);
+  }
+  out_.end_section("Nodes");
+}
+
+void MshWriter::put_nodes(Contents& contents, std::size_t entity) {
+  const auto [dimension, tag] = tag_of(contents, entity);
+  const RowRange places = contents.classes.nodes(entity);
+  for (const std::int32_t number : {dimension, tag, 0}) out_.put(number);  // 0: not parametric
+  out_.put(places.size());
+  out_.end_row();
+  for (std::uint64_t i = places.begin; i < places.end; ++i) {
+    out_.put(contents.classes.row(i) + 1);
+    out_.end_row();
+  }
+  for (std::uint64_t i = places.begin; i < places.end; ++i) {
+    for (const double x : contents.mesh.node(contents.classes.row(i))) out_.put(x);
+    out_.end_row();
+  }
+}
+
+void MshWriter::write_elements(const Contents& contents) {
+  GroupedMesh& mesh = contents.mesh;
+  const bool quadratic = mesh.element() == Element::kTet10;
+  const std::size_t groups = mesh.facet_groups().size();
+  const std::size_t blocks = groups + mesh.table().size();
+  const std::uint64_t elements = mesh.facet_count() + mesh.tet_count();
+  out_.begin_section("Elements");
+  for (const std::uint64_t count :
+       {std::uint64_t{blocks}, elements, std::min<std::uint64_t>(elements, 1), elements}) {
+    out_.put(count);
+  }
+  out_.end_row();
+  for (std::size_t e = 0; e < blocks; ++e) {
+    const auto [dimension, tag] = tag_of(contents, e);
+    const bool is_surface = e < groups;
+    const RowRange range =
+        is_surface ? mesh.facet_groups()[e].facets : mesh.label_tets()[e - groups];
+    out_.put(dimension);
+    out_.put(tag);
+    if (is_surface) {
+      out_.put(quadratic ? kMshTriangle6 : kMshTriangle3);
+    } else {
+      out_.put(quadratic ? kMshTet10 : kMshTet4);
+    }
+    out_.put(range.size());
+    out_.end_row();
+    is_surface ? put_facets(mesh, range) : put_tets(mesh, range);
+  }
+  out_.end_section("Elements");
+}
+
+void MshWriter::put_facets(GroupedMesh& mesh, RowRange facets) {
+  for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
+    const Facet facet = mesh.facet(f);
+    out_.put(f + 1);
+    put_nodes_of_element(facet.rows);
+    if (mesh.element() == Element::kTet10) put_nodes_of_element(mesh.facet_middles(facet));
+    out_.end_row();
+  }
+}
+
+void MshWriter::put_tets(GroupedMesh& mesh, RowRange tets) {
+  for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
+    out_.put(mesh.facet_count() + t + 1);
+    put_nodes_of_element(mesh.tet(t));
+    if (mesh.element() == Element::kTet10) {
+      auto middles = mesh.middles(t);
+      std::swap(middles[4], middles[5]);  // Gmsh has edge 2 3 before 1 3
+      put_nodes_of_element(middles);
+    }
+    out_.end_row();
+  }
+}
+
+void MshWriter::put_nodes_of_element(std::span<const std::uint64_t> rows) {
+  for (const std::uint64_t row : rows) out_.put(row + 1);
+}
+
+}  // namespace mw::io

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a grouped mesh as Gmsh's .msh 4.1.
+#pragma once
+
+#include "io/mesh/gmsh/msh_encoder.h"
+#include "io/mesh/gmsh/node_classes.h"
+#include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/label_numbers.h"
+
+namespace mw::io {
+
+/// A volume a label, whose tag and physical group are the label's number (LabelNumbers: 1 to
+/// 2^31 - 1), and a surface a facet group, tagged from 1 on, with normals out of the lower label.
+/// Physical surfaces: 1 x_min, 2 x_max, .. 6 z_max, 7 outer, of all labels together; from 8 on the
+/// interfaces, in the order of their labels.  Names are GroupNames'; those that are longer than
+/// Gmsh reads are "LABEL_7", "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
+/// The table of labels is written beside it.  Entities may be in several pieces, which Gmsh's
+/// createTopology() parts, forgetting their groups; createTopology(False) keeps them.
+class MshWriter : public GroupedWriter {
+ public:
+  MshWriter(const std::filesystem::path& path, bool ascii) : path_(path), out_(path, ascii) {}
+
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  /// What all sections need.
+  struct Contents {
+    GroupedMesh& mesh;
+    LabelNumbers numbers;
+    NodeClasses classes;
+  };
+  /// How Gmsh calls an entity.
+  struct Tag {
+    std::int32_t dimension = 0;
+    std::int32_t tag = 0;
+  };
+
+  static Tag tag_of(const Contents& contents, std::size_t entity);
+  void write_format();
+  void write_physical_names(const Contents& contents);
+  void write_entities(const Contents& contents);
+  void put_entity(const Contents& contents, std::size_t entity, std::int32_t physical);
+  void write_nodes(Contents& contents);
+  void put_nodes(Contents& contents, std::size_t entity);
+  void write_elements(const Contents& contents);
+  void put_facets(GroupedMesh& mesh, RowRange facets);
+  void put_tets(GroupedMesh& mesh, RowRange tets);
+  void put_nodes_of_element(std::span<const std::uint64_t> rows);
+
+  std::filesystem::path path_;
+  MshEncoder out_;
+};
+
+}  // namespace mw::io

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which surface or volume each node of a mesh lies on.
+#include "io/mesh/gmsh/node_classes.h"
+
+#include <algorithm>
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kSortBytes = 8 << 20;
+
+/// A row of a node and an entity that has it.
+using Pairs = ExternalSort<2>;
+
+void add_uses(std::span<const std::uint64_t> rows, std::uint64_t entity, Pairs& uses) {
+  for (const std::uint64_t row : rows) uses.add({row, entity});
+}
+
+void add_facet_uses(GroupedMesh& mesh, Pairs& uses) {
+  for (std::uint64_t group = 0; group < mesh.facet_groups().size(); ++group) {
+    const RowRange facets = mesh.facet_groups()[group].facets;
+    for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
+      const Facet facet = mesh.facet(f);
+      add_uses(facet.rows, group, uses);
+      if (mesh.element() == Element::kTet10) add_uses(mesh.facet_middles(facet), group, uses);
+    }
+  }
+}
+
+void add_tet_uses(GroupedMesh& mesh, Pairs& uses) {
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    const std::uint64_t entity = mesh.facet_groups().size() + rank;
+    for (std::uint64_t t = mesh.label_tets()[rank].begin; t < mesh.label_tets()[rank].end; ++t) {
+      add_uses(mesh.tet(t), entity, uses);
+      if (mesh.element() == Element::kTet10) add_uses(mesh.middles(t), entity, uses);
+    }
+  }
+}
+
+/// A box that has no point yet when `first`.
+void extend(EntityBox& box, const Position& p, bool first) {
+  if (first) box = {p, p};
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.lo[k] = std::min(box.lo[k], p[k]);
+    box.hi[k] = std::max(box.hi[k], p[k]);
+  }
+}
+
+}  // namespace
+
+NodeClasses::NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder) : rows_(folder) {
+  boxes_.resize(mesh.facet_groups().size() + std::max<std::size_t>(mesh.table().size(), 1));
+  nodes_.resize(boxes_.size());
+  Pairs places(folder, kSortBytes);  // entity, row
+  {
+    Pairs uses(folder, kSortBytes);
+    add_facet_uses(mesh, uses);
+    add_tet_uses(mesh, uses);
+    place_rows(mesh, uses, places);
+  }
+  places.each([&](const std::array<std::uint64_t, 2>& place) {
+    RowRange& range = nodes_[place[0]];
+    if (range.size() == 0) range = {rows_.size(), rows_.size()};
+    ++range.end;
+    rows_.append(place[1]);
+  });
+}
+
+/// Uses come by row, those of a row by entity: the first is where it is placed.
+void NodeClasses::place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& places) {
+  const std::uint64_t unused = mesh.facet_groups().size();
+  std::vector<bool> has_box(boxes_.size());
+  std::array<std::uint64_t, 2> last{mesh.node_count(), 0};
+  std::uint64_t next = 0;  // the first row without a place
+  uses.each([&](const std::array<std::uint64_t, 2>& use) {
+    if (use == last) return;
+    last = use;
+    const auto [row, entity] = use;
+    extend(boxes_[entity], mesh.node(row), !has_box[entity]);
+    has_box[entity] = true;
+    for (; next < row; ++next) places.add({unused, next});
+    if (next == row) places.add({entity, next++});
+  });
+  for (; next < mesh.node_count(); ++next) places.add({unused, next});
+}
+
+}  // namespace mw::io

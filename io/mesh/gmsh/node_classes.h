@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which surface or volume each node of a mesh lies on.
+#pragma once
+
+#include "io/file/external_sort.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+
+namespace mw::io {
+
+/// A box along the axes.
+struct EntityBox {
+  Position lo{};
+  Position hi{};
+};
+
+/// Entities are the groups of facets, by their number, and behind them the labels, by rank.  Each
+/// node is on the first entity that has it; one in no tet is on the first label's, and where there
+/// is no label, on an entity of its own behind the groups (there are none then).
+/// Memory: 24 MiB and 64 bytes an entity; the rest waits in temporary files in `folder`, some
+/// 16 bytes a node of a tet.  ERRORS: see ScratchFile.
+class NodeClasses {
+ public:
+  NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder);
+
+  [[nodiscard]] std::size_t entities() const { return boxes_.size(); }
+  /// Of all nodes that the entity has, on it or on its edge; zeros when there are none.
+  [[nodiscard]] const EntityBox& box(std::size_t entity) const { return boxes_[entity]; }
+  /// The places in row() of the nodes on it.
+  [[nodiscard]] const RowRange& nodes(std::size_t entity) const { return nodes_[entity]; }
+  /// Rows of nodes by entity, ascending in each.
+  [[nodiscard]] std::uint64_t row(std::uint64_t place) { return rows_[place]; }
+
+ private:
+  using Pairs = ExternalSort<2>;
+
+  void place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& places);
+
+  std::vector<EntityBox> boxes_;
+  std::vector<RowRange> nodes_;
+  PagedFile<std::uint64_t> rows_;
+};
+
+}  // namespace mw::io
