@@ -5,14 +5,33 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/values.h"
 #include "io/mesh/open_mesh.h"
+#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
 
-int run_convert(const std::string& from, const std::string& to) {
-  const std::unique_ptr<io::MeshSink> sink = io::open_mesh_sink(to);
-  io::copy_mesh(from, *sink);
+struct ConvertJob {
+  std::string from;
+  std::string to;
+  std::string element = "tet4";
+};
+
+/// The mesh is read while the other is written; what is beside that is not to be the mesh.
+void require_other_files(const ConvertJob& job) {
+  const std::vector<std::filesystem::path> files = io::mesh_files(job.to);
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(job.from, files[i], ignored)) continue;
+    throw Error(ErrorKind::kUsage, files[i].string() + ": this is the mesh to read");
+  }
+}
+
+int run_convert(const ConvertJob& job) {
+  require_other_files(job);
+  const std::unique_ptr<io::MeshSink> sink = io::open_mesh_sink(job.to, parse_element(job.element));
+  io::copy_mesh(job.from, *sink);
   return kExitDone;
 }
 
@@ -20,11 +39,16 @@ int run_convert(const std::string& from, const std::string& to) {
 
 void add_convert_command(CLI::App& program, Action& chosen) {
   CLI::App* command = program.add_subcommand("convert", "writes a mesh in another format");
-  const auto paths = std::make_shared<std::pair<std::string, std::string>>();
-  command->add_option("MESH", paths->first, "mesh to read: .vtkhdf, .vtu or .mesh")->required();
-  command->add_option("OUT", paths->second, "mesh to write: .vtkhdf, .vtu or .mesh")->required();
-  command->callback(
-      [paths, &chosen] { chosen = [paths] { return run_convert(paths->first, paths->second); }; });
+  const auto job = std::make_shared<ConvertJob>();
+  const std::string formats = io::mesh_extensions();
+  command->add_option("MESH", job->from, "mesh to read: " + formats)->required();
+  command->add_option("OUT", job->to, "mesh to write: " + formats)->required();
+  command
+      ->add_option("--element", job->element,
+                   "nodes of a tet in OUT: tet4; tet10, with the middles of its edges")
+      ->type_name("ELEMENT")
+      ->capture_default_str();
+  command->callback([job, &chosen] { chosen = [job] { return run_convert(*job); }; });
 }
 
 }  // namespace mw::cli

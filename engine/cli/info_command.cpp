@@ -36,8 +36,8 @@ struct InfoJob {
 };
 
 bool is_mesh_name(const std::filesystem::path& path) {
-  constexpr std::array<const char*, 6> kExtensions{".vtu", ".mesh", ".vtkhdf",
-                                                   ".msh", ".inp",  ".node"};
+  constexpr std::array<const char*, 8> kExtensions{".vtu", ".mesh", ".vtkhdf", ".msh",
+                                                   ".inp", ".node", ".xdmf",   ".feb"};
   const std::string extension = path.extension().string();
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }

@@ -99,6 +99,13 @@ bool parse_switch(std::string_view text) {
   fail_expected("true or false", text);
 }
 
+io::Element parse_element(std::string_view text) {
+  if (text == "tet4") return io::Element::kTet4;
+  if (text == "tet10") return io::Element::kTet10;
+  throw Error(ErrorKind::kUsage,
+              "'" + std::string(text) + "' is no element; those are tet4 and tet10");
+}
+
 std::uint64_t parse_size(std::string_view text) {
   constexpr std::array<std::string_view, 5> kUnits{"", "KiB", "MiB", "GiB", "TiB"};
   std::uint64_t count = 0;
