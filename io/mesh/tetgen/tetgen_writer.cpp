@@ -81,12 +81,17 @@ void TetgenWriter::write_tets(GroupedMesh& mesh) {
 
 void TetgenWriter::write_facets(GroupedMesh& mesh) {
   const std::vector<NumberedFacets> runs = number_facets(mesh);
+  const bool ten = mesh.element() == Element::kTet10;
   facets_.append(text(mesh.facet_count(), " 1\n"));
   for (const NumberedFacets& run : runs) {
-    for (std::uint64_t facet = run.facets.begin; facet < run.facets.end; ++facet) {
+    for (std::uint64_t number = run.facets.begin; number < run.facets.end; ++number) {
       NumberLine line;
-      line.add(facet + 1);
-      for (const std::uint64_t row : mesh.facet(facet).rows) line.add(row + 1);
+      line.add(number + 1);
+      const Facet facet = mesh.facet(number);
+      for (const std::uint64_t row : facet.rows) line.add(row + 1);
+      if (ten) {
+        for (const std::uint64_t row : mesh.facet_middles(facet)) line.add(row + 1);
+      }
       line.add(run.number);
       facets_.append(line.finish());
     }

@@ -13,7 +13,8 @@ namespace mw::io {
 ///   M.ele    "tets 4 1" or "tets 10 1", then "row node.. attribute": the number of the label
 ///            (label_numbers.h); ten nodes in the order that TetGen -o2 writes
 ///   M.face   "facets 1", then "row three corners marker": the number of the group
-///            (facet_numbers.h), as the boundary marker
+///            (facet_numbers.h), as the boundary marker; of ten nodes the middles of edges 0 1, 1 2
+///            and 2 0 are behind the corners, where TetGen looks for them
 /// and the tables M.node.labels.csv and M.facets.csv.  M.node gets its name last.
 class TetgenWriter : public GroupedWriter {
  public:

@@ -147,7 +147,9 @@ class Reader {
     next_.points += point_counts_[part];
     next_.cells += count;
     next_.nodes += end;
-    if (next_.points > points_.rows()) points_.fail("has fewer rows than the counts say");
+    if (next_.points > points_.rows()) {
+      points_.fail(text("holds ", points_.rows(), " rows, ", next_.points, " are needed"));
+    }
   }
 
   void check_first_offset(std::size_t part) const {

@@ -7,6 +7,7 @@ Layers across x with a conductivity each, temperatures on x_min and x_max, the o
 insulated: the temperature is linear in each layer, the flux the same in all.
 """
 import csv
+import itertools
 import os
 import subprocess
 import sys
@@ -40,6 +41,37 @@ def run(*arguments):
     assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
 
 
+def layers():
+    labels = numpy.empty(SHAPE[::-1], dtype=numpy.uint64)
+    for begin, end, label in zip([0, *ENDS], ENDS, LABELS):
+        labels[:, :, begin:end] = label
+    return labels
+
+
+def write_grid(path):
+    """Each voxel as six tets, so that interfaces are where the layers end exactly."""
+    count = numpy.array(SHAPE) + 1
+    row = numpy.arange(numpy.prod(count)).reshape(count[::-1])
+    z, y, x = numpy.meshgrid(*map(numpy.arange, count[::-1]), indexing="ij")
+    points = numpy.stack([x, y, z], axis=-1).reshape(-1, 3) * SPACING
+    tets = []
+    for way in itertools.permutations(range(3)):  # from one end of a voxel's diagonal to the other
+        at, corners = [0, 0, 0], []
+        for axis in (*way, None):
+            corners.append(row[tuple(slice(a, a - 1 or None) for a in at)].ravel())
+            if axis is not None:
+                at[axis] = 1
+        tets.append(numpy.stack(corners, axis=-1))
+    labels = numpy.tile(layers().ravel(), 6)
+    with open(path, "w", encoding="ascii") as file:
+        file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n")
+        file.writelines(f"{x} {y} {z} 0\n" for x, y, z in points.tolist())
+        file.write(f"Tetrahedra\n{len(labels)}\n")
+        for four, label in zip(numpy.concatenate(tets) + 1, labels.tolist()):
+            file.write(f"{four[0]} {four[1]} {four[2]} {four[3]} {label}\n")
+        file.write("End\n")
+
+
 def exact(x):
     """Temperatures at places, from the resistances of the layers."""
     ends = numpy.array([0, *ENDS]) * SPACING[0]
@@ -53,13 +85,12 @@ class Dolfinx(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         os.chdir(cls.folder.name)
-        layers = numpy.empty(SHAPE[::-1], dtype=numpy.uint64)
-        for begin, end, label in zip([0, *ENDS], ENDS, LABELS):
-            layers[:, :, begin:end] = label
-        numpy.save("v.npy", layers)
+        write_grid("grid.mesh")
+        run("convert", "grid.mesh", "tet4.xdmf")
+        run("convert", "grid.mesh", "tet10.xdmf", "--element", "tet10")
+        numpy.save("v.npy", layers())
         spacing = ",".join(map(str, SPACING))
-        for element in ("tet4", "tet10"):
-            run("mesh", "v.npy", "-o", f"{element}.xdmf", "--spacing", spacing, "--element", element)
+        run("mesh", "v.npy", "-o", "meshed.xdmf", "--spacing", spacing)
 
     @classmethod
     def tearDownClass(cls):
@@ -82,7 +113,8 @@ class Dolfinx(unittest.TestCase):
 
     def test_volumes_and_areas(self):
         size = numpy.array(SHAPE) * SPACING
-        for stem in ("tet4", "tet10"):
+        # Smooth interfaces keep the volumes of labels to within some thousandths.
+        for stem, delta in (("tet4", 1e-9), ("tet10", 1e-9), ("meshed", 5e-3)):
             mesh, cells, facets, labels, names = self.read(stem)
             self.assertEqual(set(labels), set(LABELS))
             dx = ufl.Measure("dx", mesh, subdomain_data=cells)
@@ -90,17 +122,17 @@ class Dolfinx(unittest.TestCase):
             for begin, end, label in zip([0, *ENDS], ENDS, LABELS):
                 volume = fem.assemble_scalar(fem.form(one * dx(labels[label])))
                 expected = (end - begin) * SPACING[0] * size[1] * size[2]
-                self.assertAlmostEqual(volume / expected, 1, delta=1e-9)
+                self.assertAlmostEqual(volume / expected, 1, delta=delta)
             ds = ufl.Measure("ds", mesh, subdomain_data=facets)
             for axis, letter in enumerate("xyz"):
                 for end in ("min", "max"):
                     area = fem.assemble_scalar(fem.form(one * ds(names[f"{letter}_{end}"])))
-                    self.assertAlmostEqual(area / (numpy.prod(size) / size[axis]), 1, delta=1e-9)
+                    self.assertAlmostEqual(area / (numpy.prod(size) / size[axis]), 1, delta=delta)
             dS = ufl.Measure("dS", mesh, subdomain_data=facets)
             for pair in ((3, 2**40 + 1), (7, 2**40 + 1)):
                 tag = names[f"label_{pair[0]}|label_{pair[1]}"]
                 area = fem.assemble_scalar(fem.form(one("+") * dS(tag)))
-                self.assertAlmostEqual(area / (size[1] * size[2]), 1, delta=1e-9)
+                self.assertAlmostEqual(area / (size[1] * size[2]), 1, delta=delta)
 
     def solve(self, stem, degree):
         mesh, cells, facets, labels, names = self.read(stem)
@@ -125,11 +157,11 @@ class Dolfinx(unittest.TestCase):
         return numpy.abs(solution.x.array - expected.x.array).max()
 
     def test_heat(self):
-        for stem in ("tet4", "tet10"):
+        for stem, most in (("tet4", 1e-9), ("tet10", 1e-9), ("meshed", 1e-2)):
             for degree in (1, 2):
                 worst = self.solve(stem, degree)
                 print(f"{stem}, degree {degree}: off by {worst:.2e} K of {HOT - COLD:g}")
-                self.assertLess(worst, 1e-8 * HOT)
+                self.assertLess(worst, most * (HOT - COLD))
 
     def test_we_read_dolfinx(self):
         mesh, cells, _, _, _ = self.read("tet4")

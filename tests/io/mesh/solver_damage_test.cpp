@@ -65,11 +65,11 @@ class SolverDamage : public testing::Test {
 
 TEST_F(SolverDamage, OfTetgen) {
   make("m.node");
-  cut_everywhere("m.node", 1);
-  cut_everywhere("m.ele", 1);
-  flip_anywhere("m.node", 2000);
-  flip_anywhere("m.ele", 2000);
-  flip_anywhere("m.node.labels.csv", 200);
+  cut_everywhere("m.node", 3);
+  cut_everywhere("m.ele", 3);
+  flip_anywhere("m.node", 500);
+  flip_anywhere("m.ele", 500);
+  flip_anywhere("m.node.labels.csv", 100);
 }
 
 TEST_F(SolverDamage, OfFebio) {
@@ -79,49 +79,49 @@ TEST_F(SolverDamage, OfFebio) {
   dir_.file("m.feb", good.substr(0, good.size() - 1));
   EXPECT_FALSE(refused("without the last line end"));
   dir_.file("m.feb", good.substr(0, good.size() - 1));
-  cut_everywhere("m.feb", 7);
-  flip_anywhere("m.feb", 2000);
+  cut_everywhere("m.feb", 29);
+  flip_anywhere("m.feb", 500);
 }
 
 TEST_F(SolverDamage, OfXdmf) {
   make("m.xdmf");
   const std::string good = content_of(path_);
-  for (std::size_t size = 0; size + 1 < good.size(); size += 41) {
+  for (std::size_t size = 0; size + 1 < good.size(); size += 83) {
     dir_.file("m.xdmf", good.substr(0, size));
     EXPECT_TRUE(refused("cut at " + std::to_string(size)));
   }
   dir_.file("m.xdmf", good);
-  flip_anywhere("m.xdmf", 500);
+  flip_anywhere("m.xdmf", 150);
 }
 
 TEST_F(SolverDamage, OfItsNumbers) {
   make("m.xdmf");
   const std::string good = content_of(dir_.path() / "m.h5");
   int errors = 0;
-  for (std::size_t at = 0; at < good.size(); at += 24) {
+  for (std::size_t at = 0; at < good.size(); at += 72) {
     std::string bad = good;
     for (std::size_t i = at; i < std::min(at + 8, good.size()); ++i) bad[i] = '\xff';
     dir_.file("m.h5", bad);
     errors += refused("ones at " + std::to_string(at)) ? 1 : 0;
   }
-  EXPECT_GT(errors, 50);
+  EXPECT_GT(errors, 20);
   dir_.file("m.h5", good);
-  cut_everywhere("m.h5", 97);
+  cut_everywhere("m.h5", 397);
 }
 
 TEST_F(SolverDamage, OfTenNodesInVtk) {
   make("m.vtu");
-  flip_anywhere("m.vtu", 1000);
+  flip_anywhere("m.vtu", 500);
   make("m.vtkhdf");
   const std::string good = content_of(path_);
   int errors = 0;
-  for (std::size_t at = 0; at < good.size(); at += 24) {
+  for (std::size_t at = 0; at < good.size(); at += 72) {
     std::string bad = good;
     for (std::size_t i = at; i < std::min(at + 8, good.size()); ++i) bad[i] = '\xff';
     dir_.file("m.vtkhdf", bad);
     errors += refused("ones at " + std::to_string(at)) ? 1 : 0;
   }
-  EXPECT_GT(errors, 50);
+  EXPECT_GT(errors, 20);
 }
 
 }  // namespace
