@@ -198,7 +198,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
   sink.begin({.tets = out.tets,
               .labels_signed = volume.table().is_signed(),
               .names = written_names(volume, selection),
-              .box = box_of(volume.info())});
+              .record = {.box = box_of(volume.info()), .promises = options.promises}});
   Remembered remembered(options.hold);
   Writer writer(std::move(uses), volume, options.layers, sink, remembered);
   audit::QualityMeter quality;

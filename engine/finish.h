@@ -19,11 +19,12 @@ namespace mw::engine {
 
 /// What is written and told of the mesh.
 struct OutputOptions {
-  WantedLabel wanted;            ///< empty: every label
-  bool measure_quality = false;  ///< about 0.1 us a tet
-  bool measure_shape = false;    ///< volumes, area and bends; about 1 us a tet
-  HoldMemory hold;               ///< optional
-  Index3 layers{1, 1, 1};        ///< that the volume's voxels were cut into; set by mesh_volume()
+  WantedLabel wanted;                        ///< empty: every label
+  bool measure_quality = false;              ///< about 0.1 us a tet
+  bool measure_shape = false;                ///< volumes, area and bends; about 1 us a tet
+  HoldMemory hold;                           ///< optional
+  std::optional<io::MeshPromises> promises;  ///< to be told in the file; set by mesh_volume()
+  Index3 layers{1, 1, 1};  ///< that the volume's voxels were cut into; set by mesh_volume()
 };
 
 /// The finished mesh.

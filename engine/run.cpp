@@ -173,9 +173,17 @@ PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settin
   return {volume, settings, workers, folder.empty() ? io::scratch_folder() : folder};
 }
 
+io::MeshPromises promises_of(const MeshSettings& settings) {
+  return {.max_distance = settings.max_distance,
+          .quality_floor = settings.quality_floor,
+          .interfaces = settings.topology == KeptTopology::kInterfaces,
+          .smooth = settings.surface == Surface::kSmooth};
+}
+
 /// Writes what the last march left; memory for that comes first, blocks are spilled to make room.
-FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, RunStore& store,
-                        io::MeshSink& sink, const RunHooks& hooks) {
+FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice,
+                        const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
+                        const RunHooks& hooks) {
   const std::uint32_t last = layout.marches() - 1;
   const WindowGrid& grid = layout.grid(last);
   const BlockStore& stored = store.march(last);
@@ -187,6 +195,7 @@ FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, Ru
   MemoryBudget::Reservation rows;
   OutputOptions options = hooks.output;
   options.layers = lattice.layers();
+  options.promises = promises_of(settings);
   options.hold = [&](std::uint64_t bytes) {
     rows = {};
     rows = store.reserve(Purpose::kOutput, bytes);
@@ -229,7 +238,7 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();
   watch.restart();
-  FinishedMesh finished = write_mesh(layout, lattice, store, sink, hooks);
+  FinishedMesh finished = write_mesh(layout, lattice, settings, store, sink, hooks);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;

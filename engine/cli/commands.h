@@ -20,6 +20,7 @@ void add_mesh_command(CLI::App& program, Action& chosen);
 void add_verify_command(CLI::App& program, Action& chosen);
 void add_digest_command(CLI::App& program, Action& chosen);
 void add_info_command(CLI::App& program, Action& chosen);
+void add_stats_command(CLI::App& program, Action& chosen);
 void add_convert_command(CLI::App& program, Action& chosen);
 void add_synth_command(CLI::App& program, Action& chosen);
 

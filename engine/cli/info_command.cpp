@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <unordered_map>
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
@@ -16,6 +15,7 @@
 #include "engine/cli/shape_sink.h"
 #include "engine/cli/volume_facts.h"
 #include "engine/cli/volume_options.h"
+#include "engine/cli/voxel_counts.h"
 #include "io/labels/label_set.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
@@ -34,13 +34,6 @@ struct InfoJob {
   VolumeRequest volume;  ///< of a mesh: --volume; else the file
   bool json = false;
 };
-
-bool is_mesh_name(const std::filesystem::path& path) {
-  constexpr std::array<const char*, 8> kExtensions{".vtu", ".mesh", ".vtkhdf", ".msh",
-                                                   ".inp", ".node", ".xdmf",   ".feb"};
-  const std::string extension = path.extension().string();
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
 
 ordered_json labels_json(const io::LabelTable& table) {
   if (table.size() == 0) return {{"count", 0}, {"min", nullptr}, {"max", nullptr}};
@@ -85,37 +78,6 @@ class FactSink : public io::MeshSink {
   io::Position hi_{};
   io::LabelSet labels_;
 };
-
-/// A volume as a mesh is held against it.
-struct VoxelCounts {
-  std::unordered_map<RawLabel, std::uint64_t> voxels;
-  double voxel_volume = 1;  ///< cubic physical units
-  io::LabelNames names;
-};
-
-/// One pass over the volume.
-VoxelCounts count_voxels(const VolumeRequest& request) {
-  const std::unique_ptr<io::LabelVolume> opened = open(request);
-  const io::PreparedInput input(*opened, request.steps);
-  const io::LabelVolume& volume = input.volume();
-  VoxelCounts out;
-  for (const double edge : volume.info().space.spacing) out.voxel_volume *= edge;
-  for (const engine::LabelRegion& region : engine::label_regions(volume)) {
-    out.voxels.emplace(region.label, region.voxels);
-  }
-  out.names = volume.info().names;
-  return out;
-}
-
-/// A label of the mesh in the volume, if it is there.
-std::optional<audit::VolumeRow> held_against(const VoxelCounts& counts, RawLabel label, Label rank,
-                                             double volume) {
-  const auto found = counts.voxels.find(label);
-  if (found == counts.voxels.end()) return std::nullopt;
-  const auto voxels = static_cast<double>(found->second);
-  const double in_mesh = volume / counts.voxel_volume;
-  return audit::VolumeRow{rank, found->second, in_mesh, (in_mesh - voxels) / voxels};
-}
 
 /// Volumes of labels, and their errors when there is a volume to hold them against.
 ordered_json volumes_json(const ShapeSink& shape, bool labels_signed, const io::LabelNames& names,
@@ -189,7 +151,7 @@ int run_info(InfoJob& job) {
   require_path(job.file, "FILE");
   const bool has_volume = !job.volume.path.empty();
   // --shape says that a file is raw; without --volume there is no other file.
-  if (is_mesh_name(job.file) && (has_volume || !job.volume.shape)) {
+  if (io::is_mesh_path(job.file) && (has_volume || !job.volume.shape)) {
     tell_of_mesh(job);
     return kExitDone;
   }

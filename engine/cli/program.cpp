@@ -23,6 +23,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_verify_command(app, chosen);
   add_digest_command(app, chosen);
   add_info_command(app, chosen);
+  add_stats_command(app, chosen);
   add_convert_command(app, chosen);
   add_synth_command(app, chosen);
   app.require_subcommand(0, 1);

@@ -70,7 +70,7 @@ void add_verify_options(VerifyJob& job) {
   add_input_option(options, job.volume.path);
   options.add({.name = "mesh",
                .value = "MESH",
-               .help = "mesh to check: .vtkhdf, .vtu or .mesh",
+               .help = "mesh to check: " + io::mesh_extensions(),
                .flags = "MESH,--mesh",
                .assign = [&](const std::string& text) { job.mesh = text; }});
   add_volume_options(options, job.volume);

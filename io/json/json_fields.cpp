@@ -99,6 +99,12 @@ std::vector<std::int64_t> JsonFields::integers(std::string_view key) const {
   return integers_in(array_at(key), name_of(key));
 }
 
+double JsonFields::number(std::string_view key) const {
+  const nlohmann::json& value = at(key);
+  if (!value.is_number()) fail_type(name_of(key), "a number", value);
+  return value.get<double>();
+}
+
 std::vector<double> JsonFields::numbers(std::string_view key) const {
   std::vector<double> out;
   for (const nlohmann::json& value : array_at(key)) {

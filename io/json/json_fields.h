@@ -33,6 +33,7 @@ class JsonFields {
   /// Whole numbers may be written as 1.0; they must fit into 64 signed bits.
   [[nodiscard]] std::int64_t integer(std::string_view key) const;
   [[nodiscard]] std::vector<std::int64_t> integers(std::string_view key) const;
+  [[nodiscard]] double number(std::string_view key) const;
   [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
   /// Three numbers.
   [[nodiscard]] std::array<std::int64_t, 3> integers3(std::string_view key) const;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint64_t kMostNameBytes = 1 << 16;  ///< of one
 constexpr std::uint64_t kMostNames = 1 << 24;
+constexpr std::uint64_t kMostRecordBytes = 1 << 16;
 
 enum class Message : std::uint64_t { kBegin, kVertices, kTets, kFinish };
 
@@ -20,7 +21,8 @@ struct Head {
   Message message = Message::kFinish;
   std::uint64_t count = 0;  ///< rows; of kBegin the tets of the mesh
   std::uint64_t labels_signed = 0;
-  std::uint64_t names = 0;  ///< with kBegin: how many follow
+  std::uint64_t names = 0;         ///< with kBegin: how many follow
+  std::uint64_t record_bytes = 0;  ///< with kBegin: of the record as text, ahead of the names
 };
 
 /// Goes ahead of the letters of a name.
@@ -43,8 +45,10 @@ class SendingSink : public MeshSink {
 
   void begin(const MeshHeader& header) override {
     const std::span<const LabelName> names = header.names.rows();
-    send_(
-        bytes_of(Head{Message::kBegin, header.tets, header.labels_signed ? 1U : 0U, names.size()}));
+    const std::string record = record_text(header.record);
+    send_(bytes_of(Head{Message::kBegin, header.tets, header.labels_signed ? 1U : 0U, names.size(),
+                        record.size()}));
+    send_(std::as_bytes(std::span(record)));
     for (const LabelName& row : names) {
       NameHead head{.label = row.label, .bytes = row.name.size(), .has_colour = 0};
       if (row.colour) {
@@ -79,14 +83,17 @@ class Receiver {
   [[nodiscard]] bool receive() {
     Head head;
     if (!next(head) || head.message != Message::kBegin) return false;
+    if (head.names > kMostNames || head.record_bytes > kMostRecordBytes) return false;
+    std::string record(head.record_bytes, '\0');
+    if (!stream_.read(std::as_writable_bytes(std::span(record)))) return false;
     std::vector<LabelName> rows;
-    if (head.names > kMostNames) return false;
     for (std::uint64_t i = 0; i < head.names; ++i) {
       if (!name(rows.emplace_back())) return false;
     }
     sink_.begin({.tets = head.count,
                  .labels_signed = head.labels_signed != 0,
-                 .names = LabelNames(std::move(rows))});
+                 .names = LabelNames(std::move(rows)),
+                 .record = parse_record(record, "the mesh's record")});
     while (next(head)) {
       if (head.message == Message::kFinish) return true;
       if (head.count > kMostApartRows) return false;

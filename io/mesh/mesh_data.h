@@ -16,7 +16,7 @@ struct MeshData {
   std::vector<RawLabel> labels;
   bool labels_signed = false;
   LabelNames names;
-  std::optional<MeshBox> box;
+  MeshRecord record;
 };
 
 /// Writes all of a mesh: begin to finish.
@@ -24,7 +24,7 @@ inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
   sink.begin({.tets = mesh.tets.size(),
               .labels_signed = mesh.labels_signed,
               .names = mesh.names,
-              .box = mesh.box});
+              .record = mesh.record});
   sink.write_vertices(mesh.vertices);
   sink.write_tets(mesh.tets, mesh.labels);
   sink.finish();
@@ -36,7 +36,7 @@ class MeshDataSink : public MeshSink {
   void begin(const MeshHeader& header) override {
     mesh_.labels_signed = header.labels_signed;
     mesh_.names = header.names;
-    mesh_.box = header.box;
+    mesh_.record = header.record;
     mesh_.tets.reserve(header.tets);
     mesh_.labels.reserve(header.tets);
   }

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "io/mesh/mesh_box.h"
+#include "io/mesh/mesh_record.h"
 #include "io/names/label_names.h"
 #include "kernels/core/label.h"
 
@@ -22,7 +22,7 @@ struct MeshHeader {
   std::uint64_t tets = 0;
   bool labels_signed = false;  ///< labels are two's complement int64 and are written as such
   LabelNames names;            ///< of labels that are written
-  std::optional<MeshBox> box;  ///< of the volume, whether its labels are all written or not
+  MeshRecord record;           ///< of the run that made it
 };
 
 /// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink

@@ -82,8 +82,8 @@ void MeshGrouping::group() {
 }
 
 void MeshGrouping::find_box() {
-  if (mesh_.header_.box) {
-    mesh_.box_ = *mesh_.header_.box;
+  if (mesh_.header_.record.box) {
+    mesh_.box_ = *mesh_.header_.record.box;
     return;
   }
   mesh_.box_.origin = lo_;

@@ -10,6 +10,8 @@
 namespace mw::io {
 namespace {
 
+constexpr std::string_view kRecord = " mwmesh ";
+
 /// A count that the file could hold, so that a damaged one cannot ask for all memory.
 std::uint64_t next_rows(TokenScanner& scanner, const ByteSource& source,
                         std::uint64_t least_bytes) {
@@ -57,12 +59,15 @@ bool is_keyword(std::string_view word) {
 MeshData read_medit(const ByteSource& source) {
   constexpr std::uint64_t kLeastVertexBytes = 8, kLeastTetBytes = 10;
   TokenScanner scanner(source);
+  MeshData mesh;
   std::vector<LabelName> names;
   scanner.on_comment([&](std::string_view comment) {
     if (auto row = parse_medit_comment(comment)) names.push_back(std::move(*row));
+    if (comment.starts_with(kRecord)) {
+      mesh.record = parse_record(comment.substr(kRecord.size()), source.name());
+    }
   });
   if (scanner.next() != "MeshVersionFormatted") scanner.fail("not a MEDIT file");
-  MeshData mesh;
   bool vertices = false;
   bool tets = false;
   // Words that are no keyword are rows of a section that is skipped.

@@ -24,6 +24,9 @@ constexpr std::uint64_t kCopyBytes = 1 << 18;
 void MeditSink::begin(const MeshHeader& header) {
   header_ = header;
   file_.append(kHead);
+  if (const std::string record = record_text(header.record); !record.empty()) {
+    file_.append(text("# ", kRecordName, " ", record, "\n"));
+  }
   for (const LabelName& row : header.names.rows()) {
     file_.append(medit_comment(row, header.labels_signed));
   }

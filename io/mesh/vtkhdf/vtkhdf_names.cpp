@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Names of labels as field data of a .vtkhdf file.
+// Names of labels, and the record of the run, in a .vtkhdf file.
 #include "io/mesh/vtkhdf/vtkhdf_names.h"
 
 #include <algorithm>
@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kFields = "FieldData";
 constexpr const char* kOurs = "mwmesh";
+constexpr const char* kRecord = "record";
 /// More than a table of names could need; a damaged file may announce anything.
 constexpr std::uint64_t kMaxNumbers = 64 << 20;
 
@@ -84,14 +85,18 @@ bool write_colours(hid_t group, const LabelNames& names) {
                       .data = colours.data()});
 }
 
-bool write_bytes(hid_t group, const LabelNames& names) {
-  std::string bytes;
-  for (const LabelName& row : names.rows()) bytes.append(row.name).push_back('\0');
-  return write_array(group, kLabelName,
+bool write_bytes(hid_t group, const char* array, const std::string& bytes) {
+  return write_array(group, array,
                      {.shape = {bytes.size(), 1},
                       .file_type = H5T_STD_U8LE,
                       .memory_type = H5T_NATIVE_UINT8,
                       .data = bytes.data()});
+}
+
+std::string bytes_of(const LabelNames& names) {
+  std::string bytes;
+  for (const LabelName& row : names.rows()) bytes.append(row.name).push_back('\0');
+  return bytes;
 }
 
 bool has_array(hid_t place, const char* group, const char* array) {
@@ -138,13 +143,25 @@ std::vector<std::string> read_names(const Hdf5Array& array) {
 
 }  // namespace
 
-bool write_vtkhdf_names(hid_t file, hid_t grid, const LabelNames& names, bool labels_signed) {
+bool write_vtkhdf_facts(hid_t file, hid_t grid, const MeshHeader& header) {
+  const LabelNames& names = header.names;
+  const std::string record = record_text(header.record);
+  if (names.empty() && record.empty()) return true;
+  const Hdf5Handle ours = make_group(file, kOurs);
+  if (!ours.valid()) return false;
+  if (!record.empty() && !write_bytes(ours.get(), kRecord, record)) return false;
   if (names.empty()) return true;
   const Hdf5Handle fields = make_group(grid, kFields);
-  const Hdf5Handle ours = make_group(file, kOurs);
-  return fields.valid() && ours.valid() && write_ids(fields.get(), names, labels_signed) &&
+  return fields.valid() && write_ids(fields.get(), names, header.labels_signed) &&
          write_strings(fields.get(), names) && write_colours(fields.get(), names) &&
-         write_bytes(ours.get(), names);
+         write_bytes(ours.get(), kLabelName, bytes_of(names));
+}
+
+MeshRecord read_vtkhdf_record(hid_t file, const std::string& name) {
+  if (!has_array(file, kOurs, kRecord)) return {};
+  const std::vector<std::uint64_t> bytes =
+      read_numbers(Hdf5Array(file, text(kOurs, "/", kRecord), name), 1);
+  return parse_record(std::string(bytes.begin(), bytes.end()), name);
 }
 
 LabelNames read_vtkhdf_names(hid_t file, hid_t grid, const std::string& name) {

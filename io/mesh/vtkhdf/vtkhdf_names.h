@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Names of labels as field data of a .vtkhdf file.
+// Names of labels, and the record of the run, in a .vtkhdf file.
 #pragma once
 
 #include <string>
 
 #include "io/hdf5/hdf5_handle.h"
 #include "io/mesh/field_names.h"
+#include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
 
@@ -14,12 +15,13 @@ namespace mw::io {
 /// variable length and are declared ASCII, though they are UTF-8: VTK 9.1 reads no others.
 /// What we read: the numbers there, and in `file` the names once more, `mwmesh/label_name`, bytes
 /// with a NUL behind each.  The HDF5 library does not survive damaged strings of variable length.
-/// Nothing without names.  Returns whether all went well.
-[[nodiscard]] bool write_vtkhdf_names(hid_t file, hid_t grid, const LabelNames& names,
-                                      bool labels_signed);
+/// Nothing without names.  The record is `mwmesh/record`, bytes too.  Returns whether all went
+/// well.
+[[nodiscard]] bool write_vtkhdf_facts(hid_t file, hid_t grid, const MeshHeader& header);
 
 /// Nothing when the file has no such arrays.  `name` is what errors call it.
 /// ERRORS: mw::Error(kInput) naming file and data set when they are damaged.
 [[nodiscard]] LabelNames read_vtkhdf_names(hid_t file, hid_t grid, const std::string& name);
+[[nodiscard]] MeshRecord read_vtkhdf_record(hid_t file, const std::string& name);
 
 }  // namespace mw::io

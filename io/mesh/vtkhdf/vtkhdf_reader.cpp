@@ -31,7 +31,8 @@ std::string type_of(hid_t group) {
 
 class Reader {
  public:
-  Reader(const Hdf5Handle& group, LabelNames names, const std::string& file, MeshSink& sink)
+  /// facts: names and record.
+  Reader(const Hdf5Handle& group, MeshHeader facts, const std::string& file, MeshSink& sink)
       : file_(file),
         sink_(sink),
         points_(group.get(), "Points", file),
@@ -41,12 +42,14 @@ class Reader {
         point_counts_(counts(group.get(), "NumberOfPoints")),
         cell_counts_(counts(group.get(), "NumberOfCells")),
         labels_(label_array(group.get())),
-        names_(std::move(names)) {}
+        header_(std::move(facts)) {}
 
   void read() {
     check_arrays();
     const std::uint64_t tets = sum(cell_counts_);
-    sink_.begin({.tets = tets, .labels_signed = labels_ && labels_->is_signed(), .names = names_});
+    header_.tets = tets;
+    header_.labels_signed = labels_ && labels_->is_signed();
+    sink_.begin(header_);
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) survey(part);
     if (ten_nodes_) find_middles();
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {
@@ -251,7 +254,7 @@ class Reader {
   std::vector<std::uint64_t> point_counts_;  ///< by partition
   std::vector<std::uint64_t> cell_counts_;
   std::optional<Hdf5Array> labels_;  ///< unless there are no cells
-  LabelNames names_;
+  MeshHeader header_;
   std::vector<Part> parts_;
   Part next_;
   bool ten_nodes_ = false;  ///< some cell has ten nodes
@@ -268,7 +271,10 @@ void read_here(const std::string& path, MeshSink& sink) {
     fail_input(path, "attribute Type", text("'", type, "' is not UnstructuredGrid"),
                "give a VTKHDF file of tetrahedra");
   }
-  Reader(group, read_vtkhdf_names(file.get(), group.get(), path), path, sink).read();
+  MeshHeader facts;
+  facts.names = read_vtkhdf_names(file.get(), group.get(), path);
+  facts.record = read_vtkhdf_record(file.get(), path);
+  Reader(group, std::move(facts), path, sink).read();
 }
 
 }  // namespace

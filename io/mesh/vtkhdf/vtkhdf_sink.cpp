@@ -35,8 +35,7 @@ void VtkhdfSink::begin(const MeshHeader& header) {
   group_ = output_.make_group(output_.file(), "VTKHDF");
   const Hdf5Handle cell_data = output_.make_group(group_.get(), "CellData");
   write_attributes();
-  output_.require(
-      write_vtkhdf_names(output_.file(), group_.get(), header.names, header.labels_signed));
+  output_.require(write_vtkhdf_facts(output_.file(), group_.get(), header));
   // Small meshes are small files.  There are 5 to 6 tets a vertex, and an offset more than tets.
   const std::uint64_t rows = std::clamp<std::uint64_t>(header.tets + 1, 4, kMaxChunkRows);
   const Hdf5Type real{H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};

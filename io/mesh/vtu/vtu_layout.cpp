@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-/// Longer than any head without its names.
+/// Longer than any head without its fields.
 constexpr std::size_t kHeadBytes = 1536;
 constexpr std::string_view kAppended = "  <AppendedData encoding=\"raw\">\n_";
 
@@ -24,12 +24,12 @@ std::string array_tag(const char* type, const char* name, int components, std::u
 }
 
 /// `offset` of each array is relative to the '_'.
-std::string make_head(const MeshHeader& header, std::uint64_t vertices, const std::string& names,
+std::string make_head(const MeshHeader& header, std::uint64_t vertices, const std::string& fields,
                       const std::array<std::uint64_t, VtuLayout::kArrays>& offset) {
   std::string head = text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n",
-      names, "    <Piece NumberOfPoints=\"", vertices, "\" NumberOfCells=\"", header.tets,
+      fields, "    <Piece NumberOfPoints=\"", vertices, "\" NumberOfCells=\"", header.tets,
       "\">\n      <Points>\n", array_tag("Float64", "Points", 3, offset[VtuLayout::kPoints]),
       "      </Points>\n      <Cells>\n",
       array_tag("Int64", "connectivity", 1, offset[VtuLayout::kConnectivity]),
@@ -38,7 +38,7 @@ std::string make_head(const MeshHeader& header, std::uint64_t vertices, const st
       "      </Cells>\n      <CellData Scalars=\"label\">\n",
       array_tag(header.labels_signed ? "Int64" : "UInt64", "label", 1, offset[VtuLayout::kLabel]),
       "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n");
-  const std::size_t bytes = kHeadBytes + names.size();
+  const std::size_t bytes = kHeadBytes + fields.size();
   MW_ASSERT(head.size() + kAppended.size() <= bytes);
   head.resize(bytes - kAppended.size(), ' ');
   head.back() = '\n';
@@ -48,8 +48,8 @@ std::string make_head(const MeshHeader& header, std::uint64_t vertices, const st
 }  // namespace
 
 VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Element element) {
-  const std::string names = vtu_names(header.names, header.labels_signed);
-  const std::uint64_t head_bytes = kHeadBytes + names.size();
+  const std::string fields = vtu_fields(header);
+  const std::uint64_t head_bytes = kHeadBytes + fields.size();
   VtuLayout layout;
   layout.length = {header.tets * 8 * node_count(element), header.tets * 8, header.tets,
                    header.tets * 8, vertices * 24};
@@ -60,7 +60,7 @@ VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Elem
     layout.start[i] = head_bytes + next;
     next += 8 + layout.length[i];
   }
-  layout.head = make_head(header, vertices, names, offset);
+  layout.head = make_head(header, vertices, fields, offset);
   layout.tail = "\n  </AppendedData>\n</VTKFile>\n";
   layout.tail_start = head_bytes + next;
   return layout;

@@ -11,7 +11,7 @@
 
 namespace mw::io {
 
-/// The file: XML head whose length depends on the names of labels alone (vtu_names.h), '_', then
+/// The file: XML head whose length depends on its fields alone (vtu_names.h), '_', then
 /// for each array a UInt64 byte count and the numbers, little-endian (connectivity Int64 x 4 or 10,
 /// offsets Int64, types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.
 /// The points are last, so that every place but the end is known before their number is.

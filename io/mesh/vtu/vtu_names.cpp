@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Names of labels as field data of a .vtu file.
+// Names of labels, and the record of the run, as field data of a .vtu file.
 #include "io/mesh/vtu/vtu_names.h"
+
+#include <algorithm>
 
 #include "io/file/errors.h"
 
@@ -35,9 +37,8 @@ bool is_integer(pugi::xml_node array) {
   return type && !type->is_float;
 }
 
-}  // namespace
-
-std::string vtu_names(const LabelNames& names, bool labels_signed) {
+/// The three arrays.
+std::string name_arrays(const LabelNames& names, bool labels_signed) {
   if (names.empty()) return {};
   const std::size_t count = names.rows().size();
   std::string ids, strings, colours;
@@ -48,11 +49,28 @@ std::string vtu_names(const LabelNames& names, bool labels_signed) {
     for (const std::uint8_t part : field_colour(row)) colours += text(part, " ");
     colours += "\n";
   }
-  return text("    <FieldData>\n",
-              open_tag("DataArray", labels_signed ? "Int64" : "UInt64", kLabelId, 1, count), ids,
+  return text(open_tag("DataArray", labels_signed ? "Int64" : "UInt64", kLabelId, 1, count), ids,
               "\n      </DataArray>\n", open_tag("Array", "String", kLabelName, 1, count), strings,
               "      </Array>\n", open_tag("DataArray", "UInt8", kLabelColour, 4, count), colours,
-              "      </DataArray>\n    </FieldData>\n");
+              "      </DataArray>\n");
+}
+
+/// Bytes, no string: meshio reads no file with strings.
+std::string record_array(const MeshRecord& record) {
+  const std::string value = record_text(record);
+  if (value.empty()) return {};
+  std::string codes;
+  for (const char c : value) codes += text(static_cast<unsigned char>(c), " ");
+  return text(open_tag("DataArray", "UInt8", kRecordName, 1, value.size()), codes,
+              "\n      </DataArray>\n");
+}
+
+}  // namespace
+
+std::string vtu_fields(const MeshHeader& header) {
+  const std::string arrays =
+      name_arrays(header.names, header.labels_signed) + record_array(header.record);
+  return arrays.empty() ? arrays : text("    <FieldData>\n", arrays, "    </FieldData>\n");
 }
 
 LabelNames read_vtu_names(VtkDocument& document) {
@@ -68,6 +86,17 @@ LabelNames read_vtu_names(VtkDocument& document) {
     read.colours = document.integers(colours, 4 * tuples_of(colours));
   }
   return names_of(read, document.file());
+}
+
+MeshRecord read_vtu_record(VtkDocument& document) {
+  const pugi::xml_node array =
+      find_array(document.grid().child("FieldData"), "DataArray", kRecordName);
+  if (!is_integer(array)) return {};
+  const std::vector<std::uint64_t> codes = document.integers(array, tuples_of(array));
+  std::string value(codes.size(), '\0');
+  std::transform(codes.begin(), codes.end(), value.begin(),
+                 [](std::uint64_t code) { return static_cast<char>(code); });
+  return parse_record(value, document.file());
 }
 
 }  // namespace mw::io

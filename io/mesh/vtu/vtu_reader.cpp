@@ -137,6 +137,7 @@ MeshData read_vtu(const ByteSource& source) {
   if (!found) fail_input(document.file(), "Piece", "missing: the file holds no mesh");
   drop_middles(mesh, middles);
   mesh.names = read_vtu_names(document);
+  mesh.record = read_vtu_record(document);
   return mesh;
 }
 

@@ -83,7 +83,7 @@ class RandomGrids : public testing::TestWithParam<unsigned> {
       if (random() % 2 == 0) std::swap(tet[0], tet[1]);
     }
     if (GetParam() % 2 == 0) return;
-    mesh_.box = MeshBox{.edges = {{{4, 0, 0}, {0, 3, 0}, {0, 0, 3}}}};
+    mesh_.record.box = MeshBox{.edges = {{{4, 0, 0}, {0, 3, 0}, {0, 0, 3}}}};
     for (std::size_t i = 0; i < mesh_.tets.size(); i += 7) {
       mesh_.tets.erase(mesh_.tets.begin() + static_cast<std::ptrdiff_t>(i));
       mesh_.labels.erase(mesh_.labels.begin() + static_cast<std::ptrdiff_t>(i));
@@ -194,7 +194,7 @@ TEST(GroupedMesh, SidesOfATurnedBoxFarAway) {
     return Position{1e4 + c * p[0] - s * p[1], -2e4 + s * p[0] + c * p[1], 3e4 + p[2]};
   };
   for (Position& p : mesh.vertices) p = turn(p);
-  mesh.box = MeshBox{.origin = turn({0, 0, 0}),
+  mesh.record.box = MeshBox{.origin = turn({0, 0, 0}),
                      .edges = {{{3 * c, 3 * s, 0}, {-2 * s, 2 * c, 0}, {0, 0, 2}}}};
   const TempDir dir;
   GroupedSink sink(dir.path(), nullptr);
