@@ -36,15 +36,17 @@ class GridReader {
     parse_xml(FileSource(path), kMostBytes, document_);
   }
 
-  [[nodiscard]] std::vector<XdmfGrid> read() const {
+  [[nodiscard]] XdmfContent read() const {
     const pugi::xml_node domain = document_.child("Xdmf").child("Domain");
     if (!domain) fail_input(path_.string(), "Domain", "missing", "give an XDMF file");
-    std::vector<XdmfGrid> out;
+    XdmfContent out;
+    const auto record = domain.find_child_by_attribute("Information", "Name", kRecordName);
+    out.record = parse_record(record.attribute("Value").as_string(), path_.string());
     pugi::xml_node first_nodes;
     for (const pugi::xml_node grid : domain.children("Grid")) {
       const pugi::xml_node own = grid.child("Geometry");
       if (!first_nodes) first_nodes = own;
-      if (is_of_tets(grid)) out.push_back(read_grid(grid, own ? own : first_nodes));
+      if (is_of_tets(grid)) out.grids.push_back(read_grid(grid, own ? own : first_nodes));
     }
     return out;
   }
@@ -95,7 +97,7 @@ class GridReader {
 
 }  // namespace
 
-std::vector<XdmfGrid> read_xdmf_grids(const std::filesystem::path& path) {
+XdmfContent read_xdmf_xml(const std::filesystem::path& path) {
   return GridReader(path).read();
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "io/mesh/mesh_record.h"
+
 namespace mw::io {
 
 /// A data set of an HDF5 file.
@@ -27,9 +29,13 @@ struct XdmfGrid {
   std::vector<XdmfAttribute> cells;  ///< attributes of cells
 };
 
-/// Those of the file's grids that are of tetrahedra, in its order.
+struct XdmfContent {
+  std::vector<XdmfGrid> grids;  ///< those of tetrahedra, in the file's order
+  MeshRecord record;
+};
+
 /// ERRORS: mw::Error(kInput) with file and place when it is no XDMF, when a grid has no nodes, or
 /// when numbers are not in an HDF5 file beside it.
-[[nodiscard]] std::vector<XdmfGrid> read_xdmf_grids(const std::filesystem::path& path);
+[[nodiscard]] XdmfContent read_xdmf_xml(const std::filesystem::path& path);
 
 }  // namespace mw::io

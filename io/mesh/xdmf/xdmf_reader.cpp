@@ -43,9 +43,12 @@ class Reader {
         labels_(labels),
         sink_(sink) {}
 
-  void read(const LabelNames& names) {
+  /// header: names and record.
+  void read(MeshHeader header) {
     check_arrays();
-    sink_.begin({.tets = tets_.rows(), .labels_signed = labels_.is_signed(), .names = names});
+    header.tets = tets_.rows();
+    header.labels_signed = labels_.is_signed();
+    sink_.begin(header);
     const bool ten = tets_.components() == 10;
     if (ten) find_middles();
     stream_points(points_, {0, points_.rows()}, ten ? &rows_ : nullptr, sink_);
@@ -125,10 +128,10 @@ class Reader {
 
 /// In a child: damage makes the library crash.
 void read_here(const std::filesystem::path& path, const std::vector<XdmfGrid>& grids,
-               const LabelNames& names, MeshSink& sink) {
+               const MeshHeader& facts, MeshSink& sink) {
   for (const XdmfGrid& grid : grids) {
     const std::optional<Hdf5Array> labels = label_array(grid);
-    if (labels) return Reader(grid, *labels, sink).read(names);
+    if (labels) return Reader(grid, *labels, sink).read(facts);
   }
   fail_input(path.string(), "grids",
              text("none of ", grids.size(), " of tetrahedra has an integer cell attribute 'label'"),
@@ -138,13 +141,17 @@ void read_here(const std::filesystem::path& path, const std::vector<XdmfGrid>& g
 }  // namespace
 
 void read_xdmf(const std::filesystem::path& path, MeshSink& sink) {
-  const std::vector<XdmfGrid> grids = read_xdmf_grids(path);
+  const XdmfContent content = read_xdmf_xml(path);
   const std::optional<LabelMap> table = read_label_table(path);
-  const LabelNames names = table ? table->names : LabelNames{};
+  MeshHeader facts;
+  if (table) facts.names = table->names;
+  facts.record = content.record;
   std::uint64_t bytes = 0;
-  for (const XdmfGrid& grid : grids) bytes += std::filesystem::file_size(grid.topology.file);
+  for (const XdmfGrid& grid : content.grids)
+    bytes += std::filesystem::file_size(grid.topology.file);
   read_hdf5_apart(
-      path.string(), bytes, [&](MeshSink& out) { read_here(path, grids, names, out); }, sink);
+      path.string(), bytes, [&](MeshSink& out) { read_here(path, content.grids, facts, out); },
+      sink);
 }
 
 }  // namespace mw::io

@@ -97,6 +97,12 @@ std::string facet_tags_text(const XdmfFacts& facts) {
               {.path = "/MeshTags/facet_tags/Values", .rows = facts.facets, .bytes = 4}));
 }
 
+std::string record_line(const XdmfFacts& facts) {
+  if (facts.record.empty()) return {};
+  return text("    <Information Name=\"", kRecordName, "\" Value=\"", xml_escaped(facts.record),
+              "\"/>\n");
+}
+
 std::string document_text(const std::string& grids) {
   return text("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n",
               grids, "  </Domain>\n</Xdmf>\n");
@@ -105,7 +111,8 @@ std::string document_text(const std::string& grids) {
 }  // namespace
 
 std::string xdmf_text(const XdmfFacts& facts) {
-  return document_text(mesh_text(facts) + cell_tags_text(facts) + facet_tags_text(facts));
+  return document_text(record_line(facts) + mesh_text(facts) + cell_tags_text(facts) +
+                       facet_tags_text(facts));
 }
 
 std::string xdmf_cells_text(const XdmfFacts& facts) {

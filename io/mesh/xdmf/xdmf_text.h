@@ -25,6 +25,7 @@ struct XdmfFacts {
   std::uint64_t tets = 0;
   std::uint64_t facets = 0;
   std::vector<XdmfTag> labels{};
+  std::string record{};          ///< of the run, a line (mesh_record.h); empty: none
   std::vector<XdmfTag> sides{};  ///< groups of facets
 };
 

@@ -39,7 +39,8 @@ XdmfFacts facts_of(const GroupedMesh& mesh, const LabelNumbers& numbers,
                   .labels_signed = mesh.table().is_signed(),
                   .nodes = mesh.node_count(),
                   .tets = mesh.tet_count(),
-                  .facets = mesh.facet_count()};
+                  .facets = mesh.facet_count(),
+                  .record = record_text(mesh.header().record)};
   const GroupNames names(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     facts.labels.push_back({names.volume(rank), numbers[rank]});

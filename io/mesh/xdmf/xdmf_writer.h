@@ -15,6 +15,7 @@ namespace mw::io {
 ///   cell_tags   the same tets; cell attribute `cell_tags`, Int32 numbers (label_numbers.h)
 ///   facet_tags  the triangles; cell attribute `facet_tags`, Int32 numbers (facet_numbers.h)
 /// The last two have an Information a number: its Name is that of the group, its Value the number.
+/// The domain has an Information `mwmesh`, the record of the run (mesh_record.h).
 /// The numbers of all are in M.h5:
 ///   /Mesh/mesh/geometry            Float64 [nodes][3]
 ///   /Mesh/mesh/topology            Int64 [tets][4 or 10], ten nodes in the order of kTetEdges
