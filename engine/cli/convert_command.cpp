@@ -5,7 +5,9 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/values.h"
 #include "io/mesh/open_mesh.h"
+#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -14,12 +16,24 @@ struct ConvertJob {
   std::string from;
   std::string to;
   bool ascii = false;
+  std::string element = "tet4";
 };
 
+/// The mesh is read while the other is written; what is beside that is not to be the mesh.
+void require_other_files(const ConvertJob& job) {
+  const std::vector<std::filesystem::path> files = io::mesh_files(job.to);
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(job.from, files[i], ignored)) continue;
+    throw Error(ErrorKind::kUsage, files[i].string() + ": this is the mesh to read");
+  }
+}
+
 int run_convert(const ConvertJob& job) {
+  require_other_files(job);
   const io::Encoding encoding = job.ascii ? io::Encoding::kText : io::Encoding::kUsual;
   const std::unique_ptr<io::MeshSink> sink =
-      io::open_mesh_sink(job.to, io::Element::kTet4, encoding);
+      io::open_mesh_sink(job.to, parse_element(job.element), encoding);
   io::copy_mesh(job.from, *sink);
   return kExitDone;
 }
@@ -33,6 +47,11 @@ void add_convert_command(CLI::App& program, Action& chosen) {
   command->add_option("MESH", job->from, "mesh to read: " + formats)->required();
   command->add_option("OUT", job->to, "mesh to write: " + formats)->required();
   command->add_flag("--ascii", job->ascii, "a .msh as text instead of binary");
+  command
+      ->add_option("--element", job->element,
+                   "nodes of a tet in OUT: tet4; tet10, with the middles of its edges")
+      ->type_name("ELEMENT")
+      ->capture_default_str();
   command->callback([job, &chosen] { chosen = [job] { return run_convert(*job); }; });
 }
 

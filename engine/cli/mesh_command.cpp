@@ -44,7 +44,7 @@ std::size_t digest_memory(std::uint64_t budget) {
 /// The files of a run, created before any work so that a bad path fails at once.
 struct MeshFiles {
   explicit MeshFiles(const MeshRequest& request)
-      : sink(io::open_mesh_sink(request.output, io::Element::kTet4,
+      : sink(io::open_mesh_sink(request.output, request.element,
                                 request.ascii ? io::Encoding::kText : io::Encoding::kUsual)) {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (request.report.empty()) return;

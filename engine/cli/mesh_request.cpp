@@ -71,6 +71,12 @@ void add_output_option(OptionSet& options, MeshRequest& request) {
                .help = "mesh to write: " + io::mesh_extensions(),
                .flags = "-o,--output",
                .assign = [&](const std::string& text) { request.output = text; }});
+  options.add({.name = "element",
+               .value = "ELEMENT",
+               .help = "nodes of a tet in OUTPUT: tet4; tet10, with the middles of its edges",
+               .fallback = "tet4",
+               .choices = {"tet4", "tet10"},
+               .assign = [&](const std::string& text) { request.element = parse_element(text); }});
 }
 
 /// Options of the engine; each is checked as soon as it is set, so that errors name its place.
@@ -282,11 +288,14 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 }
 
 void require_names_used_once(const MeshRequest& request) {
-  if (is_same_file(request.volume.path, request.output)) {
-    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is the input");
-  }
-  if (is_same_file(request.volume.names, request.output)) {
-    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is --names");
+  const std::vector<std::filesystem::path> outputs = io::mesh_files(request.output);
+  for (const std::filesystem::path& output : outputs) {
+    if (is_same_file(request.volume.path, output)) {
+      throw Error(ErrorKind::kUsage, "-o " + output.string() + ": this is the input");
+    }
+    if (is_same_file(request.volume.names, output)) {
+      throw Error(ErrorKind::kUsage, "-o " + output.string() + ": this is --names");
+    }
   }
   const auto require_new = [](const char* flag, const std::filesystem::path& path,
                               const std::vector<std::filesystem::path>& taken) {

@@ -9,12 +9,14 @@
 #include "engine/cli/progress.h"
 #include "engine/cli/volume_options.h"
 #include "engine/settings.h"
+#include "io/mesh/element.h"
 
 namespace mw::cli {
 
 struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
+  io::Element element = io::Element::kTet4;
   bool ascii = false;            ///< the output as text
   std::filesystem::path report;  ///< empty: none
   std::filesystem::path trace;   ///< empty: none

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/mesh/element.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
 
@@ -22,7 +23,8 @@ namespace mw::cli {
 [[nodiscard]] Box3 parse_box(std::string_view text);        ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
 [[nodiscard]] RawLabel parse_label(std::string_view text);  ///< negative: two's complement
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
-[[nodiscard]] bool parse_switch(std::string_view text);  ///< "true", "false", "1", "0"
+[[nodiscard]] bool parse_switch(std::string_view text);          ///< "true", "false", "1", "0"
+[[nodiscard]] io::Element parse_element(std::string_view text);  ///< "tet4", "tet10"
 /// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
 /// B of 1000.  A fraction of a byte is left off.
 [[nodiscard]] std::uint64_t parse_size(std::string_view text);

@@ -12,4 +12,16 @@ enum class Element : std::uint8_t {
   kTet10,  ///< and the middles of its edges, on straight edges
 };
 
+[[nodiscard]] constexpr std::uint64_t node_count(Element element) {
+  return element == Element::kTet10 ? 10 : 4;
+}
+
+/// Cell types of VTK's files; the ten nodes of theirs are in the order of kTetEdges.
+inline constexpr std::uint8_t kVtkTetra = 10;
+inline constexpr std::uint8_t kVtkQuadraticTetra = 24;
+
+[[nodiscard]] constexpr std::uint8_t vtk_type(Element element) {
+  return element == Element::kTet10 ? kVtkQuadraticTetra : kVtkTetra;
+}
+
 }  // namespace mw::io

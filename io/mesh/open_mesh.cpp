@@ -9,15 +9,22 @@
 #include "io/file/open_bytes.h"
 #include "io/mesh/abaqus/inp_reader.h"
 #include "io/mesh/abaqus/inp_writer.h"
+#include "io/mesh/febio/febio_reader.h"
+#include "io/mesh/febio/febio_writer.h"
 #include "io/mesh/gmsh/msh_reader.h"
 #include "io/mesh/gmsh/msh_writer.h"
 #include "io/mesh/grouped/grouped_sink.h"
+#include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/medit/medit_reader.h"
 #include "io/mesh/medit/medit_sink.h"
+#include "io/mesh/tetgen/tetgen_reader.h"
+#include "io/mesh/tetgen/tetgen_writer.h"
 #include "io/mesh/vtkhdf/vtkhdf_reader.h"
 #include "io/mesh/vtkhdf/vtkhdf_sink.h"
 #include "io/mesh/vtu/vtu_reader.h"
 #include "io/mesh/vtu/vtu_sink.h"
+#include "io/mesh/xdmf/xdmf_reader.h"
+#include "io/mesh/xdmf/xdmf_writer.h"
 
 namespace mw::io {
 namespace {
@@ -30,6 +37,8 @@ struct MeshFormat {
   /// Reads it in bounded memory; null where `read` is there.
   void (*stream)(const std::filesystem::path&, MeshSink&);
   std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element);
+  /// Endings of files that are written beside it, in the place of its own; null behind the last.
+  std::array<const char*, 4> beside{};
   /// The same as text; null where there is one way to write it.
   std::unique_ptr<MeshSink> (*open_text)(const std::filesystem::path&, Element) = nullptr;
 };
@@ -42,9 +51,18 @@ std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Elemen
               text(path.string(), ": ", path.extension().string(), " is written with tet4 only"));
 }
 
-std::unique_ptr<MeshSink> open_inp(const std::filesystem::path& path, Element element) {
-  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<InpWriter>(path),
-                                       element);
+/// A sink that knows tets of both kinds.
+template <class Sink>
+std::unique_ptr<MeshSink> open_streamed(const std::filesystem::path& path, Element element) {
+  if (element == Element::kTet4) return std::make_unique<Sink>(path);
+  auto writer = std::make_unique<TenNodeWriter>(std::make_unique<Sink>(path, element));
+  return std::make_unique<GroupedSink>(path.parent_path(), std::move(writer), element);
+}
+
+/// A format that needs the whole mesh.
+template <class Writer>
+std::unique_ptr<MeshSink> open_grouped(const std::filesystem::path& path, Element element) {
+  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<Writer>(path), element);
 }
 
 template <bool ascii>
@@ -54,13 +72,28 @@ std::unique_ptr<MeshSink> open_msh(const std::filesystem::path& path, Element el
 }
 
 const std::array kFormats{
-    MeshFormat{".vtkhdf", nullptr, &read_vtkhdf, &open_corners<VtkhdfSink>},
+    MeshFormat{".vtkhdf", nullptr, &read_vtkhdf, &open_streamed<VtkhdfSink>},
     MeshFormat{".vtu", [](const auto& path) { return read_vtu(*open_bytes(path)); }, nullptr,
-               &open_corners<VtuSink>},
+               &open_streamed<VtuSink>},
     MeshFormat{".mesh", [](const auto& path) { return read_medit(*open_bytes(path)); }, nullptr,
                &open_corners<MeditSink>},
-    MeshFormat{".msh", &read_msh, nullptr, &open_msh<false>, &open_msh<true>},
-    MeshFormat{".inp", &read_inp, nullptr, &open_inp},
+    MeshFormat{".msh", &read_msh, nullptr, &open_msh<false>, {".msh.labels.csv"}, &open_msh<true>},
+    MeshFormat{".inp", &read_inp, nullptr, &open_grouped<InpWriter>},
+    MeshFormat{".xdmf",
+               nullptr,
+               &read_xdmf,
+               &open_grouped<XdmfWriter>,
+               {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"}},
+    MeshFormat{".feb",
+               [](const auto& path) { return read_febio(*open_bytes(path)); },
+               nullptr,
+               &open_grouped<FebioWriter>,
+               {".feb.labels.csv"}},
+    MeshFormat{".node",
+               &read_tetgen,
+               nullptr,
+               &open_grouped<TetgenWriter>,
+               {".ele", ".face", ".facets.csv", ".node.labels.csv"}},
 };
 
 const MeshFormat* find_format(const std::filesystem::path& path) {
@@ -88,6 +121,16 @@ std::string mesh_extensions() {
 
 bool is_mesh_path(const std::filesystem::path& path) {
   return find_format(path) != nullptr;
+}
+
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> out{path};
+  const MeshFormat* const format = find_format(path);
+  if (format == nullptr) return out;
+  for (const char* ending : format->beside) {
+    if (ending != nullptr) out.push_back(std::filesystem::path(path).replace_extension(ending));
+  }
+  return out;
 }
 
 MeshData read_mesh(const std::filesystem::path& path) {

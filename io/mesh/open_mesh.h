@@ -22,11 +22,15 @@ enum class Encoding : std::uint8_t {
 [[nodiscard]] std::string mesh_extensions();
 [[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
 
+/// What is written for a mesh of that name: that file first, then what goes beside it.
+[[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
+
 /// ERRORS: mw::Error(kUsage) for an unknown extension; kInput with file and place when missing,
 /// truncated, corrupt or not of tetrahedra.
 [[nodiscard]] MeshData read_mesh(const std::filesystem::path& path);
 
-/// The same into a sink, begin to finish; .vtkhdf in bounded memory, the others by way of MeshData.
+/// The same into a sink, begin to finish; .vtkhdf and .xdmf in bounded memory, the others by way of
+/// MeshData.
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
 /// ERRORS: mw::Error(kUsage) for an unknown extension, an element or encoding that the format does

@@ -65,4 +65,14 @@ bool CsvRecords::next(CsvRecord& record) {
   return true;
 }
 
+std::string csv_quoted(std::string_view field) {
+  if (field.empty()) return {};
+  std::string out = "\"";
+  for (const char c : field) {
+    out += c;
+    if (c == '"') out += c;
+  }
+  return out + '"';
+}
+
 }  // namespace mw::io

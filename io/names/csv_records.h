@@ -37,4 +37,7 @@ class CsvRecords {
   std::size_t line_ = 1;
 };
 
+/// The field in quotes, those inside doubled; nothing when it is empty.
+[[nodiscard]] std::string csv_quoted(std::string_view field);
+
 }  // namespace mw::io

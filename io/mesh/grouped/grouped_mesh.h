@@ -49,6 +49,8 @@ inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
 /// ERRORS (of all that look something up): see ScratchFile.  Thread safety: none.
 class GroupedMesh {
  public:
+  /// As the mesh came with it.
+  [[nodiscard]] const MeshHeader& header() const { return header_; }
   /// The labels that occur, ascending; label groups and facet groups hold their ranks.
   [[nodiscard]] const LabelTable& table() const { return table_; }
   [[nodiscard]] const LabelNames& names() const { return header_.names; }

@@ -28,17 +28,6 @@ std::string label_text(const LabelTable& table, Label rank) {
   return table.is_signed() ? text(static_cast<std::int64_t>(raw)) : text(raw);
 }
 
-/// In quotes, those inside doubled.
-std::string quoted(const std::string& name) {
-  if (name.empty()) return {};
-  std::string out = "\"";
-  for (const char c : name) {
-    out += c;
-    if (c == '"') out += c;
-  }
-  return out + '"';
-}
-
 std::string colour_text(const LabelName* row) {
   if (row == nullptr || !row->colour) return ",,,,";
   std::string out;
@@ -106,7 +95,7 @@ void write_label_table(const std::filesystem::path& mesh, const LabelTable& tabl
   for (Label rank = 0; rank < table.size(); ++rank) {
     const LabelName* row = names.find(table.raw(rank));
     file.append(text(label_text(table, rank), ",", numbers[rank], ",",
-                     quoted(names.name(table.raw(rank))), colour_text(row), "\n"));
+                     csv_quoted(names.name(table.raw(rank))), colour_text(row), "\n"));
   }
   file.commit();
 }

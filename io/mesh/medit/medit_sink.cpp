@@ -4,11 +4,10 @@
 #include "io/mesh/medit/medit_sink.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "io/file/errors.h"
 #include "io/mesh/medit/medit_names.h"
+#include "io/mesh/number_line.h"
 #include "io/mesh/sink_counts.h"
 #include "kernels/core/assert.h"
 
@@ -19,25 +18,6 @@ constexpr std::string_view kHead = "MeshVersionFormatted 2\nDimension 3\n";
 /// Room for any number of vertices, which is known last.
 constexpr std::size_t kCountWidth = 20;
 constexpr std::uint64_t kCopyBytes = 1 << 18;
-
-/// One line of numbers; room for five of the longest.
-class Line {
- public:
-  template <class T>
-  void add(T number) {
-    end_ = std::to_chars(end_, chars_.data() + chars_.size(), number).ptr;
-    *end_++ = ' ';
-  }
-  /// The line, its last blank turned into the line's end.
-  [[nodiscard]] std::string_view finish() {
-    end_[-1] = '\n';
-    return {chars_.data(), static_cast<std::size_t>(end_ - chars_.data())};
-  }
-
- private:
-  std::array<char, 160> chars_;
-  char* end_ = chars_.data();
-};
 
 }  // namespace
 
@@ -57,7 +37,7 @@ void MeditSink::begin(const MeshHeader& header) {
 
 void MeditSink::write_vertices(std::span<const Position> positions) {
   for (const Position& position : positions) {
-    Line line;
+    NumberLine line;
     for (const double x : position) line.add(x);
     line.add(0);
     file_.append(line.finish());
@@ -68,7 +48,7 @@ void MeditSink::write_vertices(std::span<const Position> positions) {
 void MeditSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
   MW_ASSERT(tets.size() == labels.size());
   for (std::size_t i = 0; i < tets.size(); ++i) {
-    Line line;
+    NumberLine line;
     for (const std::uint64_t row : tets[i]) line.add(row + 1);
     if (header_.labels_signed) {
       line.add(static_cast<std::int64_t>(labels[i]));

@@ -68,7 +68,7 @@ std::string_view TokenScanner::next() {
   skip_blanks();
   word_.clear();
   for (int c = peek(); c >= 0 && !is_blank(c) && c != '#'; c = peek()) {
-    if (word_.size() == kMaxWordBytes) fail("not an ASCII .mesh file");
+    if (word_.size() == kMaxWordBytes) fail("not an ASCII mesh file");
     word_.push_back(static_cast<char>(c));
     ++at_;
   }

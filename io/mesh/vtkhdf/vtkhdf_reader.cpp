@@ -4,37 +4,21 @@
 #include "io/mesh/vtkhdf/vtkhdf_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "io/file/errors.h"
 #include "io/file/file_source.h"
 #include "io/mesh/apart_mesh.h"
+#include "io/mesh/element.h"
 #include "io/mesh/label_names.h"
-#include "io/mesh/vtkhdf/hdf5_array.h"
+#include "io/mesh/vtkhdf/hdf5_mesh.h"
 #include "io/mesh/vtkhdf/vtkhdf_names.h"
 
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kVtkTetra = 10;
 constexpr std::uint64_t kBatchRows = kMostApartRows;
-/// Of a file that a slow processor unpacks and checks.
-constexpr std::uint64_t kBytesPerSecond = 1 << 20;
-
-Hdf5Handle open_grid(const std::string& file) {
-  silence_hdf5();
-  // A file on a read-only or shared disk cannot always be locked, and nobody writes in place.
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-  H5Pset_file_locking(access.get(), false, true);
-  Hdf5Handle hdf5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()), &H5Fclose);
-  if (!hdf5.valid()) {
-    fail_input(file, {}, "no HDF5 file, or truncated or damaged", "write the mesh anew");
-  }
-  return hdf5;
-}
-
 std::string type_of(hid_t group) {
   const Hdf5Handle attribute(H5Aopen(group, "Type", H5P_DEFAULT), &H5Aclose);
   const Hdf5Handle type(H5Aget_type(attribute.get()), &H5Tclose);
@@ -66,11 +50,11 @@ class Reader {
     header_.tets = tets;
     header_.labels_signed = labels_ && labels_->is_signed();
     sink_.begin(header_);
+    for (std::size_t part = 0; part < cell_counts_.size(); ++part) survey(part);
+    if (ten_nodes_) find_middles();
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {
-      read_points(point_counts_[part]);
-      check_types(cell_counts_[part]);
-      check_offsets(part, cell_counts_[part]);
-      read_cells(point_counts_[part], cell_counts_[part]);
+      read_points(part);
+      read_cells(part);
     }
     sink_.finish();
   }
@@ -139,74 +123,126 @@ class Reader {
     if (point_counts_.size() != cell_counts_.size()) points_.fail("partitions do not agree");
   }
 
-  void read_points(std::uint64_t count) {
-    std::vector<Position> batch;
-    for (const std::uint64_t end = next_point_ + count; next_point_ < end;) {
-      batch.resize(std::min(kBatchRows, end - next_point_));
-      points_.read(next_point_, batch.size(), batch.data()->data());
-      for (const Position& p : batch) {
-        if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
-          points_.fail(text("a point behind row ", next_point_, " is not finite"));
-        }
+  /// Where the rows of a partition begin.
+  struct Part {
+    std::uint64_t points = 0;
+    std::uint64_t cells = 0;
+    std::uint64_t nodes = 0;  ///< of cells
+  };
+
+  /// Types and offsets.  Each partition has an offset more than cells.
+  void survey(std::size_t part) {
+    const std::uint64_t count = cell_counts_[part];
+    std::vector<std::uint64_t> types, ends;
+    std::uint64_t end = 0;
+    check_first_offset(part);
+    for (std::uint64_t at = 0; at < count; at += types.size()) {
+      types.resize(std::min(kBatchRows, count - at));
+      ends.resize(types.size());
+      types_.read(next_.cells + at, types.size(), types.data());
+      offsets_.read(next_.cells + part + at + 1, ends.size(), ends.data());
+      for (std::size_t i = 0; i < types.size(); ++i) {
+        end += nodes_of(types[i], next_.cells + at);
+        if (ends[i] != end) offsets_.fail(text(ends[i], " is not ", end));
       }
-      sink_.write_vertices(batch);
-      next_point_ += batch.size();
+    }
+    parts_.push_back(next_);
+    next_.points += point_counts_[part];
+    next_.cells += count;
+    next_.nodes += end;
+    if (next_.points > points_.rows()) {
+      points_.fail(text("holds ", points_.rows(), " rows, ", next_.points, " are needed"));
     }
   }
 
-  void check_types(std::uint64_t count) const {
-    std::vector<std::uint64_t> batch;
-    for (std::uint64_t at = 0; at < count; at += batch.size()) {
-      batch.resize(std::min(kBatchRows, count - at));
-      types_.read(next_cell_ + at, batch.size(), batch.data());
-      for (const std::uint64_t type : batch) {
-        if (type == kVtkTetra) continue;
-        fail_input(file_, text("a cell behind row ", next_cell_ + at),
-                   text("type ", type, " is no tetrahedron (10)"), "keep only the tetrahedra");
-      }
-    }
+  void check_first_offset(std::size_t part) const {
+    std::uint64_t begin = 0;
+    offsets_.read(next_.cells + part, 1, &begin);
+    if (begin != 0) offsets_.fail(text(begin, " is not 0"));
   }
 
-  /// Each partition has an offset more than cells; four numbers a cell.
-  void check_offsets(std::size_t part, std::uint64_t count) const {
-    std::vector<std::uint64_t> batch;
-    for (std::uint64_t at = 0; at <= count; at += batch.size()) {
-      batch.resize(std::min(kBatchRows, count + 1 - at));
-      offsets_.read(next_cell_ + part + at, batch.size(), batch.data());
-      for (std::size_t i = 0; i < batch.size(); ++i) {
-        if (batch[i] != 4 * (at + i)) offsets_.fail(text(batch[i], " is not ", 4 * (at + i)));
-      }
+  [[nodiscard]] std::uint64_t nodes_of(std::uint64_t type, std::uint64_t row) {
+    if (type == kVtkTetra) return 4;
+    if (type != kVtkQuadraticTetra) {
+      fail_input(file_, text("a cell behind row ", row),
+                 text("type ", type, " is no tetrahedron (10 or 24)"), "keep only the tetrahedra");
     }
+    ten_nodes_ = true;
+    return 10;
   }
 
-  void read_cells(std::uint64_t points, std::uint64_t count) {
-    const std::uint64_t first_point = next_point_ - points;
-    std::vector<std::int64_t> corners;
+  /// Calls take(corners, middles) on batches of a partition's cells.
+  template <class Take>
+  void each_batch(std::size_t part, Take take) {
+    std::vector<std::uint64_t> types, middles;
+    std::vector<std::int64_t> nodes;
     std::vector<TetRows> tets;
-    std::vector<RawLabel> labels;
-    for (const std::uint64_t end = next_cell_ + count; next_cell_ < end;) {
-      tets.resize(std::min(kBatchRows, end - next_cell_));
-      corners.resize(4 * tets.size());
-      connectivity_.read(4 * next_cell_, corners.size(), corners.data());
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (corners[i] < 0 || static_cast<std::uint64_t>(corners[i]) >= points) {
-          connectivity_.fail(text("names point ", corners[i], ", there are ", points));
+    std::uint64_t node = parts_[part].nodes;
+    for (std::uint64_t at = 0; at < cell_counts_[part]; at += types.size()) {
+      types.resize(std::min(kBatchRows, cell_counts_[part] - at));
+      types_.read(parts_[part].cells + at, types.size(), types.data());
+      std::uint64_t count = 0;
+      for (const std::uint64_t type : types) count += nodes_of(type, at);
+      nodes.resize(count);
+      connectivity_.read(node, count, nodes.data());
+      node += count;
+      tets.clear();
+      middles.clear();
+      const std::int64_t* next = nodes.data();
+      for (const std::uint64_t type : types) {
+        TetRows& tet = tets.emplace_back();
+        for (std::uint64_t& row : tet) row = row_of(part, *next++);
+        const std::uint64_t behind = nodes_of(type, at) - tet.size();
+        for (std::uint64_t i = 0; i < behind; ++i) middles.push_back(row_of(part, *next++));
+      }
+      take(tets, middles);
+    }
+  }
+
+  [[nodiscard]] std::uint64_t row_of(std::size_t part, std::int64_t node) const {
+    if (node < 0 || static_cast<std::uint64_t>(node) >= point_counts_[part]) {
+      connectivity_.fail(text("names point ", node, ", there are ", point_counts_[part]));
+    }
+    return parts_[part].points + static_cast<std::uint64_t>(node);
+  }
+
+  void find_middles() {
+    rows_.grow(points_.rows());
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      each_batch(part, [&](const std::vector<TetRows>&, const std::vector<std::uint64_t>& middles) {
+        for (const std::uint64_t row : middles) rows_.middle(row);
+      });
+    }
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      each_batch(part, [&](const std::vector<TetRows>& tets, const std::vector<std::uint64_t>&) {
+        for (const TetRows& tet : tets) {
+          for (const std::uint64_t row : tet) rows_.corner(row);
         }
-        tets[i / 4][i % 4] = first_point + static_cast<std::uint64_t>(corners[i]);
+      });
+    }
+    rows_.number();
+  }
+
+  void read_points(std::size_t part) {
+    const std::uint64_t first = parts_[part].points;
+    stream_points(points_, {first, first + point_counts_[part]}, ten_nodes_ ? &rows_ : nullptr,
+                  sink_);
+  }
+
+  void read_cells(std::size_t part) {
+    std::vector<RawLabel> labels;
+    std::uint64_t at = parts_[part].cells;
+    each_batch(part, [&](std::vector<TetRows>& tets, const std::vector<std::uint64_t>&) {
+      if (ten_nodes_) {
+        for (TetRows& tet : tets) {
+          for (std::uint64_t& row : tet) row = rows_[row];
+        }
       }
       labels.resize(tets.size());
-      read_labels(labels);
+      read_labels(*labels_, at, labels);
       sink_.write_tets(tets, labels);
-      next_cell_ += tets.size();
-    }
-  }
-
-  void read_labels(std::vector<RawLabel>& out) const {
-    if (!labels_->is_signed()) return labels_->read(next_cell_, out.size(), out.data());
-    std::vector<std::int64_t> labels(out.size());
-    labels_->read(next_cell_, labels.size(), labels.data());
-    std::transform(labels.begin(), labels.end(), out.begin(),
-                   [](std::int64_t label) { return static_cast<RawLabel>(label); });
+      at += tets.size();
+    });
   }
 
   std::string file_;
@@ -219,13 +255,15 @@ class Reader {
   std::vector<std::uint64_t> cell_counts_;
   std::optional<Hdf5Array> labels_;  ///< unless there are no cells
   MeshHeader header_;
-  std::uint64_t next_point_ = 0;
-  std::uint64_t next_cell_ = 0;
+  std::vector<Part> parts_;
+  Part next_;
+  bool ten_nodes_ = false;  ///< some cell has ten nodes
+  KeptRows rows_;           ///< what stays of points then
 };
 
 /// In a child: damage makes the library crash.
 void read_here(const std::string& path, MeshSink& sink) {
-  const Hdf5Handle file = open_grid(path);
+  const Hdf5Handle file = open_hdf5(path);
   const Hdf5Handle group(H5Gopen2(file.get(), "VTKHDF", H5P_DEFAULT), &H5Gclose);
   if (!group.valid()) fail_input(path, "group VTKHDF", "missing", "give a VTKHDF file");
   const std::string type = type_of(group.get());
@@ -243,13 +281,8 @@ void read_here(const std::string& path, MeshSink& sink) {
 
 void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink) {
   const FileSource exists(path);
-  ApartLimits limits;
-  limits.cpu_seconds += exists.size() / kBytesPerSecond;
-  const std::string death = pass_mesh_apart(
-      limits, [&](MeshSink& out) { read_here(exists.name(), out); }, sink);
-  if (death.empty()) return sink.finish();
-  fail_input(exists.name(), "HDF5 structure", text("the HDF5 library could not read it: ", death),
-             "the file is damaged: write the mesh anew, or check it with h5dump");
+  read_hdf5_apart(
+      exists.name(), exists.size(), [&](MeshSink& out) { read_here(exists.name(), out); }, sink);
 }
 
 }  // namespace mw::io

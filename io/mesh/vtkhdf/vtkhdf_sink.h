@@ -4,78 +4,44 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
-#include "io/mesh/mesh_sink.h"
-#include "io/mesh/vtkhdf/atomic_file_driver.h"
+#include "io/mesh/grouped/ten_node_writer.h"
+#include "io/mesh/vtkhdf/hdf5_column.h"
+#include "io/mesh/vtkhdf/hdf5_output.h"
 
 namespace mw::io {
-
-/// How numbers lie in the file and in memory; of one signedness, since HDF5 clamps when it differs.
-struct Hdf5Type {
-  hid_t file = H5I_INVALID_HID;
-  hid_t memory = H5I_INVALID_HID;
-};
-
-/// A chunked data set that grows at its end, one whole chunk at a time.
-template <class T>
-class Hdf5Column {
- public:
-  Hdf5Column() = default;
-  /// REQUIRES: the HDF5 file is open.  rows_per_chunk >= 1; components 1 means one dimension.
-  Hdf5Column(hid_t place, const char* name, Hdf5Type type, hsize_t rows_per_chunk,
-             hsize_t components = 1);
-  void add(T value) { buffer_.push_back(value); }
-  /// After each row.
-  void end_row() {
-    if (buffer_.size() == rows_per_chunk_ * components_) flush();
-  }
-  /// Writes what is left; whether all went well.
-  bool finish();
-
- private:
-  void flush();
-
-  Hdf5Handle set_;
-  hid_t memory_type_ = H5I_INVALID_HID;
-  hsize_t rows_per_chunk_ = 0;
-  hsize_t components_ = 1;
-  hsize_t rows_ = 0;  ///< written
-  std::vector<T> buffer_;
-  bool sound_ = true;
-};
 
 /// VTKHDF 1.0, one UnstructuredGrid of one partition, which VTK 9.1 and ParaView 5.11 read:
 ///   /VTKHDF              attributes Version = (1, 0), Type = "UnstructuredGrid"
 ///     NumberOfPoints, NumberOfCells, NumberOfConnectivityIds   Int64, 1 element
 ///     Points             Float64 [vertices][3]
-///     Connectivity       Int64 [4 tets]
+///     Connectivity       Int64 [4 tets]; of ten nodes [10 tets], those behind the corners the
+///                        middles of kTetEdges
 ///     Offsets            Int64 [tets + 1]
-///     Types              UInt8 [tets], all 10
+///     Types              UInt8 [tets], all 10; of ten nodes 24
 ///     CellData/label     UInt64 or Int64 [tets]
 ///     FieldData          names of labels, where there are any, as in /mwmesh (vtkhdf_names.h)
 /// No time stamps: equal meshes are equal bytes.
 /// Cost: 4 MiB of buffers and as much inside HDF5.  Thread safety: see Hdf5Handle.
-class VtkhdfSink : public MeshSink {
+class VtkhdfSink : public TenNodeSink {
  public:
-  explicit VtkhdfSink(const std::filesystem::path& path);
+  explicit VtkhdfSink(const std::filesystem::path& path, Element element = Element::kTet4)
+      : output_(path), element_(element) {}
 
   void begin(const MeshHeader& header) override;
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
+  void write_ten_nodes(std::span<const TenRows> tets, std::span<const RawLabel> labels) override;
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return 10 << 20; }
 
  private:
-  void require(bool done) const;
+  void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
   void write_attributes() const;
   void write_count(const char* name, std::uint64_t count) const;
 
-  std::string name_;
-  AtomicFile file_;
-  Hdf5Target target_;
-  Hdf5Handle hdf5_;
+  Hdf5Output output_;
+  Element element_;
   Hdf5Handle group_;
   MeshHeader header_;
   Hdf5Column<double> points_;
@@ -85,6 +51,7 @@ class VtkhdfSink : public MeshSink {
   Hdf5Column<std::uint64_t> labels_;
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;
+  std::uint64_t corners_ = 0;  ///< rows of all tets so far
 };
 
 }  // namespace mw::io

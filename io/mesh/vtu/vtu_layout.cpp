@@ -16,9 +16,11 @@ namespace {
 constexpr std::size_t kHeadBytes = 1536;
 constexpr std::string_view kAppended = "  <AppendedData encoding=\"raw\">\n_";
 
+/// A single component is not told: meshio makes columns of numbers of it, which nobody expects.
 std::string array_tag(const char* type, const char* name, int components, std::uint64_t offset) {
-  return text("        <DataArray type=\"", type, "\" Name=\"", name, "\" NumberOfComponents=\"",
-              components, "\" format=\"appended\" offset=\"", offset, "\"/>\n");
+  const std::string told = components == 1 ? "" : text(" NumberOfComponents=\"", components, "\"");
+  return text("        <DataArray type=\"", type, "\" Name=\"", name, "\"", told,
+              " format=\"appended\" offset=\"", offset, "\"/>\n");
 }
 
 /// `offset` of each array is relative to the '_'.
@@ -45,11 +47,12 @@ std::string make_head(const MeshHeader& header, std::uint64_t vertices, const st
 
 }  // namespace
 
-VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices) {
+VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Element element) {
   const std::string fields = vtu_fields(header);
   const std::uint64_t head_bytes = kHeadBytes + fields.size();
   VtuLayout layout;
-  layout.length = {header.tets * 32, header.tets * 8, header.tets, header.tets * 8, vertices * 24};
+  layout.length = {header.tets * 8 * node_count(element), header.tets * 8, header.tets,
+                   header.tets * 8, vertices * 24};
   std::array<std::uint64_t, VtuLayout::kArrays> offset{};
   std::uint64_t next = 0;
   for (std::size_t i = 0; i < VtuLayout::kArrays; ++i) {

@@ -6,12 +6,13 @@
 #include <array>
 #include <string>
 
+#include "io/mesh/element.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
 
 /// The file: XML head whose length depends on its fields alone (vtu_names.h), '_', then
-/// for each array a UInt64 byte count and the numbers, little-endian (connectivity Int64 x 4,
+/// for each array a UInt64 byte count and the numbers, little-endian (connectivity Int64 x 4 or 10,
 /// offsets Int64, types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.
 /// The points are last, so that every place but the end is known before their number is.
 struct VtuLayout {
@@ -24,6 +25,7 @@ struct VtuLayout {
 };
 
 /// ENSURES: head.size() and start are those of any other number of vertices.  Cost: O(names).
-[[nodiscard]] VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices);
+[[nodiscard]] VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices,
+                                        Element element = Element::kTet4);
 
 }  // namespace mw::io

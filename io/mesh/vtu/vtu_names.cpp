@@ -3,6 +3,8 @@
 // Names of labels, and the record of the run, as field data of a .vtu file.
 #include "io/mesh/vtu/vtu_names.h"
 
+#include <algorithm>
+
 #include "io/file/errors.h"
 
 namespace mw::io {
@@ -53,12 +55,14 @@ std::string name_arrays(const LabelNames& names, bool labels_signed) {
               "      </DataArray>\n");
 }
 
+/// Bytes, no string: meshio reads no file with strings.
 std::string record_array(const MeshRecord& record) {
   const std::string value = record_text(record);
   if (value.empty()) return {};
   std::string codes;
   for (const char c : value) codes += text(static_cast<unsigned char>(c), " ");
-  return text(open_tag("Array", "String", kRecordName, 1, 1), codes, "0\n      </Array>\n");
+  return text(open_tag("DataArray", "UInt8", kRecordName, 1, value.size()), codes,
+              "\n      </DataArray>\n");
 }
 
 }  // namespace
@@ -85,10 +89,14 @@ LabelNames read_vtu_names(VtkDocument& document) {
 }
 
 MeshRecord read_vtu_record(VtkDocument& document) {
-  const pugi::xml_node array = find_array(document.grid().child("FieldData"), "Array", kRecordName);
-  if (!array) return {};
-  const std::vector<std::string> texts = document.strings(array);
-  return texts.empty() ? MeshRecord{} : parse_record(texts.front(), document.file());
+  const pugi::xml_node array =
+      find_array(document.grid().child("FieldData"), "DataArray", kRecordName);
+  if (!is_integer(array)) return {};
+  const std::vector<std::uint64_t> codes = document.integers(array, tuples_of(array));
+  std::string value(codes.size(), '\0');
+  std::transform(codes.begin(), codes.end(), value.begin(),
+                 [](std::uint64_t code) { return static_cast<char>(code); });
+  return parse_record(value, document.file());
 }
 
 }  // namespace mw::io

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "io/file/errors.h"
+#include "io/mesh/element.h"
+#include "io/mesh/kept_rows.h"
 #include "io/mesh/label_names.h"
 #include "io/mesh/vtu/vtu_names.h"
 #include "io/vtk_xml/vtk_document.h"
@@ -13,7 +15,6 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kVtkTetra = 10;
 /// Keeps products of counts and sizes within 64 bits.
 constexpr std::uint64_t kMaxRows = std::uint64_t{1} << 56;
 
@@ -65,37 +66,55 @@ void read_points(pugi::xml_node piece, VtkDocument& document, MeshData& mesh) {
   }
 }
 
-void check_cells(pugi::xml_node cells, std::uint64_t count, VtkDocument& document) {
+/// Where the nodes of each cell end; 4 of each, or 10.
+std::vector<std::uint64_t> read_offsets(pugi::xml_node cells, std::uint64_t count,
+                                        VtkDocument& document) {
   const auto types = document.integers(named_array(cells, "types", document), count);
+  auto offsets = document.integers(named_array(cells, "offsets", document), count);
+  std::uint64_t last = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (types[i] == kVtkTetra) continue;
-    fail_input(document.file(), text("cell ", i),
-               text("type ", types[i], " is no tetrahedron (10)"), "keep only the tetrahedra");
+    if (types[i] != kVtkTetra && types[i] != kVtkQuadraticTetra) {
+      fail_input(document.file(), text("cell ", i),
+                 text("type ", types[i], " is no tetrahedron (10 or 24)"),
+                 "keep only the tetrahedra");
+    }
+    last += types[i] == kVtkTetra ? 4U : 10U;
+    if (offsets[i] == last) continue;
+    fail_input(document.file(), text("offset of cell ", i), text(offsets[i], " is not ", last));
   }
-  const auto offsets = document.integers(named_array(cells, "offsets", document), count);
+  return offsets;
+}
+
+/// Corners of cells, and which nodes are middles.
+void read_corners(pugi::xml_node cells, std::uint64_t count, VtkDocument& document, MeshData& mesh,
+                  KeptRows& middles) {
+  const std::vector<std::uint64_t> ends = read_offsets(cells, count, document);
+  const pugi::xml_node array = named_array(cells, "connectivity", document);
+  const auto nodes = document.integers(array, ends.back());
+  const std::uint64_t rows = count_of(cells.parent(), "NumberOfPoints", document);
+  const std::uint64_t first_row = mesh.vertices.size() - rows;
+  std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (offsets[i] == 4 * (i + 1)) continue;
-    fail_input(document.file(), text("offset of cell ", i),
-               text(offsets[i], " is not ", 4 * i + 4));
+    mesh.tets.emplace_back();
+    for (std::size_t n = 0; at < ends[i]; ++n, ++at) {
+      if (nodes[at] >= rows) {
+        fail_input(document.file(), text("cell ", i),
+                   text("names point ", nodes[at], ", there are ", rows));
+      }
+      if (n < 4) {
+        mesh.tets.back()[n] = first_row + nodes[at];
+      } else {
+        middles.middle(first_row + nodes[at]);
+      }
+    }
   }
 }
 
-void read_cells(pugi::xml_node piece, std::uint64_t first_row, VtkDocument& document,
-                MeshData& mesh) {
+void read_cells(pugi::xml_node piece, VtkDocument& document, MeshData& mesh, KeptRows& middles) {
   const std::uint64_t count = count_of(piece, "NumberOfCells", document);
-  const std::uint64_t rows = mesh.vertices.size() - first_row;
   if (count == 0) return;
-  const pugi::xml_node cells = piece.child("Cells");
-  check_cells(cells, count, document);
-  const auto corners = document.integers(named_array(cells, "connectivity", document), count * 4);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (i % 4 == 0) mesh.tets.emplace_back();
-    if (corners[i] >= rows) {
-      fail_input(document.file(), text("cell ", i / 4),
-                 text("names point ", corners[i], ", there are ", rows));
-    }
-    mesh.tets.back()[i % 4] = first_row + corners[i];
-  }
+  middles.grow(mesh.vertices.size());
+  read_corners(piece.child("Cells"), count, document, mesh, middles);
   const pugi::xml_node array = label_array(piece.child("CellData"), document);
   const auto labels = document.integers(array, count);
   mesh.labels.insert(mesh.labels.end(), labels.begin(), labels.end());
@@ -108,14 +127,15 @@ void read_cells(pugi::xml_node piece, std::uint64_t first_row, VtkDocument& docu
 MeshData read_vtu(const ByteSource& source) {
   VtkDocument document(source, {"UnstructuredGrid", "give a .vtu file of tetrahedra"});
   MeshData mesh;
+  KeptRows middles;
   bool found = false;
   for (const pugi::xml_node piece : document.grid().children("Piece")) {
-    const std::uint64_t first_row = mesh.vertices.size();
     read_points(piece, document, mesh);
-    read_cells(piece, first_row, document, mesh);
+    read_cells(piece, document, mesh, middles);
     found = true;
   }
   if (!found) fail_input(document.file(), "Piece", "missing: the file holds no mesh");
+  drop_middles(mesh, middles);
   mesh.names = read_vtu_names(document);
   mesh.record = read_vtu_record(document);
   return mesh;

@@ -8,7 +8,8 @@
 
 namespace mw::io {
 
-/// Pieces are put one after the other.  The label is the cell array `label`, else `Label`,
+/// Pieces are put one after the other.  Of tets with ten nodes the corners are read; the middles of
+/// edges go.  The label is the cell array `label`, else `Label`,
 /// `labels`, `material` or `medit:ref`, else the only integer cell array.
 /// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
 /// tetrahedra, without label, or when a row does not exist.

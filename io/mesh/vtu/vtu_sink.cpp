@@ -11,7 +11,6 @@ namespace mw::io {
 namespace {
 
 constexpr std::size_t kRegionBytes = 1 << 18;
-constexpr std::uint8_t kVtkTetra = 10;
 
 }  // namespace
 
@@ -32,7 +31,7 @@ void FileRegion::flush() {
 void VtuSink::begin(const MeshHeader& header) {
   header_ = header;
   // Where the numbers of an array start does not depend on how many vertices there will be.
-  for (const std::uint64_t start : make_vtu_layout(header, 0).start) {
+  for (const std::uint64_t start : make_vtu_layout(header, 0, element_).start) {
     regions_.emplace_back(file_, start + sizeof(std::uint64_t));
   }
 }
@@ -45,20 +44,29 @@ void VtuSink::write_vertices(std::span<const Position> positions) {
   vertices_ += positions.size();
 }
 
+void VtuSink::write_cell(std::span<const std::uint64_t> rows, RawLabel label) {
+  for (const std::uint64_t row : rows) regions_[VtuLayout::kConnectivity].add(row);
+  corners_ += rows.size();
+  regions_[VtuLayout::kOffsets].add(corners_);
+  regions_[VtuLayout::kTypes].add(vtk_type(element_));
+  regions_[VtuLayout::kLabel].add(label);
+  ++tets_;
+}
+
 void VtuSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
-  MW_ASSERT(tets.size() == labels.size());
-  for (std::size_t i = 0; i < tets.size(); ++i) {
-    for (const std::uint64_t row : tets[i]) regions_[VtuLayout::kConnectivity].add(row);
-    regions_[VtuLayout::kOffsets].add(4 * ++tets_);
-    regions_[VtuLayout::kTypes].add(kVtkTetra);
-    regions_[VtuLayout::kLabel].add(labels[i]);
-  }
+  MW_ASSERT(tets.size() == labels.size() && element_ == Element::kTet4);
+  for (std::size_t i = 0; i < tets.size(); ++i) write_cell(tets[i], labels[i]);
+}
+
+void VtuSink::write_ten_nodes(std::span<const TenRows> tets, std::span<const RawLabel> labels) {
+  MW_ASSERT(tets.size() == labels.size() && element_ == Element::kTet10);
+  for (std::size_t i = 0; i < tets.size(); ++i) write_cell(tets[i], labels[i]);
 }
 
 void VtuSink::finish() {
   check_sink_counts(name_, header_, tets_);
   for (FileRegion& region : regions_) region.flush();
-  const VtuLayout layout = make_vtu_layout(header_, vertices_);
+  const VtuLayout layout = make_vtu_layout(header_, vertices_, element_);
   file_.write_at(0, std::as_bytes(std::span(layout.head)));
   for (std::size_t i = 0; i < VtuLayout::kArrays; ++i) {
     std::array<std::byte, sizeof(std::uint64_t)> length;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/file/atomic_file.h"
-#include "io/mesh/mesh_sink.h"
+#include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/vtu/vtu_layout.h"
 
 namespace mw::io {
@@ -28,23 +28,29 @@ class FileRegion {
 };
 
 /// Cost: five buffers of 256 KiB; every number is copied once.
-class VtuSink : public MeshSink {
+class VtuSink : public TenNodeSink {
  public:
-  explicit VtuSink(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
+  explicit VtuSink(const std::filesystem::path& path, Element element = Element::kTet4)
+      : name_(path.string()), file_(path), element_(element) {}
 
   void begin(const MeshHeader& header) override;
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
+  void write_ten_nodes(std::span<const TenRows> tets, std::span<const RawLabel> labels) override;
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return 3 << 20; }
 
  private:
+  void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
+
   std::string name_;
   AtomicFile file_;
+  Element element_;
   MeshHeader header_;
   std::vector<FileRegion> regions_;
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;
+  std::uint64_t corners_ = 0;  ///< rows of all tets so far
 };
 
 }  // namespace mw::io

@@ -51,7 +51,7 @@ TEST(MeshRecord, ComesBackThroughFilesAndIsNoPartOfTheDigest) {
   for (unsigned seed = 1; seed < 6; ++seed) {
     mesh.record = random_record(seed);
     mesh.names = seed % 2 == 0 ? LabelNames() : LabelNames({{1, "a", {}}});
-    for (const char* name : {"m.vtkhdf", "m.vtu", "m.mesh"}) {
+    for (const char* name : {"m.vtkhdf", "m.vtu", "m.mesh", "m.xdmf"}) {
       write_mesh(mesh, *open_mesh_sink(dir.path() / name));
       const MeshData back = read_mesh(dir.path() / name);
       EXPECT_EQ(back.record, mesh.record) << name;

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes the geometry of an FEBio model.
+#include "io/mesh/febio/febio_writer.h"
+
+#include <algorithm>
+#include <set>
+
+#include "io/file/errors.h"
+#include "io/mesh/grouped/facet_numbers.h"
+#include "io/mesh/grouped/ten_node_writer.h"
+#include "io/mesh/number_line.h"
+#include "io/mesh/xml_text.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::string_view kHead =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<febio_spec version=\"4.0\">\n"
+    "  <Module type=\"solid\"/>\n"
+    "  <!-- The materials are placeholders: one for each label of the mesh. -->\n";
+
+/// Gives each name once.
+class UniqueNames {
+ public:
+  [[nodiscard]] std::string next(const std::string& wanted) {
+    std::string name = wanted;
+    for (int i = 2; !taken_.insert(name).second; ++i) name = text(wanted, "_", i);
+    return xml_escaped(name);
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+/// By rank of label, escaped.
+std::vector<std::string> part_names(const GroupedMesh& mesh) {
+  const GroupNames names(mesh);
+  UniqueNames unique;
+  std::vector<std::string> out;
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    out.push_back(unique.next(names.volume(rank)));
+  }
+  return out;
+}
+
+/// `<tag id="7">1,2,3</tag>`.
+template <class Numbers>
+void append_row(AtomicFile& file, std::string_view tag, std::uint64_t id, const Numbers& numbers) {
+  NumberLine line(',');
+  for (const auto number : numbers) line.add(number);
+  file.append(text("      <", tag, " id=\"", id, "\">", line.numbers(), "</", tag, ">\n"));
+}
+
+/// Rows count from 1 in the file.
+template <class Rows>
+void append_cell(AtomicFile& file, std::string_view tag, std::uint64_t id, Rows rows) {
+  for (std::uint64_t& row : rows) ++row;
+  append_row(file, tag, id, rows);
+}
+
+std::array<std::uint64_t, 6> six_rows(GroupedMesh& mesh, const Facet& facet) {
+  const std::array<std::uint64_t, 3> middles = mesh.facet_middles(facet);
+  return {facet.rows[0], facet.rows[1], facet.rows[2], middles[0], middles[1], middles[2]};
+}
+
+}  // namespace
+
+void FebioWriter::write(GroupedMesh& mesh) {
+  const auto labels = static_cast<std::int64_t>(mesh.table().size());
+  const LabelNumbers numbers(mesh.table(), {.least = 1, .most = labels});
+  const std::vector<std::string> parts = part_names(mesh);
+  file_.append(kHead);
+  write_materials(parts, numbers);
+  file_.append("  <Mesh>\n");
+  write_nodes(mesh);
+  for (std::size_t rank = 0; rank < parts.size(); ++rank) {
+    write_part(mesh, mesh.label_tets()[rank], parts[rank]);
+  }
+  write_surfaces(mesh);
+  file_.append("  </Mesh>\n");
+  write_domains(parts);
+  file_.append("</febio_spec>\n");
+  write_label_table(path_, mesh.table(), mesh.names(), numbers);
+  file_.commit();
+}
+
+/// By number, since FEBio takes ids in their order alone.
+void FebioWriter::write_materials(const std::vector<std::string>& parts,
+                                  const LabelNumbers& numbers) {
+  std::vector<std::size_t> ranks(parts.size());
+  for (Label rank = 0; rank < parts.size(); ++rank) {
+    ranks[static_cast<std::size_t>(numbers[rank] - 1)] = rank;
+  }
+  file_.append("  <Material>\n");
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    file_.append(text("    <material id=\"", i + 1, "\" name=\"", parts[ranks[i]],
+                      "\" type=\"neo-Hookean\">\n      <density>1</density>\n      <E>1</E>\n"
+                      "      <v>0.3</v>\n    </material>\n"));
+  }
+  file_.append("  </Material>\n");
+}
+
+void FebioWriter::write_nodes(GroupedMesh& mesh) {
+  file_.append("    <Nodes name=\"nodes\">\n");
+  for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
+    append_row(file_, "node", row + 1, mesh.node(row));
+  }
+  file_.append("    </Nodes>\n");
+}
+
+void FebioWriter::write_part(GroupedMesh& mesh, RowRange tets, const std::string& name) {
+  const bool ten = mesh.element() == Element::kTet10;
+  file_.append(text("    <Elements type=\"", ten ? "tet10" : "tet4", "\" name=\"", name, "\">\n"));
+  for (std::uint64_t tet = tets.begin; tet < tets.end; ++tet) {
+    if (ten) {
+      append_cell(file_, "elem", tet + 1, ten_rows(mesh, tet));
+    } else {
+      append_cell(file_, "elem", tet + 1, mesh.tet(tet));
+    }
+  }
+  file_.append("    </Elements>\n");
+}
+
+void FebioWriter::write_surfaces(GroupedMesh& mesh) {
+  UniqueNames unique;
+  for (const NumberedFacets& run : number_facets(mesh)) {
+    file_.append(text("    <Surface name=\"", unique.next(run.name), "\">\n"));
+    for (std::uint64_t i = run.facets.begin; i < run.facets.end; ++i) {
+      const Facet facet = mesh.facet(i);
+      const std::uint64_t id = i - run.facets.begin + 1;
+      if (mesh.element() == Element::kTet10) {
+        append_cell(file_, "tri6", id, six_rows(mesh, facet));
+      } else {
+        append_cell(file_, "tri3", id, facet.rows);
+      }
+    }
+    file_.append("    </Surface>\n");
+  }
+}
+
+void FebioWriter::write_domains(const std::vector<std::string>& parts) {
+  file_.append("  <MeshDomains>\n");
+  for (const std::string& name : parts) {
+    file_.append(text("    <SolidDomain name=\"", name, "\" mat=\"", name, "\"/>\n"));
+  }
+  file_.append("  </MeshDomains>\n");
+}
+
+}  // namespace mw::io

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes the geometry of an FEBio model.
+#pragma once
+
+#include "io/file/atomic_file.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/grouped/label_numbers.h"
+
+namespace mw::io {
+
+/// febio_spec 4.0 with what FEBio Studio needs to import a mesh, and nothing that loads it:
+///   Material     one a label, of its name, a neo-Hookean placeholder; ids are 1 to the number of
+///                labels, as FEBio wants them: the numbers of M.feb.labels.csv (label_numbers.h)
+///   Mesh         Nodes; Elements tet4 or tet10 for each label; a Surface (tri3 or tri6) for each
+///                interface and each side of the box; all ids count from 1
+///   MeshDomains  part to material
+/// Parts and surfaces have the names of group_names.h, with _2 and so on behind one that was there.
+class FebioWriter : public GroupedWriter {
+ public:
+  explicit FebioWriter(const std::filesystem::path& path) : path_(path), file_(path) {}
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  void write_materials(const std::vector<std::string>& parts, const LabelNumbers& numbers);
+  void write_nodes(GroupedMesh& mesh);
+  void write_part(GroupedMesh& mesh, RowRange tets, const std::string& name);
+  void write_surfaces(GroupedMesh& mesh);
+  void write_domains(const std::vector<std::string>& parts);
+
+  std::filesystem::path path_;
+  AtomicFile file_;
+};
+
+}  // namespace mw::io

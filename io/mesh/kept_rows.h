@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which nodes of a mesh stay when its tets keep nothing but their corners.
+#pragma once
+
+#include <bit>
+#include <vector>
+
+#include "io/mesh/mesh_data.h"
+
+namespace mw::io {
+
+/// A row goes when it is the middle of an edge and nobody's corner; rows that no tet names stay.
+/// Middles are all told first, then corners.  Memory: a quarter of a byte a row.
+/// REQUIRES of all: row < rows.
+class KeptRows {
+ public:
+  explicit KeptRows(std::uint64_t rows = 0) { grow(rows); }
+
+  /// There are so many rows now, no fewer than before.
+  void grow(std::uint64_t rows) { words_.resize(rows / 64 + 1, ~std::uint64_t{0}); }
+  void middle(std::uint64_t row) {
+    words_[row / 64] &= ~bit(row);
+    any_ = true;
+  }
+  /// Whether there were middles; without them all rows stay as they are.
+  [[nodiscard]] bool any() const { return any_; }
+  void corner(std::uint64_t row) { words_[row / 64] |= bit(row); }
+  /// After the last corner.
+  void number() {
+    before_.assign(words_.size(), 0);
+    for (std::size_t i = 1; i < words_.size(); ++i) {
+      before_[i] = before_[i - 1] + static_cast<std::uint64_t>(std::popcount(words_[i - 1]));
+    }
+  }
+
+  [[nodiscard]] bool stays(std::uint64_t row) const { return (words_[row / 64] & bit(row)) != 0; }
+  /// How many rows before it stay: its new number.  REQUIRES: number().
+  [[nodiscard]] std::uint64_t operator[](std::uint64_t row) const {
+    const std::uint64_t lower = words_[row / 64] & (bit(row) - 1);
+    return before_[row / 64] + static_cast<std::uint64_t>(std::popcount(lower));
+  }
+
+ private:
+  [[nodiscard]] static std::uint64_t bit(std::uint64_t row) { return std::uint64_t{1} << row % 64; }
+
+  std::vector<std::uint64_t> words_;   ///< a bit a row: it stays
+  std::vector<std::uint64_t> before_;  ///< by word: rows before it that stay
+  bool any_ = false;
+};
+
+/// Takes the middles out of a mesh whose tets name their corners.
+/// middles: told all of them.  REQUIRES: tets name vertices that there are.
+inline void drop_middles(MeshData& mesh, KeptRows& middles) {
+  if (!middles.any()) return;
+  for (const TetRows& tet : mesh.tets) {
+    for (const std::uint64_t row : tet) middles.corner(row);
+  }
+  middles.number();
+  for (TetRows& tet : mesh.tets) {
+    for (std::uint64_t& row : tet) row = middles[row];
+  }
+  std::size_t kept = 0;
+  for (std::size_t row = 0; row < mesh.vertices.size(); ++row) {
+    if (middles.stays(row)) mesh.vertices[kept++] = mesh.vertices[row];
+  }
+  mesh.vertices.resize(kept);
+}
+
+}  // namespace mw::io

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a mesh as XDMF over HDF5, with tags as dolfinx reads them.
+#pragma once
+
+#include "io/mesh/grouped/facet_numbers.h"
+#include "io/mesh/grouped/label_numbers.h"
+#include "io/mesh/vtkhdf/hdf5_output.h"
+#include "io/mesh/xdmf/xdmf_text.h"
+
+namespace mw::io {
+
+/// XDMF 3 for M.xdmf, which gets its name last.  Three grids in one domain:
+///   mesh        the tets; cell attribute `label`, the labels themselves (UInt64 or Int64)
+///   cell_tags   the same tets; cell attribute `cell_tags`, Int32 numbers (label_numbers.h)
+///   facet_tags  the triangles; cell attribute `facet_tags`, Int32 numbers (facet_numbers.h)
+/// The last two have an Information a number: its Name is that of the group, its Value the number.
+/// The domain has an Information `mwmesh`, the record of the run (mesh_record.h).
+/// The numbers of all are in M.h5:
+///   /Mesh/mesh/geometry            Float64 [nodes][3]
+///   /Mesh/mesh/topology            Int64 [tets][4 or 10], ten nodes in the order of kTetEdges
+///   /Mesh/mesh/label               UInt64 or Int64 [tets]
+///   /MeshTags/cell_tags/Values     Int32 [tets]
+///   /MeshTags/facet_tags/topology  Int64 [facets][3 or 6], normal out of the lower label
+///   /MeshTags/facet_tags/Values    Int32 [facets]
+/// M.cells.xdmf has the grid `mesh` alone, for readers that take one grid a file (meshio).  The
+/// tables are M.xdmf.labels.csv and M.facets.csv.
+class XdmfWriter : public GroupedWriter {
+ public:
+  explicit XdmfWriter(const std::filesystem::path& path);
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  void write_nodes(GroupedMesh& mesh, hid_t group);
+  void write_tets(GroupedMesh& mesh, hid_t group);
+  void write_tags(GroupedMesh& mesh, const LabelNumbers& numbers, hid_t group);
+  void write_facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs, hid_t group);
+
+  std::filesystem::path path_;
+  AtomicFile file_;
+  AtomicFile cells_;
+  Hdf5Output numbers_;
+};
+
+/// M.h5 of M.xdmf, and M.cells.xdmf.
+[[nodiscard]] std::filesystem::path xdmf_numbers_path(const std::filesystem::path& xdmf);
+[[nodiscard]] std::filesystem::path xdmf_cells_path(const std::filesystem::path& xdmf);
+
+}  // namespace mw::io

@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes for solvers, and tets of ten nodes, read by meshio, VTK and Python's XML."""
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from xml.etree import ElementTree
+
+try:
+    import meshio
+    import numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+PROGRAM = os.environ["MW_PROGRAM"]
+EDGES = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
+
+
+def run(*arguments):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout
+
+
+def volumes(points, tets):
+    a, b, c, d = (points[tets[:, i]] for i in range(4))
+    return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6
+
+
+def canonical(points, tets, labels):
+    """Tets by the positions of their corners, with their labels: whatever the order of rows."""
+    corners = numpy.sort(points[tets[:, :4]].view("f8,f8,f8").reshape(len(tets), 4), axis=1)
+    rows = [(*map(tuple, four.tolist()), int(label)) for four, label in zip(corners, labels)]
+    return sorted(rows)
+
+
+def numbers(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return {int(row["number"]): int(row["id"]) for row in csv.DictReader(file)}
+
+
+class Solvers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        os.chdir(cls.folder.name)
+        run("synth", "voronoi", "--shape", "16,14,12", "--labels", 8, "--seed", 1, "-o", "v.npy")
+        with open("names.csv", "w", encoding="utf-8") as file:
+            file.write('id,name\n1,"a <b> & ""c"""\n2,same\n3,same\n4,Größe\n')
+        # meshio reads no .vtu with strings, as names of labels are, whoever wrote it.
+        run("mesh", "v.npy", "-o", "m.vtu", "--spacing", "0.3,1,2.5")
+        run("mesh", "v.npy", "-o", "named.mesh", "--names", "names.csv", "--spacing", "0.3,1,2.5")
+        cls.digest = run("digest", "m.vtu")
+        mesh = meshio.read("m.vtu")
+        cls.points, cls.tets = mesh.points, mesh.cells[0].data
+        cls.labels = mesh.cell_data["label"][0]
+        cls.rows = canonical(cls.points, cls.tets, cls.labels)
+
+    @classmethod
+    def tearDownClass(cls):
+        os.chdir("/")
+        cls.folder.cleanup()
+
+    def convert(self, name, *options, source="m.vtu"):
+        run("convert", source, name, *options)
+        self.assertEqual(run("digest", name), self.digest)
+
+    def test_vtu_has_one_number_a_tet(self):
+        self.assertEqual(self.labels.shape, (len(self.tets),))
+        self.assertTrue((volumes(self.points, self.tets) > 0).all())
+
+    def test_xdmf_in_meshio(self):
+        self.convert("x.xdmf", source="named.mesh")
+        mesh = meshio.read("x.cells.xdmf")
+        self.assertEqual(mesh.cells[0].type, "tetra")
+        self.assertEqual(mesh.cell_data["label"][0].shape, (len(self.tets),))
+        self.assertEqual(
+            canonical(mesh.points, mesh.cells[0].data, mesh.cell_data["label"][0]), self.rows
+        )
+        self.convert("x10.xdmf", "--element", "tet10")
+        mesh = meshio.read("x10.cells.xdmf")
+        self.assertEqual(mesh.cells[0].type, "tetra10")
+        self.check_middles(mesh.points, mesh.cells[0].data)
+
+    def test_we_read_meshio(self):
+        mesh = meshio.Mesh(self.points, [("tetra", self.tets)], cell_data={"label": [self.labels]})
+        for options in ({}, {"compression": "gzip", "compression_opts": 4}):
+            meshio.write("o.xdmf", mesh, data_format="HDF", **options)
+            self.assertEqual(run("digest", "o.xdmf"), self.digest)
+        meshio.write("o.xdmf", mesh, data_format="XML")
+        done = subprocess.run([PROGRAM, "digest", "o.xdmf"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("HDF5", done.stderr)
+        mesh.cell_data["tetgen:ref"] = mesh.cell_data.pop("label")
+        meshio.write("o.node", mesh)
+        self.assertEqual(run("info", "o.node", "--json").count('"label"'), len(set(self.labels)))
+
+    def test_node_in_meshio(self):
+        self.convert("t.node")
+        mesh = meshio.read("t.node")
+        ids = numbers("t.node.labels.csv")
+        labels = [ids[number] for number in mesh.cell_data["tetgen:ref"][0]]
+        self.assertEqual(canonical(mesh.points, mesh.cells[0].data, labels), self.rows)
+        self.convert("t10.node", "--element", "tet10")
+
+    def test_feb(self):
+        for element, nodes in (("tet4", 4), ("tet10", 10)):
+            self.convert("f.feb", "--element", element, source="named.mesh")
+            model = ElementTree.parse("f.feb").getroot()
+            self.assertEqual(model.attrib["version"], "4.0")
+            materials = {m.attrib["name"]: m.attrib["id"] for m in model.find("Material")}
+            self.assertEqual(
+                list(materials.values()), [str(i + 1) for i in range(len(materials))]
+            )
+            domains = {d.attrib["name"]: d.attrib["mat"] for d in model.find("MeshDomains")}
+            points = [list(map(float, n.text.split(","))) for n in model.iterfind("Mesh/Nodes/node")]
+            ids = numbers("f.feb.labels.csv")
+            tets, labels = [], []
+            for part in model.iterfind("Mesh/Elements"):
+                self.assertEqual(part.attrib["type"], element)
+                label = ids[int(materials[domains[part.attrib["name"]]])]
+                for row in part:
+                    tets.append([int(node) - 1 for node in row.text.split(",")])
+                    labels.append(label)
+            points, tets = numpy.array(points), numpy.array(tets)
+            self.assertEqual(tets.shape[1], nodes)
+            self.assertEqual(canonical(points, tets, labels), self.rows)
+            self.assertIn('a <b> & "c"', domains)
+            self.assertIn("same (2)", domains)
+            if element == "tet10":
+                self.check_middles(points, tets)
+            self.check_surfaces(model, points, tets, labels, set(domains))
+
+    def check_surfaces(self, model, points, tets, labels, parts):
+        """Every triangle between labels or on the outside is in one surface, and no other is."""
+        sides = {}
+        for tet, label in zip(tets, labels):
+            for left_out in range(4):
+                key = frozenset(numpy.delete(tet[:4], left_out))
+                sides.setdefault(key, []).append(label)
+        bounds = {key for key, pair in sides.items() if len(pair) == 1 or pair[0] != pair[1]}
+        lo, hi = points.min(axis=0), points.max(axis=0)
+        for surface in model.iterfind("Mesh/Surface"):
+            name = surface.attrib["name"]
+            for row in surface:
+                nodes = [int(node) - 1 for node in row.text.split(",")]
+                self.assertEqual(row.tag, f"tri{len(nodes)}")
+                bounds.remove(frozenset(nodes[:3]))
+                for i in range(3, len(nodes)):
+                    middle = (points[nodes[i - 3]] + points[nodes[(i - 2) % 3]]) / 2
+                    numpy.testing.assert_allclose(points[nodes[i]], middle, rtol=1e-12, atol=1e-12)
+                if "|" in name:
+                    self.assertEqual(len(set(sides[frozenset(nodes[:3])])), 2)
+                    self.assertLessEqual(set(name.split("|")), parts)
+                else:
+                    axis, end = "xyz".index(name[0]), {"min": lo, "max": hi}[name[2:]]
+                    self.assertTrue((points[nodes][:, axis] == end[axis]).all())
+        self.assertEqual(bounds, set())
+
+    def check_middles(self, points, tets):
+        """In VTK's order, and each edge has one."""
+        by_edge = {}
+        for i, (a, b) in enumerate(EDGES):
+            middle = (points[tets[:, a]] + points[tets[:, b]]) / 2
+            numpy.testing.assert_allclose(points[tets[:, 4 + i]], middle, rtol=1e-12, atol=1e-12)
+            for one, other, row in zip(tets[:, a], tets[:, b], tets[:, 4 + i]):
+                self.assertEqual(by_edge.setdefault(frozenset((one, other)), row), row)
+        self.assertEqual(len(set(by_edge.values())), len(by_edge))
+
+    def test_ten_nodes_in_vtk(self):
+        for name, reader in (
+            ("q.vtu", vtkXMLUnstructuredGridReader()),
+            ("q.vtkhdf", vtkHDFReader()),
+        ):
+            self.convert(name, "--element", "tet10")
+            reader.SetFileName(name)
+            reader.Update()
+            grid = reader.GetOutput()
+            types = {grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}
+            self.assertEqual(types, {24})
+            points = vtk_to_numpy(grid.GetPoints().GetData())
+            tets = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 10)
+            labels = vtk_to_numpy(grid.GetCellData().GetArray("label"))
+            self.check_middles(points, tets)
+            self.assertEqual(canonical(points, tets, labels), self.rows)
+        mesh = meshio.read("q.vtu")
+        self.assertEqual(mesh.cells[0].type, "tetra10")
+        self.assertEqual(mesh.cell_data["label"][0].shape, (len(self.tets),))
+
+    def test_mesh_writes_ten_nodes(self):
+        run("mesh", "v.npy", "-o", "d.vtu", "--spacing", "0.3,1,2.5", "--element", "tet10")
+        self.assertEqual(run("digest", "d.vtu"), self.digest)
+        self.assertEqual(json.loads(run("info", "d.vtu", "--json"))["tets"], len(self.tets))
+        run("verify", "v.npy", "d.vtu", "--spacing", "0.3,1,2.5")
+
+    def test_inputs_are_not_written_over(self):
+        with open("w.facets.csv", "w", encoding="utf-8") as file:
+            file.write("id,name\n1,one\n")
+        done = subprocess.run(
+            [PROGRAM, "mesh", "v.npy", "-o", "w.xdmf", "--names", "w.facets.csv"],
+            capture_output=True, text=True,
+        )
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("w.facets.csv: this is --names", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
