@@ -22,5 +22,6 @@ void add_digest_command(CLI::App& program, Action& chosen);
 void add_info_command(CLI::App& program, Action& chosen);
 void add_convert_command(CLI::App& program, Action& chosen);
 void add_synth_command(CLI::App& program, Action& chosen);
+void add_picture_command(CLI::App& program, Action& chosen);
 
 }  // namespace mw::cli
