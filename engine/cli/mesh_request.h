@@ -16,6 +16,7 @@ struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   std::filesystem::path report;  ///< empty: none
+  std::filesystem::path html;    ///< empty: none
   std::filesystem::path trace;   ///< empty: none
   engine::MeshSettings settings;
   int threads = 0;                      ///< 0: all cores

@@ -13,7 +13,8 @@ namespace mw::picture {
 /// 0 to 15 all different.
 [[nodiscard]] Colour palette_colour(RawLabel label);
 
-/// The colour of a face with that normal of any length, lit from beside the viewer.
+/// The colour of a face with that normal of any length, lit from beside the viewer; without a
+/// normal (zero) the colour itself.
 [[nodiscard]] Colour lit(const Colour& colour, const Vec3& normal, const View& view);
 
 /// share 0: one, 1: other.

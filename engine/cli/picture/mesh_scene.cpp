@@ -92,7 +92,7 @@ void MeshScene::each_facet(const io::FacetGroup& group, const Visit& visit) {
 }
 
 void MeshScene::each_section(Label rank, const Visit& visit) {
-  const SceneTriangle triangle{.normal = plane_->normal, .colour = colour(rank)};
+  const SceneTriangle triangle{.colour = colour(rank)};
   const io::RowRange tets = mesh_.label_tets()[rank];
   for (std::uint64_t number = tets.begin; number < tets.end; ++number) {
     const auto [a, b, c, d] = mesh_.tet(number);

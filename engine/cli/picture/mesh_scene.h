@@ -33,7 +33,7 @@ struct CutPlace {
 struct SceneTriangle {
   std::array<Vec3, 3> corners;
   std::array<bool, 3> lined{};  ///< whether the side opposite to this corner is an edge of the mesh
-  Vec3 normal;                  ///< outwards, of any length
+  Vec3 normal = Vec3::Zero();   ///< outwards, of any length; zero on the cut, which is not lit
   picture::Colour colour{};
 };
 
