@@ -48,10 +48,10 @@ Colour palette_colour(RawLabel label) {
 }
 
 Colour lit(const Colour& colour, const Vec3& normal, const View& view) {
-  const Vec3 light = view.viewer + 0.55 * view.up - 0.45 * view.right;
+  const Vec3 light = view.viewer + 0.5 * view.up - 0.35 * view.right;
   const double lengths = std::sqrt(normal.squaredNorm() * light.squaredNorm());
   if (lengths == 0) return colour;
-  constexpr double kAmbient = 0.45, kBrightest = 1.03;
+  constexpr double kAmbient = 0.52, kBrightest = 1.03;
   const double facing = std::max(normal.dot(light) / lengths, 0.0);
   return mixed({0, 0, 0}, colour, kAmbient + (kBrightest - kAmbient) * facing);
 }

@@ -12,7 +12,7 @@ namespace mw::cli {
 namespace {
 
 // Of the view box of a chart.
-constexpr double kWidth = 360, kHeight = 150, kBase = 126, kTop = 8;
+constexpr double kWidth = 270, kHeight = 140, kBase = 116, kTop = 8;
 
 std::string at(double place) {
   return format_fixed(place, 1);

@@ -51,6 +51,12 @@ std::string short_number(double value) {
   return format_fixed(value, size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3);
 }
 
+std::string size_text(std::uint64_t bytes) {
+  constexpr std::uint64_t kGiB = std::uint64_t{1} << 30U;
+  if (bytes < kGiB) return format_bytes(bytes);
+  return format_fixed(static_cast<double>(bytes) / static_cast<double>(kGiB), 1) + " GiB";
+}
+
 void Base64::add(std::span<const std::byte> bytes) {
   constexpr std::size_t kPiece = 4096;
   for (const std::byte byte : bytes) {

@@ -26,6 +26,9 @@ namespace mw::cli {
 
 using AppendText = std::function<void(std::string_view)>;
 
+/// "66.8 MiB", "11.0 GiB".
+[[nodiscard]] std::string size_text(std::uint64_t bytes);
+
 /// Bytes in base64, passed on as they come.  Memory: 4 KiB.
 class Base64 {
  public:

@@ -75,7 +75,7 @@ Verdict memory_verdict(const ordered_json& report) {
   const std::uint64_t peak = report["performance"]["peak_rss_bytes"];
   const std::uint64_t budget = report["engine"]["memory_budget_bytes"];
   return judged("P6", "Resident memory stays under the budget.", peak <= budget,
-                format_bytes(peak) + " at most, budget " + format_bytes(budget));
+                size_text(peak) + " at most, budget " + size_text(budget));
 }
 
 Verdict volume_verdict(const ordered_json& report) {
@@ -140,7 +140,7 @@ std::vector<BarRow> memory_rows(const ordered_json& purposes) {
   std::vector<BarRow> out;
   for (const auto& [key, value] : purposes.items()) {
     const std::uint64_t bytes = value;
-    out.push_back({key, static_cast<double>(bytes), format_bytes(bytes)});
+    out.push_back({key, static_cast<double>(bytes), size_text(bytes)});
   }
   return out;
 }
@@ -197,8 +197,9 @@ std::string head_section(const ordered_json& report) {
                     escaped(report["version"].get<std::string>()) + "</p>\n<div class=\"tiles\">\n";
   out += tile("vertices", with_commas(output["vertices"]),
               percent(output["vertex_fraction"], 2) + " of the voxel corners");
+  const double slivers = quality["sliver_fraction"];
   out += tile("tets", with_commas(output["tets"]),
-              percent(quality["sliver_fraction"], 3) + " slivers");
+              slivers == 0 ? "no slivers" : percent(slivers, 3) + " slivers");
   out += tile("radius ratio, least", format_fixed(quality["radius_ratio_min"], 3),
               format_fixed(quality["radius_ratio_mean"], 3) + " on average");
   const ordered_json& error = shape["volume_error_max_abs"];
@@ -207,8 +208,8 @@ std::string head_section(const ordered_json& report) {
                               : percent(shape["volume_error_mean_abs"], 3) + " on average");
   out += tile("time", short_number(performance["wall_s"]) + " s",
               short_number(performance["voxels_per_s"]) + " voxels/s");
-  out += tile("memory, at most", format_bytes(performance["peak_rss_bytes"]),
-              format_bytes(report["engine"]["memory_budget_bytes"]) + " allowed");
+  out += tile("memory, at most", size_text(performance["peak_rss_bytes"]),
+              size_text(report["engine"]["memory_budget_bytes"]) + " allowed");
   return out + "</div></header>\n";
 }
 
@@ -232,8 +233,8 @@ std::string engine_section(const ordered_json& report) {
                       {"threads", with_commas(engine["threads"])},
                       {"CPU seconds", short_number(report["performance"]["cpu_s"])},
                       {"blocks spilled", with_commas(engine["blocks_spilled"])},
-                      {"bytes written", format_bytes(engine["bytes_written"])},
-                      {"bytes read", format_bytes(engine["bytes_read"])}}) +
+                      {"bytes written", size_text(engine["bytes_written"])},
+                      {"bytes read", size_text(engine["bytes_read"])}}) +
          "</figure>\n";
   return out + "</div></section>\n";
 }

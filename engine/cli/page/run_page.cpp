@@ -64,13 +64,12 @@ std::string shape_section(const FinishedRun& run) {
                            .unit = "°",
                            .shares = shares_of(quality.dihedral_histogram)});
   const auto middle = shape.bend_histogram.begin() + shape.bend_histogram.size() / 2;
-  out +=
-      histogram_figure({.title = "Bend of interfaces at edges",
-                        .note = "by length; " + format_fixed(100 * shape.sharp_share, 2) +
-                                " % beyond 60°, most " + format_fixed(shape.bend_max_deg, 0) + "°",
-                        .to = 90,
-                        .unit = "°",
-                        .shares = {shape.bend_histogram.begin(), middle}});
+  out += histogram_figure(
+      {.title = "Bend of interfaces at edges",
+       .note = "by length; " + format_fixed(100 * shape.sharp_share, 2) + " % beyond 60°",
+       .to = 90,
+       .unit = "°",
+       .shares = {shape.bend_histogram.begin(), middle}});
   return out + histogram_figure(volume_errors(run)) + "</div></section>\n";
 }
 
@@ -153,7 +152,7 @@ constexpr const char* kStage =
 <button id="view-reset" type="button">Reset</button></div></div>
 <div class="card panel"><div class="controls"><input id="labels-find" type="search" placeholder="Find" aria-label="find labels">
 <button id="labels-all" type="button">All</button><button id="labels-none" type="button">None</button></div>
-<div class="rows"><table id="labels"><thead><tr><th>Label</th><th>Name</th><th>Voxels</th><th>Volume error</th></tr></thead><tbody>
+<div class="rows"><table id="labels"><thead><tr><th>Label</th><th>Name</th><th>Voxels</th><th title="of the volume">Error</th></tr></thead><tbody>
 )";
 
 std::string view_note(const ViewData& view) {

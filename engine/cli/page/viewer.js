@@ -36,30 +36,36 @@
     for (const place of [group.a, group.b]) if (place >= 0) labels[place].groups.push(group);
   }
 
-  // The world is moved and scaled so that the mesh lies around 0, its diagonal 2 long.
+  // The world is moved and scaled so that what is shown first lies around 0, its diagonal 2 long.
   const add = (a, b, f = 1) => a.map((x, i) => x + f * b[i]);
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const scaled = (a, f) => a.map((x) => x * f);
-  const middle = scaled(add(data.lo, data.hi), 0.5);
-  const scale = 2 / (Math.hypot(...add(data.hi, data.lo, -1)) || 1);
+  const step = add(data.hi, data.lo, -1).map((length) => length / 65535);
+  const boxOf = (chosen) => {
+    const [least, most] = [[65535, 65535, 65535], [0, 0, 0]];
+    for (const group of chosen) {
+      for (let i = 3 * group.first; i < 3 * (group.first + group.count); ++i) {
+        for (let k = 0; k < 3; ++k) {
+          const x = vertices[3 * triangles[i] + k];
+          if (x < least[k]) least[k] = x;
+          if (x > most[k]) most[k] = x;
+        }
+      }
+    }
+    return [least, most].map((end) => data.lo.map((x, k) => x + end[k] * step[k]));
+  };
+  const boxes = [...document.querySelectorAll('input[data-label]')];
+  const ticked = boxes.filter((input) => input.checked).flatMap((input) => labels[input.dataset.label].groups);
+  const [least, most] = boxOf(ticked.length ? ticked : groups);
+  const middle = scaled(add(least, most), 0.5);
+  const scale = 2 / (Math.hypot(...add(most, least, -1)) || 1);
   const place = (p) => scaled(add(p, middle, -1), scale);
   const lo = place(data.lo);
   const size = scaled(add(data.hi, data.lo, -1), scale);
   const box = {origin: place(data.box.origin), edges: data.box.edges.map((edge) => scaled(edge, scale))};
 
-  for (const label of labels) {
-    label.lo = [Infinity, Infinity, Infinity];
-    label.hi = [-Infinity, -Infinity, -Infinity];
-    for (const group of label.groups) {
-      for (let i = 3 * group.first; i < 3 * (group.first + group.count); ++i) {
-        for (let k = 0; k < 3; ++k) {
-          const x = lo[k] + size[k] * vertices[3 * triangles[i] + k] / 65535;
-          if (x < label.lo[k]) label.lo[k] = x;
-          if (x > label.hi[k]) label.hi[k] = x;
-        }
-      }
-    }
-  }
+  for (const label of labels) [label.lo, label.hi] = boxOf(label.groups).map(place);
+  const reach = Math.hypot(...[0, 1, 2].map((k) => Math.max(Math.abs(lo[k]), Math.abs(lo[k] + size[k])))) + 0.1;
 
   // --- WebGL ------------------------------------------------------------------------------------
   const shader = (type, source) => {
@@ -87,7 +93,7 @@
       if (dot(cut.xyz, w) > cut.w) discard;
       vec3 n = normalize(cross(dFdx(w), dFdy(w)));
       if (dot(n, viewer) < 0.0) n = -n;
-      float bright = mix(1.0, 0.45 + 0.58 * max(dot(n, light), 0.0), shaded);
+      float bright = mix(1.0, 0.52 + 0.51 * max(dot(n, light), 0.0), shaded);
       seen = vec4(min(colour.rgb * bright, 1.0) * colour.a, colour.a);
     }`));
   gl.linkProgram(program);
@@ -160,13 +166,13 @@
 
   // A perspective of a narrow angle, columns first.
   const kFocus = 3.6;
-  const kFill = 1.12;
+  const kFill = 1;
   const cameraMatrix = ({right, up, viewer}) => {
     const far = kFocus * eye.distance;
     const aspect = canvas.width / canvas.height;
     const fx = kFocus * kFill / Math.max(1, aspect);
     const fy = kFocus * kFill * Math.min(1, aspect);
-    const [near, back] = [Math.max(far - 2, 0.02), far + 2];
+    const [near, back] = [Math.max(far - reach, 0.02), far + reach];
     const [c, d] = [(back + near) / (near - back), 2 * back * near / (near - back)];
     const out = [];
     for (let k = 0; k < 3; ++k) out.push(fx * right[k], fy * up[k], c * viewer[k], -viewer[k]);
@@ -197,7 +203,6 @@
     wires ??= makeWires();
     gl.bindVertexArray(wires);
     gl.enable(gl.BLEND);
-    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.uniform1f(at.shaded, 0);
     gl.uniform4f(at.colour, 0, 0, 0, 0.35);
     for (const group of groups) {
@@ -268,9 +273,11 @@
     ownPlaces();
     gl.uniform4f(at.cut, 0, 0, 0, 1);
     gl.uniform1f(at.shaded, 0);
-    gl.uniform4f(at.colour, 0.5, 0.52, 0.55, 1);
+    gl.uniform4f(at.colour, 0.5, 0.52, 0.55, 0.45);
+    gl.enable(gl.BLEND);
     gl.bindVertexArray(frame);
     gl.drawArrays(gl.LINES, 0, frameLines.length / 3);
+    gl.disable(gl.BLEND);
   };
 
   const draw = () => {
@@ -281,9 +288,10 @@
     gl.clearColor(0, 0, 0, 0);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     const view = axes();
-    const light = add(add(view.viewer, view.up, 0.55), view.right, -0.45);
+    const light = add(add(view.viewer, view.up, 0.5), view.right, -0.35);
     const plane = cutPlane();
     gl.uniformMatrix4fv(at.camera, false, cameraMatrix(view));
     gl.uniform3f(at.viewer, ...view.viewer);
@@ -378,7 +386,6 @@
   byId('view-edges').addEventListener('change', (event) => { edges = event.target.checked; redraw(); });
   byId('view-reset').addEventListener('click', () => { Object.assign(eye, start); redraw(); });
 
-  const boxes = [...document.querySelectorAll('input[data-label]')];
   const read = () => {
     for (const input of boxes) labels[input.dataset.label].on = input.checked;
     redraw();
