@@ -71,13 +71,12 @@ main() {
     >>"$name.log" || verdict=$?
   [[ -s "$name.verify.json" ]] || die "verify gave no result (exit $verdict)"
   "$program" picture "$name.vtu" -o "$name.png" >>"$name.log"
-  "$program" picture "$name.vtu" --cut z=0.45 -o "$name.cut.png" >>"$name.log"
   echo
   print_table "$name.run.json" "$name.verify.json"
   echo
   echo "mesh      $PWD/$name.vtu"
   echo "reports   $PWD/$name.run.json, $PWD/$name.verify.json"
-  echo "pictures  $PWD/$name.png, $PWD/$name.cut.png"
+  echo "picture   $PWD/$name.png"
   echo "page      $PWD/$name.html"
   ((verdict == 0)) || grep '^FAIL' "$name.log" >&2
   return "$verdict"

@@ -171,20 +171,11 @@ std::string label_section(const PageLabels& labels, const ViewData& view) {
   return stage + label_rows(labels, view) + "</tbody></table></div></div></div></section>\n";
 }
 
-struct PagePicture {
-  std::string title;
-  std::optional<CutPlace> cut;
-};
-
-/// All labels but the surrounding one.
-void add_picture(io::AtomicFile& file, const PageLabels& labels, const PagePicture& picture) {
-  std::vector<bool> shown(labels.volumes.size(), true);
-  if (labels.surrounding) shown[*labels.surrounding] = false;
-  MeshScene scene(labels.mesh, std::move(shown), labels.mesh.names());
-  const picture::View view = default_view(picture.cut);
-  if (picture.cut) scene.cut(cut_plane(labels.mesh.box(), *picture.cut, view));
-  file.append("<figure class=\"card\"><figcaption><b>" + picture.title +
-              "</b></figcaption><img width=\"1200\" height=\"900\" alt=\"" + picture.title +
+/// The scene as a figure.
+void add_picture(io::AtomicFile& file, MeshScene& scene, const std::string& title,
+                 const picture::View& view) {
+  file.append("<figure class=\"card\"><figcaption><b>" + title +
+              "</b></figcaption><img width=\"1200\" height=\"900\" alt=\"" + title +
               "\" src=\"data:image/png;base64,");
   Base64 text([&](std::string_view piece) { file.append(piece); });
   draw(scene, {.view = view, .transparent = true},
@@ -193,10 +184,17 @@ void add_picture(io::AtomicFile& file, const PageLabels& labels, const PagePictu
   file.append("\"></figure>\n");
 }
 
+/// All labels but the surrounding one, whole and cut.
 void add_pictures(io::AtomicFile& file, const PageLabels& labels) {
+  std::vector<bool> shown(labels.volumes.size(), true);
+  if (labels.surrounding) shown[*labels.surrounding] = false;
+  MeshScene scene(labels.mesh, std::move(shown), labels.mesh.names());
   file.append("<section><h2>Pictures</h2><div class=\"pictures\">\n");
-  add_picture(file, labels, {"Surfaces", std::nullopt});
-  add_picture(file, labels, {"Cut at half of x", CutPlace{.axis = 0, .share = 0.5}});
+  add_picture(file, scene, "Surfaces", default_view({}));
+  const CutPlace middle = middle_cut(scene, labels.mesh.box(), 0);
+  const picture::View view = default_view(middle);
+  scene.cut(cut_plane(labels.mesh.box(), middle, view));
+  add_picture(file, scene, "Cut across x", view);
   file.append("</div></section>\n");
 }
 

@@ -4,6 +4,8 @@
 #include "engine/cli/picture/mesh_scene.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
 
 #include "io/file/errors.h"
 
@@ -107,6 +109,19 @@ Vec3 MeshScene::vertex(std::uint64_t row) {
     throw Error(ErrorKind::kInput, io::text("vertex ", row, " is not at a finite place"));
   }
   return point;
+}
+
+CutPlace middle_cut(MeshScene& scene, const io::MeshBox& box, std::size_t axis) {
+  const Vec3 origin = vec(box.origin), edge = vec(box.edges[axis]);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  scene.each([&](const SceneTriangle& triangle) {
+    for (const Vec3& corner : triangle.corners) {
+      const double share = edge.dot(corner - origin) / edge.squaredNorm();
+      least = std::min(least, share);
+      most = std::max(most, share);
+    }
+  });
+  return {.axis = axis, .share = (least + most) / 2};
 }
 
 }  // namespace mw::cli

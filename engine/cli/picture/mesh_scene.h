@@ -67,4 +67,8 @@ class MeshScene {
   std::optional<picture::CutPlane> plane_;
 };
 
+/// The place half way between the ends of an uncut scene along an axis of the box, where a cut
+/// leaves something to see.  Cost: a pass over the facets.
+[[nodiscard]] CutPlace middle_cut(MeshScene& scene, const io::MeshBox& box, std::size_t axis);
+
 }  // namespace mw::cli

@@ -140,6 +140,14 @@ class RunPage(unittest.TestCase):
         run("mesh", "v.npy", "-o", "w.vtu", "--quality-floor", "0", "--html", "w.html")
         self.assertIn("the run had no floor", " ".join(Page("w.html").text))
 
+    def test_draws_a_cut_wherever_the_labels_are(self):
+        for low in (1, 17):
+            labels = numpy.zeros((10, 10, 24), numpy.uint8)
+            labels[2:8, 2:8, low : low + 5] = 3
+            numpy.save("far.npy", labels)
+            run("mesh", "far.npy", "-o", "far.vtu", "--html", "far.html")
+            self.assertEqual(len(Page("far.html").addresses), 2)
+
     def view(self):
         data = json.loads(self.page.scripts["view-data"])
         places = numpy.frombuffer(base64.b64decode(self.page.scripts["view-vertices"], validate=True), "<u2")
