@@ -58,33 +58,49 @@ std::vector<bool> inner_labels(io::GroupedMesh& mesh, const io::LabelNames& name
   return shown;
 }
 
-int run_picture(PictureJob& job) {
-  job.options.resolve();
-  const PictureRequest& request = job.request;
-  check(request);
-  io::AtomicFile file(request.output);
+/// What is wrong with the mesh names its file.
+[[noreturn]] void fail(const std::filesystem::path& mesh, const Error& error) {
+  const std::string what = error.what();
+  if (error.kind() != ErrorKind::kInput || what.starts_with(mesh.string())) throw error;
+  throw Error(error.kind(), mesh.string() + ": " + what);
+}
+
+/// Returns how many triangles it drew.
+std::uint64_t draw_mesh(const PictureRequest& request, const io::TakeBytes& take) {
   io::GroupedSink sink(io::scratch_folder(), nullptr);
   io::copy_mesh(request.mesh, sink);
   io::GroupedMesh& mesh = sink.mesh();
-  const io::LabelNames names = request.names.empty()
-                                   ? mesh.names()
-                                   : mesh.names().merged_with(io::read_names(request.names));
+  io::LabelNames names = mesh.names();
+  if (!request.names.empty()) names = names.merged_with(io::read_names(request.names));
   MeshScene scene(
       mesh,
       request.labels ? asked_labels(mesh.table(), *request.labels) : inner_labels(mesh, names),
       names);
   const picture::View view = request.view.value_or(default_view(request.cut));
   if (request.cut) scene.cut(cut_plane(mesh.box(), *request.cut, view));
-  const std::uint64_t triangles =
-      draw(scene,
-           {.width = request.width,
-            .height = request.height,
-            .view = view,
-            .lines = request.lines,
-            .transparent = request.transparent},
-           [&](std::span<const std::byte> bytes) { file.append(bytes); });
+  return draw(scene,
+              {.width = request.width,
+               .height = request.height,
+               .view = view,
+               .lines = request.lines,
+               .transparent = request.transparent},
+              take);
+}
+
+int run_picture(PictureJob& job) {
+  job.options.resolve();
+  const PictureRequest& request = job.request;
+  check(request);
+  io::AtomicFile file(request.output);
+  try {
+    const std::uint64_t triangles =
+        draw_mesh(request, [&](std::span<const std::byte> bytes) { file.append(bytes); });
+    std::cout << "triangles   " << triangles << "\n";
+  } catch (const Error& error) {
+    fail(request.mesh, error);
+  }
   file.commit();
-  std::cout << "triangles   " << triangles << "\nfile        " << request.output.string() << "\n";
+  std::cout << "file        " << request.output.string() << "\n";
   return kExitDone;
 }
 

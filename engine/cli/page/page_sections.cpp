@@ -101,15 +101,21 @@ Verdict resume_verdict(const ordered_json& report) {
                        : with_commas(resumed) + " windows were done before it was interrupted"};
 }
 
+Verdict bound_verdict(const ordered_json& report) {
+  const ordered_json& bound = report["settings"]["max_distance"];
+  return unchecked(
+      "P4", "No boundary moves farther than the bound, both ways.",
+      bound == "none" ? "the run had no bound"
+                      : "bound " + flag_text(bound) + " voxels of the lattice; verify measures it");
+}
+
 std::vector<Verdict> verdicts(const ordered_json& report) {
   return {unchecked("P1", "Every label keeps its topology, background and exterior included.",
                     "kept by every step; verify counts Betti numbers of voxels and mesh"),
           unchecked("P2", "Tets are strictly positive, the mesh is conforming, the box is whole.",
                     "kept by every step; verify decides it by exact arithmetic"),
           shape_verdict(report),
-          unchecked("P4", "No boundary moves farther than the bound, both ways.",
-                    "bound " + flag_text(report["settings"]["max_distance"]) +
-                        " voxels of the lattice; verify measures it"),
+          bound_verdict(report),
           unchecked("P5", "The mesh is a function of volume and settings alone.",
                     "the same run anywhere gives " + report["digest"].get<std::string>()),
           memory_verdict(report),

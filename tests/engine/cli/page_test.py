@@ -22,6 +22,7 @@ except ImportError as missing:
 
 PROGRAM = os.environ["MW_PROGRAM"]
 CHROMIUM = shutil.which("chromium")
+ADDRESSES = ("src", "href", "action", "data", "srcset")
 VOID = {"meta", "br", "img", "input", "link", "hr"}
 EVIL = "</script><script>alert(1)</script> <b>&\"quoted\""
 
@@ -51,7 +52,7 @@ class Page(html.parser.HTMLParser):
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
         self.tags.append(tag)
-        self.addresses += [value for key, value in attributes.items() if key in ("src", "href", "action", "data", "srcset")]
+        self.addresses += [attributes[key] for key in ADDRESSES if key in attributes]
         if tag not in VOID:
             self.open.append((tag, attributes.get("id", "")))
 

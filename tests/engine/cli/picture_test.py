@@ -33,6 +33,11 @@ def run(*arguments):
     return done.stdout
 
 
+def draw(mesh, picture, *arguments):
+    """Without edges."""
+    return run("picture", mesh, "-o", picture, "--edges", "off", *arguments)
+
+
 def paeth(a, b, c):
     pa, pb, pc = abs(b - c), abs(a - c), abs(a + b - 2 * c)
     return a if pa <= pb and pa <= pc else b if pb <= pc else c
@@ -93,7 +98,7 @@ class Picture(unittest.TestCase):
 
     def test_colours_are_where_the_labels_are(self):
         self.halves()
-        out = run("picture", "h.vtu", "-o", "h.png", "--view", "z", "--size", "200x160", "--cut", "z=0.5", "--edges", "off")
+        out = draw("h.vtu", "h.png", "--view", "z", "--size", "200x160", "--cut", "z=0.5")
         self.assertNotIn("left out", out)
         image = read_png("h.png")
         self.assertEqual(image.shape, (160, 200, 3))
@@ -107,7 +112,7 @@ class Picture(unittest.TestCase):
 
     def test_lit_faces_keep_their_hue(self):
         self.halves()
-        run("picture", "h.vtu", "-o", "h.png", "--view", "z", "--size", "100x100", "--edges", "off")
+        draw("h.vtu", "h.png", "--view", "z", "--size", "100x100")
         seen = read_png("h.png")[50, 20].astype(float)
         shares = seen / numpy.array(BLUE)
         self.assertLess(shares.max() - shares.min(), 0.02)
@@ -116,7 +121,8 @@ class Picture(unittest.TestCase):
     def test_edges_darken(self):
         self.halves()
         for edges in ("on", "off"):
-            run("picture", "h.vtu", "-o", edges + ".png", "--view", "z", "--size", "300x300", "--edges", edges)
+            run("picture", "h.vtu", "-o", edges + ".png", "--view", "z", "--size", "300x300",
+                "--edges", edges)
         with_edges, without = read_png("on.png").astype(int), read_png("off.png").astype(int)
         self.assertTrue((with_edges <= without).all())
         self.assertGreater((with_edges < without).any(axis=2).mean(), 0.01)
@@ -124,10 +130,11 @@ class Picture(unittest.TestCase):
 
     def test_only_the_labels_asked_for(self):
         self.halves()
-        run("picture", "h.vtu", "-o", "one.png", "--label", "2", "--view", "z", "--cut", "z=0.5", "--size", "100x100", "--edges", "off")
+        draw("h.vtu", "one.png", "--label", "2", "--view", "z", "--cut", "z=0.5", "--size", "100x100")
         image = read_png("one.png")
         self.assertEqual(count(image, BLUE), 0)
-        self.assertAlmostEqual(count(image, ORANGE) / (92 * 92 * 0.4), 1, delta=0.05)  # 8 x 20 voxels, 20 fill the height
+        # 8 x 20 voxels, of which 20 fill the height.
+        self.assertAlmostEqual(count(image, ORANGE) / (92 * 92 * 0.4), 1, delta=0.05)
 
     def test_transparent_where_nothing_is(self):
         self.halves()
@@ -143,10 +150,10 @@ class Picture(unittest.TestCase):
         labels[4:12, 4:12, 4:12] = 2
         numpy.save("b.npy", labels)
         run("mesh", "b.npy", "-o", "b.vtu")
-        out = run("picture", "b.vtu", "-o", "b.png", "--cut", "y=0.5", "--edges", "off", "--size", "80x80")
+        out = draw("b.vtu", "b.png", "--cut", "y=0.5", "--size", "80x80")
         self.assertIn("left out    label 0", out)
         self.assertGreater(count(read_png("b.png"), ORANGE), 1000)
-        out = run("picture", "b.vtu", "-o", "b.png", "--cut", "y=0.5", "--edges", "off", "--size", "80x80", "--label", "0,2")
+        out = draw("b.vtu", "b.png", "--cut", "y=0.5", "--size", "80x80", "--label", "0,2")
         self.assertNotIn("left out", out)
         self.assertGreater(count(read_png("b.png"), (186, 176, 172)), count(read_png("b.png"), ORANGE))
 
@@ -154,7 +161,7 @@ class Picture(unittest.TestCase):
         self.halves()
         with open("names.csv", "w", encoding="utf-8") as file:
             file.write("id,name,r,g,b\n1,left,10,200,30\n")
-        run("picture", "h.vtu", "-o", "n.png", "--names", "names.csv", "--cut", "z=0.5", "--size", "80x80", "--edges", "off")
+        draw("h.vtu", "n.png", "--names", "names.csv", "--cut", "z=0.5", "--size", "80x80")
         self.assertGreater(count(read_png("n.png"), (10, 200, 30)), 500)
 
     def test_same_bytes_from_every_format(self):
@@ -170,6 +177,13 @@ class Picture(unittest.TestCase):
 
     def test_refuses_what_makes_no_sense(self):
         self.halves()
+        run("convert", "h.vtu", "h.mesh")
+        with open("h.mesh", encoding="utf-8") as file:
+            lines = file.read().split("\n")
+        first = lines.index("Vertices") + 2
+        for name, place in (("nan", "nan 0 0 0"), ("far", "1e300 0 0 0")):
+            with open(name + ".mesh", "w", encoding="utf-8") as file:
+                file.write("\n".join(lines[:first] + [place] + lines[first + 1 :]))
         before = set(os.listdir("."))
         for code, piece, *arguments in (
             (2, "--label: the mesh has no label 7", "h.vtu", "-o", "p.png", "--label", "7"),
@@ -181,6 +195,8 @@ class Picture(unittest.TestCase):
             (2, ".png", "h.vtu", "-o", "p.jpg"),
             (2, "MESH", "-o", "p.png"),
             (3, "no.vtu", "no.vtu", "-o", "p.png"),
+            (3, "nan.mesh", "nan.mesh", "-o", "p.png"),
+            (3, "far.mesh: vertices lie", "far.mesh", "-o", "p.png"),
         ):
             done = start("picture", *arguments)
             self.assertEqual(done.returncode, code, (arguments, done.stderr))
