@@ -63,17 +63,21 @@ main() {
   echo "demo: meshing $input"
   # Names of labels, where they lie beside the volume as those of the atlas do.
   [[ -f "${input%.gz}.txt" ]] && names=(--names "${input%.gz}.txt")
-  "$program" mesh "$input" "${names[@]}" -o "$name.vtu" --report "$name.run.json" >"$name.log"
+  "$program" mesh "$input" "${names[@]}" -o "$name.vtu" --report "$name.run.json" \
+    --html "$name.html" >"$name.log"
   echo "demo: verifying $name.vtu"
   bound="$(jq -r .settings.max_distance "$name.run.json")"
   "$program" verify "$input" "$name.vtu" "${names[@]}" --max-distance "$bound" --report "$name.verify.json" \
     >>"$name.log" || verdict=$?
   [[ -s "$name.verify.json" ]] || die "verify gave no result (exit $verdict)"
+  "$program" picture "$name.vtu" -o "$name.png" >>"$name.log"
   echo
   print_table "$name.run.json" "$name.verify.json"
   echo
   echo "mesh      $PWD/$name.vtu"
   echo "reports   $PWD/$name.run.json, $PWD/$name.verify.json"
+  echo "picture   $PWD/$name.png"
+  echo "page      $PWD/$name.html"
   ((verdict == 0)) || grep '^FAIL' "$name.log" >&2
   return "$verdict"
 }

@@ -24,6 +24,7 @@ void add_stats_command(CLI::App& program, Action& chosen);
 void add_convert_command(CLI::App& program, Action& chosen);
 void add_surface_command(CLI::App& program, Action& chosen);
 void add_synth_command(CLI::App& program, Action& chosen);
+void add_picture_command(CLI::App& program, Action& chosen);
 void add_generate_command(CLI::App& program, Action& chosen);
 
 }  // namespace mw::cli

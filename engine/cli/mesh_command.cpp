@@ -14,6 +14,7 @@
 #include "engine/cli/log.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
+#include "engine/cli/page/run_page.h"
 #include "engine/cli/run_report.h"
 #include "engine/cli/speck_facts.h"
 #include "engine/cli/trace_file.h"
@@ -22,6 +23,7 @@
 #include "engine/resident_memory.h"
 #include "engine/voxel_lattice.h"
 #include "io/mesh/digest.h"
+#include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
 
@@ -41,25 +43,40 @@ std::size_t digest_memory(std::uint64_t budget) {
   return std::clamp<std::uint64_t>(budget / 64, kLeast, io::DigestSink::kMemoryBytes);
 }
 
+/// Whether somebody wants to read what came out.
+bool is_measured(const MeshRequest& request) {
+  return !request.report.empty() || !request.html.empty();
+}
+
 /// The files of a run, created before any work so that a bad path fails at once.
 struct MeshFiles {
   explicit MeshFiles(const MeshRequest& request)
       : sink(io::open_mesh_sink(request.output, request.element,
                                 request.ascii ? io::Encoding::kText : io::Encoding::kUsual)) {
     if (!request.trace.empty()) trace.emplace(request.trace);
-    if (request.report.empty()) return;
-    report.emplace(request.report);
+    if (!request.html.empty()) html.emplace(request.html);
+    if (!request.report.empty()) report.emplace(request.report);
+    if (!is_measured(request)) return;
     digest.emplace(request.output.parent_path(), digest_memory(*request.memory));
     both.emplace(*sink, *digest);
+    if (!html) return;
+    grouped.emplace(request.output.parent_path(), nullptr);
+    three.emplace(*both, *grouped);
   }
 
   /// Where the mesh goes.
-  [[nodiscard]] io::MeshSink& all() { return both ? static_cast<io::MeshSink&>(*both) : *sink; }
+  [[nodiscard]] io::MeshSink& all() {
+    if (three) return *three;
+    return both ? static_cast<io::MeshSink&>(*both) : *sink;
+  }
 
   std::unique_ptr<io::MeshSink> sink;
   std::optional<io::AtomicFile> report;
-  std::optional<io::DigestSink> digest;  ///< for the report; it waits beside the output
+  std::optional<io::AtomicFile> html;
+  std::optional<io::DigestSink> digest;  ///< for report and page; it waits beside the output
   std::optional<io::TeeSink> both;
+  std::optional<io::GroupedSink> grouped;  ///< for the page, the same
+  std::optional<io::TeeSink> three;
   std::optional<TraceFile> trace;
 };
 
@@ -74,8 +91,8 @@ engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& v
   };
   if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
   hooks.output = {.wanted = wanted_labels(request.choice, volume.table()),
-                  .measure_quality = !request.report.empty(),
-                  .measure_shape = !request.report.empty()};
+                  .measure_quality = is_measured(request),
+                  .measure_shape = is_measured(request)};
   return engine::mesh_volume(volume, request.settings, files.all(), hooks);
 }
 
@@ -172,11 +189,16 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   tell_resume(request, run.engine.store);
   run.resources = meter.read();
   print_summary(run, request);
-  if (files.report) {
+  if (is_measured(request)) {
     engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
     run.digest = files.digest->digest();
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
-    write_run_report(*files.report, run, request.output, options.json());
+  }
+  if (files.report) write_run_report(*files.report, run, request.output, options.json());
+  if (files.html) {
+    write_run_page(*files.html, run, files.grouped->mesh(),
+                   run_report(run, request.output, options.json()));
+    std::cout << "page        " << request.html.string() << std::endl;
   }
   return kExitDone;
 }

@@ -29,6 +29,7 @@ ordered_json quality_json(const audit::QualityReport& quality) {
   return {{"radius_ratio_min", quality.radius_ratio_min},
           {"radius_ratio_mean", quality.radius_ratio_mean},
           {"radius_ratio_histogram", quality.radius_ratio_histogram},
+          {"dihedral_histogram", quality.dihedral_histogram},
           {"sliver_fraction", quality.sliver_fraction},
           {"dihedral_min_deg", quality.dihedral_min_deg},
           {"dihedral_max_deg", quality.dihedral_max_deg}};

@@ -259,6 +259,10 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .value = "FILE.json",
                .help = "writes a report of the run, read back from the finished mesh",
                .assign = [&](const std::string& text) { request.report = text; }});
+  options.add({.name = "html",
+               .value = "REPORT.html",
+               .help = "writes one page to look at: figures, charts, pictures, surfaces to turn",
+               .assign = [&](const std::string& text) { request.html = text; }});
   options.add({.name = "trace",
                .value = "FILE.csv",
                .help = "writes when each window was worked on, and by which thread",
@@ -308,6 +312,16 @@ void require_names_used_once(const MeshRequest& request) {
               {request.volume.path, request.volume.names, request.output});
   require_new("--trace", request.trace,
               {request.volume.path, request.volume.names, request.output, request.report});
+  require_new(
+      "--html", request.html,
+      {request.volume.path, request.volume.names, request.output, request.report, request.trace});
+}
+
+/// The page is drawn when the mesh is written, in what it leaves of the budget.
+void require_memory_for_page(const MeshRequest& request) {
+  constexpr std::uint64_t kLeast = 192 << 20;
+  if (request.html.empty() || *request.memory >= kLeast) return;
+  throw Error(ErrorKind::kUsage, "--html: needs --memory 192MiB or more");
 }
 
 }  // namespace
@@ -332,6 +346,7 @@ void check_mesh_request(MeshRequest& request) {
   (void)open_options(request.volume);
   check_choice(request.choice);
   require_names_used_once(request);
+  require_memory_for_page(request);
   if (request.settings.optimizer == engine::Optimizer::kTetgen) (void)engine::codt::find_worker();
 }
 

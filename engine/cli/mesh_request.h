@@ -19,6 +19,7 @@ struct MeshRequest {
   io::Element element = io::Element::kTet4;
   bool ascii = false;            ///< the output as text
   std::filesystem::path report;  ///< empty: none
+  std::filesystem::path html;    ///< empty: none
   std::filesystem::path trace;   ///< empty: none
   engine::MeshSettings settings;
   int threads = 0;                      ///< 0: all cores

@@ -30,6 +30,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_convert_command(app, chosen);
   add_surface_command(app, chosen);
   add_synth_command(app, chosen);
+  add_picture_command(app, chosen);
   add_generate_command(app, chosen);
   app.require_subcommand(0, 1);
   app.set_version_flag("--version", "mwmesh " MW_VERSION);

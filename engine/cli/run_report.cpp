@@ -100,23 +100,31 @@ ordered_json engine_json(const FinishedRun& run) {
   return out;
 }
 
-/// Calls visit(row) for the labels that were written.
-template <typename Visit>
-void each_volume(const engine::RunReport& run, Visit visit) {
-  const std::int64_t parts = run.lattice.layers.product();
-  for (Label label = 0; label < run.label_voxels.size(); ++label) {
-    const std::uint64_t voxels = run.label_voxels[label] / static_cast<std::uint64_t>(parts);
-    if (voxels > 0) visit(audit::volume_row(label, voxels, run.label_volumes6[label], parts));
-  }
-}
-
 ordered_json shape_json(const FinishedRun& run) {
   audit::VolumeMeter volumes;
-  each_volume(run.engine, [&](const audit::VolumeRow& row) { volumes.add(row); });
+  each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
   ordered_json out = volume_summary_json(volumes.summary(), run.labels);
   out.update(interfaces_json(run.engine.shape.value()));
+  out["bend_histogram"] = run.engine.shape->bend_histogram;
   out["per_label"] = kRows;
   return out;
+}
+
+}  // namespace
+
+double vertex_fraction(std::uint64_t vertices, Index3 shape) {
+  const Index3 corners = shape + Index3{1, 1, 1};
+  return static_cast<double>(vertices) / static_cast<double>(corners.product());
+}
+
+void each_volume(const FinishedRun& run,
+                 const std::function<void(const audit::VolumeRow&)>& visit) {
+  const engine::RunReport& engine = run.engine;
+  const std::int64_t parts = engine.lattice.layers.product();
+  for (Label label = 0; label < engine.label_voxels.size(); ++label) {
+    const std::uint64_t voxels = engine.label_voxels[label] / static_cast<std::uint64_t>(parts);
+    if (voxels > 0) visit(audit::volume_row(label, voxels, engine.label_volumes6[label], parts));
+  }
 }
 
 ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
@@ -136,17 +144,10 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
           {"digest", run.digest}};
 }
 
-}  // namespace
-
-double vertex_fraction(std::uint64_t vertices, Index3 shape) {
-  const Index3 corners = shape + Index3{1, 1, 1};
-  return static_cast<double>(vertices) / static_cast<double>(corners.product());
-}
-
 void write_run_report(io::AtomicFile& file, const FinishedRun& run,
                       const std::filesystem::path& mesh, ordered_json settings) {
   const auto each_row = [&](const TakeRow& take) {
-    each_volume(run.engine, [&](const audit::VolumeRow& row) {
+    each_volume(run, [&](const audit::VolumeRow& row) {
       take(volume_row_json(row, run.labels, run.volume.names));
     });
   };

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 
 #include "engine/cli/resource_meter.h"
 #include "engine/run.h"
 #include "io/file/atomic_file.h"
 #include "io/labels/despeckled_volume.h"
+#include "kernels/audit/volumes.h"
 
 namespace mw::cli {
 
@@ -26,6 +28,15 @@ struct FinishedRun {
 
 /// Vertices of a mesh per corner of the volume's voxels.
 [[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
+
+/// The report without its rows of labels (kRows stands for them).
+/// REQUIRES: run.engine.quality and shape.
+[[nodiscard]] nlohmann::ordered_json run_report(const FinishedRun& run,
+                                                const std::filesystem::path& mesh,
+                                                nlohmann::ordered_json settings);
+
+/// Calls visit on each label that was written, ascending.  REQUIRES: run.engine.shape.
+void each_volume(const FinishedRun& run, const std::function<void(const audit::VolumeRow&)>& visit);
 
 /// What nobody measured is null.  Memory: no more for more labels.
 /// REQUIRES: run.engine.quality and shape.

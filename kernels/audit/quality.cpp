@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace mw::audit {
@@ -56,6 +57,22 @@ double TetShape::radius_ratio() const {
   return below > 0 ? std::min(3 * det * det / below, 1.0) : 0;
 }
 
+/// Bin of an angle by its cosine.  Lattices are full of right angles and the like, which rounding
+/// must not put on either side.
+std::size_t dihedral_bin(double cosine) {
+  using Bins = decltype(QualityReport::dihedral_histogram);
+  static const std::array<double, std::tuple_size_v<Bins> - 1> kEnds = [] {
+    std::array<double, std::tuple_size_v<Bins> - 1> ends{};
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const double share = static_cast<double>(i + 1) / static_cast<double>(ends.size() + 1);
+      ends[i] = std::cos(share * std::numbers::pi) + 1e-9;
+    }
+    return ends;
+  }();
+  return static_cast<std::size_t>(
+      std::lower_bound(kEnds.begin(), kEnds.end(), cosine, std::greater<>()) - kEnds.begin());
+}
+
 /// For the report only, so a last bit that depends on the C library does no harm.
 double degrees_of_cosine(double cosine) {
   return std::acos(cosine) * 180 / std::numbers::pi;
@@ -87,6 +104,7 @@ void QualityMeter::add(const Position& a, const Position& b, const Position& c, 
       const double cosine = std::clamp(-dot(tet.normals[i], tet.normals[k]) / lengths, -1., 1.);
       largest_cosine_ = std::max(largest_cosine_, cosine);
       smallest_cosine_ = std::min(smallest_cosine_, cosine);
+      ++report_.dihedral_histogram[dihedral_bin(cosine)];
     }
   }
 }

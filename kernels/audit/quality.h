@@ -20,6 +20,8 @@ struct QualityReport {
   std::uint64_t worst_tet = 0;  ///< first tet with the least radius ratio
   double radius_ratio_mean = 0;
   std::array<std::uint64_t, 20> radius_ratio_histogram{};  ///< equal bins over [0, 1]
+  /// Of the dihedral angles of all tets, in bins of 5 degrees.
+  std::array<std::uint64_t, 36> dihedral_histogram{};
   double sliver_fraction = 0;
   double dihedral_min_deg = 0;
   double dihedral_max_deg = 0;

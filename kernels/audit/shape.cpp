@@ -144,6 +144,10 @@ ShapeReport ShapeMeter::report() const {
   out.bend_p95_deg = percentile(0.95, total);
   out.bend_p99_deg = percentile(0.99, total);
   out.sharp_share = sharp_length_.value() / total;
+  const std::size_t fine = bins_.size() / out.bend_histogram.size();
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    out.bend_histogram[i / fine] += bins_[i].value() / total;
+  }
   return out;
 }
 

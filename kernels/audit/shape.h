@@ -28,6 +28,8 @@ struct ShapeReport {
   double bend_p99_deg = 0;
   double bend_max_deg = 0;
   double sharp_share = 0;  ///< of that length, that bends by more than kSharpDegrees
+  /// Shares of that length, in bins of 5 degrees.
+  std::array<double, 36> bend_histogram{};
 };
 
 /// A triangle at an edge (p, q) by its third corner.

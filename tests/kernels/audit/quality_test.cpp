@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <random>
 
 #include "tests/oracle/small_volumes.h"
 
@@ -51,6 +54,37 @@ TEST(Quality, FiveTetMeshOfCubes) {
   EXPECT_EQ(std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}), mesh.tets.size());
   EXPECT_EQ(bins[14], mesh.tets.size() / 5 * 4);
   EXPECT_EQ(bins[19], mesh.tets.size() / 5);
+  // Corner tets have three right angles and three of 54.7 degrees, the regular one six of 70.5.
+  const std::uint64_t cubes = mesh.tets.size() / 5;
+  EXPECT_EQ(report.dihedral_histogram[18], cubes * 12);
+  EXPECT_EQ(report.dihedral_histogram[10], cubes * 12);
+  EXPECT_EQ(report.dihedral_histogram[14], cubes * 6);
+}
+
+TEST(Quality, DihedralHistogramIsThatOfTheAngles) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::array<std::uint64_t, 36> expected{};
+  QualityMeter meter;
+  for (int round = 0; round < 500; ++round) {
+    std::array<Eigen::Vector3d, 4> p;
+    for (Eigen::Vector3d& corner : p) corner = {number(random), number(random), number(random)};
+    const auto place = [&](std::size_t i) { return Position{p[i][0], p[i][1], p[i][2]}; };
+    meter.add(place(0), place(1), place(2), place(3));
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = i + 1; k < 4; ++k) {
+        // Along the edge i k the other two corners are seen under the dihedral angle.
+        const std::size_t m = i == 0 ? (k == 1 ? 2 : 1) : 0, n = 6 - i - k - m;
+        const Eigen::Vector3d edge = (p[k] - p[i]).normalized();
+        const auto across = [&](std::size_t at) -> Eigen::Vector3d {
+          return p[at] - p[i] - edge * edge.dot(p[at] - p[i]);
+        };
+        const double angle = std::acos(across(m).normalized().dot(across(n).normalized()));
+        ++expected[static_cast<std::size_t>(angle * 180 / std::numbers::pi / 5)];
+      }
+    }
+  }
+  EXPECT_EQ(meter.report().dihedral_histogram, expected);
 }
 
 TEST(Quality, IsMeasuredInPhysicalUnits) {

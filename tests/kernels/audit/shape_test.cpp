@@ -51,6 +51,11 @@ TEST(Shape, OfRandomMeshesIsThatOfTheDefinition) {
       EXPECT_GE(found, expected.percentile(share - 1e-9) - 0.0501);
       EXPECT_LE(found, expected.percentile(share + 1e-9) + 0.0501);
     }
+    double beyond = 1;
+    for (int bin = 0; bin + 1 < 36 && i % 4 != 0 && !expected.bends.empty(); ++bin) {
+      beyond -= actual.bend_histogram[static_cast<std::size_t>(bin)];
+      EXPECT_NEAR(beyond, expected.share_above(5.0 * (bin + 1)), 1e-9) << bin;
+    }
     bends += expected.bends.size();
   }
   EXPECT_GT(bends, 1000U);
@@ -81,6 +86,8 @@ TEST(Shape, OfACubeHasRightAngles) {
     EXPECT_NEAR(shape.bend_p95_deg, 90, 0.05);
     EXPECT_NEAR(shape.bend_p50_deg, 0, 0.05);
     EXPECT_NEAR(shape.sharp_share, 24 / (48 + 24 * std::sqrt(2)), 1e-12);
+    EXPECT_NEAR(shape.bend_histogram[18], shape.sharp_share, 1e-12);
+    EXPECT_NEAR(shape.bend_histogram[0], 1 - shape.sharp_share, 1e-12);
     for (Label& l : mesh.labels) l = 1 - l;
   }
 }

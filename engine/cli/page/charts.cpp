@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Charts as SVG in a page.
+#include "engine/cli/page/charts.h"
+
+#include <algorithm>
+
+#include "engine/cli/page/html_text.h"
+#include "engine/cli/values.h"
+
+namespace mw::cli {
+namespace {
+
+// Of the view box of a chart.
+constexpr double kWidth = 270, kHeight = 140, kBase = 116, kTop = 8;
+
+std::string at(double place) {
+  return format_fixed(place, 1);
+}
+
+std::string column(const Histogram& histogram, std::size_t i, double most) {
+  const double width = kWidth / static_cast<double>(histogram.shares.size());
+  const double share = histogram.shares[i];
+  const double height = share > 0 ? std::max((kBase - kTop) * share / most, 0.8) : 0;
+  const double x = static_cast<double>(i) * width;
+  const double step =
+      (histogram.to - histogram.from) / static_cast<double>(histogram.shares.size());
+  const double low = histogram.from + step * static_cast<double>(i);
+  return "<rect x=\"" + at(x + 0.5) + "\" y=\"" + at(kBase - height) + "\" width=\"" +
+         at(width - 1) + "\" height=\"" + at(height) + "\"><title>" + short_number(low) + " to " +
+         short_number(low + step) + histogram.unit + ": " + format_fixed(100 * share, 2) +
+         " %</title></rect>";
+}
+
+std::string axis(const Histogram& histogram) {
+  constexpr int kTicks = 4;
+  std::string out = "<path class=\"axis\" d=\"M0 " + at(kBase + 0.5) + "H" + at(kWidth) + "\"/>";
+  for (int i = 0; i <= kTicks; ++i) {
+    const double share = static_cast<double>(i) / kTicks;
+    const char* const anchor = i == 0 ? "start" : i == kTicks ? "end" : "middle";
+    const double value = histogram.from + share * (histogram.to - histogram.from);
+    // Rounded away from digits that only binary fractions have.
+    const std::string text = format_number(parse_number(format_fixed(value, 4)));
+    out += "<text x=\"" + at(share * kWidth) + "\" y=\"" + at(kHeight - 6) + "\" text-anchor=\"" +
+           anchor + "\">" + text + histogram.unit + "</text>";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string histogram_figure(const Histogram& histogram) {
+  const auto most = std::max_element(histogram.shares.begin(), histogram.shares.end());
+  std::string out = "<figure class=\"card\"><figcaption><b>" + escaped(histogram.title) +
+                    "</b><span>" + escaped(histogram.note) + "</span></figcaption>";
+  out += "<svg class=\"chart\" viewBox=\"0 0 " + at(kWidth) + " " + at(kHeight) +
+         "\" role=\"img\" aria-label=\"" + escaped(histogram.title) + "\">";
+  for (std::size_t i = 0; i < histogram.shares.size(); ++i) out += column(histogram, i, *most);
+  return out + axis(histogram) + "</svg></figure>\n";
+}
+
+std::string bar_figure(const std::string& title, const std::vector<BarRow>& rows) {
+  double most = 0;
+  for (const BarRow& row : rows) most = std::max(most, row.value);
+  std::string out = "<figure class=\"card\"><figcaption><b>" + escaped(title) +
+                    "</b></figcaption><table class=\"bars\">";
+  for (const BarRow& row : rows) {
+    const double share = most > 0 ? 100 * row.value / most : 0;
+    out += "<tr><th scope=\"row\">" + escaped(row.name) + "</th><td><i style=\"width:" + at(share) +
+           "%\"></i></td><td>" + escaped(row.text) + "</td></tr>";
+  }
+  return out + "</table></figure>\n";
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Pieces of text as HTML and JSON in HTML want them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace mw::cli {
+
+/// For text and for attributes in double quotes.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// JSON that may stand in a script element, whatever its strings hold.
+[[nodiscard]] std::string script_json(const nlohmann::ordered_json& value);
+
+/// "41,247".
+[[nodiscard]] std::string with_commas(std::uint64_t number);
+
+/// Three significant digits: "0.738", "12.3", "1,040".
+[[nodiscard]] std::string short_number(double value);
+
+using AppendText = std::function<void(std::string_view)>;
+
+/// "66.8 MiB", "11.0 GiB".
+[[nodiscard]] std::string size_text(std::uint64_t bytes);
+
+/// Bytes in base64, passed on as they come.  Memory: 4 KiB.
+class Base64 {
+ public:
+  explicit Base64(AppendText append) : append_(std::move(append)) {}
+
+  void add(std::span<const std::byte> bytes);
+  /// Passes on the rest; called once, at the end.
+  void finish();
+
+ private:
+  void encode(std::size_t count);
+
+  AppendText append_;
+  std::string text_;
+  std::uint32_t bits_ = 0;
+  std::size_t held_ = 0;  ///< bytes in bits_
+};
+
+}  // namespace mw::cli

@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The parts of a run's page that come from its report.
+#include "engine/cli/page/page_sections.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/cli/page/charts.h"
+#include "engine/cli/page/html_text.h"
+#include "engine/cli/values.h"
+
+namespace mw::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string percent(double share, int digits) {
+  return format_fixed(100 * share, digits) + " %";
+}
+
+/// A setting as its flag takes it.
+std::string flag_text(const ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return format_number(value.get<double>());
+  if (!value.is_array()) return value.dump();
+  std::string out;
+  for (const ordered_json& part : value) out += (out.empty() ? "" : ",") + flag_text(part);
+  return out;
+}
+
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,=:+%@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == word.npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string tile(const std::string& name, const std::string& value, const std::string& note) {
+  return "<div class=\"card tile\"><span>" + escaped(name) + "</span><b>" + escaped(value) +
+         "</b><span>" + escaped(note) + "</span></div>\n";
+}
+
+struct Verdict {
+  const char* name;
+  const char* promise;
+  const char* style;  ///< of the style sheet: pass, fail, open
+  std::string word;
+  std::string evidence;
+};
+
+Verdict judged(const char* name, const char* promise, bool holds, std::string evidence) {
+  return {name, promise, holds ? "pass" : "fail", holds ? "holds" : "FAILS", std::move(evidence)};
+}
+
+Verdict unchecked(const char* name, const char* promise, std::string evidence) {
+  return {name, promise, "open", "not checked here", std::move(evidence)};
+}
+
+Verdict shape_verdict(const ordered_json& report) {
+  const double least = report["quality"]["radius_ratio_min"];
+  const double floor = report["settings"]["quality_floor"];
+  const std::string found = "least radius ratio " + format_fixed(least, 4);
+  constexpr const char* kPromise = "No tet is below the quality floor.";
+  if (floor <= 0) return unchecked("P3", kPromise, found + "; the run had no floor");
+  return judged("P3", kPromise, least >= floor,
+                found + ", floor " + format_number(floor) + ", over all tets as they were written");
+}
+
+Verdict memory_verdict(const ordered_json& report) {
+  const std::uint64_t peak = report["performance"]["peak_rss_bytes"];
+  const std::uint64_t budget = report["engine"]["memory_budget_bytes"];
+  return judged("P6", "Resident memory stays under the budget.", peak <= budget,
+                size_text(peak) + " at most, budget " + size_text(budget));
+}
+
+Verdict volume_verdict(const ordered_json& report) {
+  constexpr double kAllowed = 0.05;  // the default of verify
+  constexpr const char* kPromise = "Labels of 1,000 voxels and more keep their volumes.";
+  const ordered_json& shape = report["shape"];
+  if (shape["volume_error_max_abs"].is_null()) {
+    return unchecked("P8", kPromise, "no label is that large");
+  }
+  const double worst = shape["volume_error_max_abs"];
+  const std::string evidence = "off by " + percent(worst, 2) + " at most (label " +
+                               shape["volume_error_worst_label"].dump() + "), 5 % allowed";
+  if (report["settings"]["surface"] != "smooth") {
+    return unchecked("P8", kPromise, evidence + "; not promised with --surface voxel");
+  }
+  return judged("P8", kPromise, worst <= kAllowed, evidence);
+}
+
+Verdict resume_verdict(const ordered_json& report) {
+  const std::uint64_t resumed = report["engine"]["windows_resumed"];
+  return {"P7", "A killed run goes on to the same bytes.", "open", "not checked here",
+          resumed == 0 ? "this run was not interrupted"
+                       : with_commas(resumed) + " windows were done before it was interrupted"};
+}
+
+Verdict bound_verdict(const ordered_json& report) {
+  const ordered_json& bound = report["settings"]["max_distance"];
+  return unchecked(
+      "P4", "No boundary moves farther than the bound, both ways.",
+      bound == "none" ? "the run had no bound"
+                      : "bound " + flag_text(bound) + " voxels of the lattice; verify measures it");
+}
+
+std::vector<Verdict> verdicts(const ordered_json& report) {
+  return {unchecked("P1", "Every label keeps its topology, background and exterior included.",
+                    "kept by every step; verify counts Betti numbers of voxels and mesh"),
+          unchecked("P2", "Tets are strictly positive, the mesh is conforming, the box is whole.",
+                    "kept by every step; verify decides it by exact arithmetic"),
+          shape_verdict(report),
+          bound_verdict(report),
+          unchecked("P5", "The mesh is a function of volume and settings alone.",
+                    "the same run anywhere gives " + report["digest"].get<std::string>()),
+          memory_verdict(report),
+          resume_verdict(report),
+          volume_verdict(report)};
+}
+
+std::string promise_row(const Verdict& verdict) {
+  return "<tr><th scope=\"row\">" + std::string(verdict.name) + "</th><td>" +
+         escaped(verdict.promise) + "<small>" + escaped(verdict.evidence) +
+         "</small></td><td class=\"" + verdict.style + "\">" + escaped(verdict.word) +
+         "</td></tr>\n";
+}
+
+/// Keys end in "_s", which people need not read.
+std::vector<BarRow> seconds_rows(const ordered_json& stages) {
+  std::vector<BarRow> out;
+  for (const auto& [key, value] : stages.items()) {
+    const double seconds = value;
+    if (seconds > 0) {
+      out.push_back({key.substr(0, key.size() - 2), seconds, short_number(seconds) + " s"});
+    }
+  }
+  return out;
+}
+
+std::vector<BarRow> memory_rows(const ordered_json& purposes) {
+  std::vector<BarRow> out;
+  for (const auto& [key, value] : purposes.items()) {
+    const std::uint64_t bytes = value;
+    out.push_back({key, static_cast<double>(bytes), size_text(bytes)});
+  }
+  return out;
+}
+
+std::string facts_table(const std::vector<std::array<std::string, 2>>& rows) {
+  std::string out = "<table class=\"settings\">";
+  for (const auto& [name, value] : rows) {
+    out += "<tr><th scope=\"row\">" + escaped(name) + "</th><td>" + escaped(value) + "</td></tr>";
+  }
+  return out + "</table>";
+}
+
+}  // namespace
+
+std::string verify_command(const ordered_json& report) {
+  constexpr std::array kNeeded{"spacing", "origin",      "frame",     "shape", "dtype",
+                               "endian",  "dataset",     "scale",     "crop",  "merge",
+                               "labels",  "drop_specks", "background"};
+  const ordered_json& settings = report["settings"];
+  std::string out = "mwmesh verify " + quoted(flag_text(settings["input"])) + " " +
+                    quoted(flag_text(settings["output"]));
+  for (const std::string key : kNeeded) {
+    if (!settings.contains(key) || settings[key].is_null() || settings[key] == "file") continue;
+    std::string flag = key;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    out += " --" + flag + " " + quoted(flag_text(settings[key]));
+  }
+  for (const std::string key : {"max_distance", "quality_floor"}) {
+    std::string flag = key;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    out += " --" + flag + " " + quoted(flag_text(settings[key]));
+  }
+  if (settings["topology"] != "labels") out += " --topology " + flag_text(settings["topology"]);
+  if (settings["surface"] != "smooth") {
+    out += " --surface " + flag_text(settings["surface"]) + " --max-volume-error none";
+  }
+  return out;
+}
+
+std::string head_section(const ordered_json& report) {
+  const ordered_json& input = report["input"];
+  const ordered_json& output = report["output"];
+  const ordered_json& quality = report["quality"];
+  const ordered_json& shape = report["shape"];
+  const ordered_json& performance = report["performance"];
+  const std::filesystem::path mesh = output["file"].get<std::string>();
+  std::string voxels;
+  for (const ordered_json& side : input["shape_xyz"]) {
+    voxels += (voxels.empty() ? "" : " × ") + with_commas(side);
+  }
+  std::string out = "<header><h1>" + escaped(mesh.filename().string()) + "</h1><p>" +
+                    escaped(flag_text(report["settings"]["input"])) + " · " + voxels +
+                    " voxels · " + with_commas(input["labels"]) + " labels · mwmesh " +
+                    escaped(report["version"].get<std::string>()) + "</p>\n<div class=\"tiles\">\n";
+  out += tile("vertices", with_commas(output["vertices"]),
+              percent(output["vertex_fraction"], 2) + " of the voxel corners");
+  const double slivers = quality["sliver_fraction"];
+  out += tile("tets", with_commas(output["tets"]),
+              slivers == 0 ? "no slivers" : percent(slivers, 3) + " slivers");
+  out += tile("radius ratio, least", format_fixed(quality["radius_ratio_min"], 3),
+              format_fixed(quality["radius_ratio_mean"], 3) + " on average");
+  const ordered_json& error = shape["volume_error_max_abs"];
+  out += tile("volume error, at most", error.is_null() ? "–" : percent(error, 2),
+              error.is_null() ? "no label of 1,000 voxels"
+                              : percent(shape["volume_error_mean_abs"], 3) + " on average");
+  out += tile("time", short_number(performance["wall_s"]) + " s",
+              short_number(performance["voxels_per_s"]) + " voxels/s");
+  out += tile("memory, at most", size_text(performance["peak_rss_bytes"]),
+              size_text(report["engine"]["memory_budget_bytes"]) + " allowed");
+  return out + "</div></header>\n";
+}
+
+std::string promise_section(const ordered_json& report) {
+  std::string out = "<section><h2>Promises</h2><div class=\"card\"><table class=\"promises\">\n";
+  for (const Verdict& verdict : verdicts(report)) out += promise_row(verdict);
+  return out +
+         "</table></div>\n<p class=\"soft\" style=\"margin-top:10px\">A second opinion on all "
+         "of them: <code>" +
+         escaped(verify_command(report)) + "</code></p></section>\n";
+}
+
+std::string engine_section(const ordered_json& report) {
+  const ordered_json& engine = report["engine"];
+  std::string out = "<section><h2>Engine</h2><div class=\"charts\">\n";
+  out += bar_figure("Seconds, summed over threads", seconds_rows(report["performance"]["stages"]));
+  out += bar_figure("Memory set aside at most, by purpose",
+                    memory_rows(engine["peak_bytes_by_purpose"]));
+  out += "<figure class=\"card\"><figcaption><b>Run</b></figcaption>" +
+         facts_table({{"windows", with_commas(engine["windows"])},
+                      {"threads", with_commas(engine["threads"])},
+                      {"CPU seconds", short_number(report["performance"]["cpu_s"])},
+                      {"blocks spilled", with_commas(engine["blocks_spilled"])},
+                      {"bytes written", size_text(engine["bytes_written"])},
+                      {"bytes read", size_text(engine["bytes_read"])}}) +
+         "</figure>\n";
+  return out + "</div></section>\n";
+}
+
+std::string settings_section(const ordered_json& report) {
+  std::vector<std::array<std::string, 2>> rows;
+  for (const auto& [key, value] : report["settings"].items()) {
+    if (!value.is_null()) rows.push_back({key, flag_text(value)});
+  }
+  rows.push_back({"digest", report["digest"].get<std::string>()});
+  return "<section><h2>Settings</h2><details class=\"card\"><summary>All settings of the run, and "
+         "the digest of the mesh</summary>" +
+         facts_table(rows) + "</details></section>\n";
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The page of a run, from top to bottom.
+#include "engine/cli/page/run_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/cli/page/assets.h"
+#include "engine/cli/page/charts.h"
+#include "engine/cli/page/page_sections.h"
+#include "engine/cli/page/view_data.h"
+#include "engine/cli/picture/picture_request.h"
+#include "engine/cli/values.h"
+
+namespace mw::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+template <typename Counts>
+std::vector<double> shares_of(const Counts& counts) {
+  double total = 0;
+  for (const auto count : counts) total += static_cast<double>(count);
+  std::vector<double> out;
+  for (const auto count : counts) {
+    out.push_back(total > 0 ? static_cast<double>(count) / total : 0);
+  }
+  return out;
+}
+
+/// Of labels of 1,000 voxels and more; what is off by more than 5 % is in the outermost columns.
+Histogram volume_errors(const FinishedRun& run) {
+  constexpr double kMost = 0.05;
+  std::array<std::uint64_t, 20> counts{};
+  std::uint64_t labels = 0;
+  each_volume(run, [&](const audit::VolumeRow& row) {
+    if (row.voxels < audit::kLeastJudgedVoxels) return;
+    const double place = (row.error / kMost + 1) / 2 * static_cast<double>(counts.size());
+    ++counts[static_cast<std::size_t>(
+        std::clamp(place, 0.0, static_cast<double>(counts.size()) - 1))];
+    ++labels;
+  });
+  return {.title = "Volume error",
+          .note = with_commas(labels) + " labels of 1,000 voxels and more",
+          .from = -100 * kMost,
+          .to = 100 * kMost,
+          .unit = " %",
+          .shares = shares_of(counts)};
+}
+
+std::string shape_section(const FinishedRun& run) {
+  const audit::QualityReport& quality = run.engine.quality.value();
+  const audit::ShapeReport& shape = run.engine.shape.value();
+  std::string out = "<section><h2>Shape</h2><div class=\"charts\">\n";
+  out += histogram_figure({.title = "Radius ratio",
+                           .note = "of tets; 1 is regular",
+                           .shares = shares_of(quality.radius_ratio_histogram)});
+  out += histogram_figure({.title = "Dihedral angle",
+                           .note = format_fixed(quality.dihedral_min_deg, 1) + "° to " +
+                                   format_fixed(quality.dihedral_max_deg, 1) + "°",
+                           .to = 180,
+                           .unit = "°",
+                           .shares = shares_of(quality.dihedral_histogram)});
+  const auto middle = shape.bend_histogram.begin() + shape.bend_histogram.size() / 2;
+  out += histogram_figure(
+      {.title = "Bend of interfaces at edges",
+       .note = "by length; " + format_fixed(100 * shape.sharp_share, 2) + " % beyond 60°",
+       .to = 90,
+       .unit = "°",
+       .shares = {shape.bend_histogram.begin(), middle}});
+  return out + histogram_figure(volume_errors(run)) + "</div></section>\n";
+}
+
+/// What a page knows of its labels.
+struct PageLabels {
+  io::GroupedMesh& mesh;
+  std::optional<Label> surrounding;
+  std::vector<std::optional<audit::VolumeRow>> volumes;  ///< by rank in the mesh
+
+  [[nodiscard]] RawLabel raw(Label rank) const { return mesh.table().raw(rank); }
+  [[nodiscard]] std::string digits(Label rank) const {
+    return format_label(raw(rank), mesh.table().is_signed());
+  }
+};
+
+PageLabels labels_of(const FinishedRun& run, io::GroupedMesh& mesh) {
+  PageLabels out{.mesh = mesh, .surrounding = surrounding_label(mesh), .volumes = {}};
+  out.volumes.resize(mesh.table().size());
+  each_volume(run, [&](const audit::VolumeRow& row) {
+    const RawLabel raw = run.labels.raw(row.label);
+    if (mesh.table().contains(raw)) out.volumes[mesh.table().dense(raw)] = row;
+  });
+  return out;
+}
+
+std::string hex(const picture::Colour& colour) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string out = "#";
+  for (const std::uint8_t part : colour) {
+    out += kDigits[part >> 4U];
+    out += kDigits[part & 15U];
+  }
+  return out;
+}
+
+/// place: in the view, if it is there.
+std::string label_row(const PageLabels& labels, Label rank, std::optional<std::size_t> place) {
+  const io::LabelNames& names = labels.mesh.names();
+  const std::string swatch =
+      "<i style=\"background:" + hex(label_colour(labels.raw(rank), names)) + "\"></i>";
+  const std::string digits = labels.digits(rank);
+  std::string out = "<tr><td><label>";
+  if (place) {
+    out += "<input type=\"checkbox\" data-label=\"" + std::to_string(*place) +
+           "\" aria-label=\"show " + digits + "\"" +
+           (labels.surrounding == rank ? "" : " checked") + ">";
+  }
+  out += swatch + digits + "</label></td><td>" + escaped(names.name(labels.raw(rank))) + "</td>";
+  const std::optional<audit::VolumeRow>& volume = labels.volumes[rank];
+  if (!volume) return out + "<td></td><td></td></tr>\n";
+  return out + "<td>" + with_commas(volume->voxels) + "</td><td>" +
+         format_fixed(100 * volume->error, 2) + " %</td></tr>\n";
+}
+
+/// Rows of all labels, or of too many only of those in the view.
+std::string label_rows(const PageLabels& labels, const ViewData& view) {
+  std::string out;
+  std::size_t place = 0;
+  const bool all = labels.mesh.table().size() <= kMostViewLabels;
+  for (Label rank = 0; rank < labels.mesh.table().size(); ++rank) {
+    const bool seen = place < view.labels().size() && view.labels()[place] == rank;
+    if (seen) out += label_row(labels, rank, place++);
+    if (!seen && all) out += label_row(labels, rank, std::nullopt);
+  }
+  return out;
+}
+
+constexpr const char* kStage =
+    R"(<section><h2>Labels</h2><div class="viewer"><div class="card stage">
+<canvas id="view" tabindex="0" aria-label="the mesh; drag to turn, wheel or two fingers to zoom"></canvas>
+<p id="view-note" class="soft">@NOTE@</p>
+<div class="controls"><fieldset><span class="soft">Cut</span>
+<label><input type="radio" name="cut" value="-1" checked>none</label>
+<label><input type="radio" name="cut" value="0">x</label>
+<label><input type="radio" name="cut" value="1">y</label>
+<label><input type="radio" name="cut" value="2">z</label></fieldset>
+<input id="cut-share" type="range" min="0" max="1000" value="500" aria-label="place of the cut" disabled>
+<button id="cut-turn" type="button" disabled>Other side</button>
+<label><input id="view-edges" type="checkbox">Edges</label>
+<button id="view-reset" type="button">Reset</button></div></div>
+<div class="card panel"><div class="controls"><input id="labels-find" type="search" placeholder="Find" aria-label="find labels">
+<button id="labels-all" type="button">All</button><button id="labels-none" type="button">None</button></div>
+<div class="rows"><table id="labels"><thead><tr><th>Label</th><th>Name</th><th>Voxels</th><th title="of the volume">Error</th></tr></thead><tbody>
+)";
+
+std::string view_note(const ViewData& view) {
+  std::string out = "Drag to turn, wheel or two fingers to zoom. " + with_commas(view.triangles()) +
+                    " triangles.";
+  if (view.left_out() == 0) return out;
+  return out + " " + with_commas(view.left_out()) + " smaller labels are not in this page, which " +
+         "holds " + with_commas(kMostViewTriangles) + " triangles and " +
+         with_commas(kMostViewLabels) + " labels at most; they are in the mesh.";
+}
+
+std::string label_section(const PageLabels& labels, const ViewData& view) {
+  std::string stage = kStage;
+  constexpr std::string_view kNote = "@NOTE@";
+  stage.replace(stage.find(kNote), kNote.size(), view_note(view));
+  return stage + label_rows(labels, view) + "</tbody></table></div></div></div></section>\n";
+}
+
+/// The scene as a figure.
+void add_picture(io::AtomicFile& file, MeshScene& scene, const std::string& title,
+                 const picture::View& view) {
+  file.append("<figure class=\"card\"><figcaption><b>" + title +
+              "</b></figcaption><img width=\"1200\" height=\"900\" alt=\"" + title +
+              "\" src=\"data:image/png;base64,");
+  Base64 text([&](std::string_view piece) { file.append(piece); });
+  draw(scene, {.view = view, .transparent = true},
+       [&](std::span<const std::byte> bytes) { text.add(bytes); });
+  text.finish();
+  file.append("\"></figure>\n");
+}
+
+/// All labels but the surrounding one, whole and cut.
+void add_pictures(io::AtomicFile& file, const PageLabels& labels) {
+  std::vector<bool> shown(labels.volumes.size(), true);
+  if (labels.surrounding) shown[*labels.surrounding] = false;
+  MeshScene scene(labels.mesh, std::move(shown), labels.mesh.names());
+  file.append("<section><h2>Pictures</h2><div class=\"pictures\">\n");
+  add_picture(file, scene, "Surfaces", default_view({}));
+  const CutPlace middle = middle_cut(scene, labels.mesh.box(), 0);
+  const picture::View view = default_view(middle);
+  scene.cut(cut_plane(labels.mesh.box(), middle, view));
+  add_picture(file, scene, "Cut across x", view);
+  file.append("</div></section>\n");
+}
+
+ordered_json view_json(const PageLabels& labels, const ViewData& view) {
+  ordered_json out = view.json();
+  ordered_json rows = ordered_json::array();
+  for (const Label rank : view.labels()) {
+    rows.push_back({{"label", labels.digits(rank)},
+                    {"colour", label_colour(labels.raw(rank), labels.mesh.names())}});
+  }
+  out["labels"] = std::move(rows);
+  return out;
+}
+
+void add_data(io::AtomicFile& file, const PageLabels& labels, ViewData& view) {
+  const auto append = [&](std::string_view piece) { file.append(piece); };
+  file.append("<script id=\"view-data\" type=\"application/json\">" +
+              script_json(view_json(labels, view)) + "</script>\n");
+  file.append("<script id=\"view-vertices\" type=\"text/plain\">");
+  view.write_vertices(append);
+  file.append("</script>\n<script id=\"view-triangles\" type=\"text/plain\">");
+  view.write_triangles(append);
+  file.append("</script>\n<script>\n" + std::string(kPageScript) + "</script>\n");
+}
+
+/// The policy forbids what the page does not do: to ask a network for anything.
+std::string page_top(const ordered_json& report) {
+  return R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
+<title>)" +
+         escaped(report["output"]["file"].get<std::string>()) + " – mwmesh</title>\n<style>\n" +
+         kPageStyle + "</style></head><body>\n";
+}
+
+}  // namespace
+
+void write_run_page(io::AtomicFile& file, const FinishedRun& run, io::GroupedMesh& mesh,
+                    const ordered_json& report) {
+  const PageLabels labels = labels_of(run, mesh);
+  file.append(page_top(report) + head_section(report) + "<main>\n");
+  add_pictures(file, labels);
+  ViewData view(mesh, labels.surrounding);
+  file.append(label_section(labels, view) + promise_section(report) + shape_section(run) +
+              engine_section(report) + settings_section(report) +
+              "</main>\n<footer>Written by mwmesh.</footer>\n");
+  add_data(file, labels, view);
+  file.append("</body></html>\n");
+  file.commit();
+}
+
+}  // namespace mw::cli

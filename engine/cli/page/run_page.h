@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The page of a run (--html): one file for the eye, without a network.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/cli/run_report.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+
+namespace mw::cli {
+
+/// What a page takes in memory beside the mesh's lists, at most: samples of a picture, or the
+/// triangles of the view.
+inline constexpr std::uint64_t kPageBytes = 80 << 20;
+
+/// Writes the page and gives the file its name.  report: run_report(run).
+/// It holds figures, charts, pictures, and the surfaces of the largest labels (ViewData), and says
+/// what it leaves out; 20 MB at most.  Nothing in it asks a network.
+/// REQUIRES: mesh is the one that the run wrote.  Memory: kPageBytes, and 40 bytes a label.
+/// ERRORS: those of file and mesh.
+void write_run_page(io::AtomicFile& file, const FinishedRun& run, io::GroupedMesh& mesh,
+                    const nlohmann::ordered_json& report);
+
+}  // namespace mw::cli

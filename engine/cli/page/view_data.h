@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The surfaces that a page carries for its view in three dimensions.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/cli/page/html_text.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+
+namespace mw::cli {
+
+/// Triangles that a page holds at most: some 12 MB of it.
+inline constexpr std::uint64_t kMostViewTriangles = 600'000;
+/// And labels, each of which takes a pass when a cut is drawn.
+inline constexpr std::size_t kMostViewLabels = 1000;
+
+/// The facets of the largest labels, each with all of its facets, as long as they fit.
+/// Of the surrounding label (surrounding_label) last, as it hides the others.
+class ViewData {
+ public:
+  /// The mesh outlives it.  surrounding: may be empty.
+  /// Memory: 24 bytes a triangle in the view, and 16 a group of facets.
+  ViewData(io::GroupedMesh& mesh, std::optional<Label> surrounding);
+
+  /// Ranks of the labels that are seen, ascending, and how many are not.
+  [[nodiscard]] const std::vector<Label>& labels() const { return labels_; }
+  [[nodiscard]] std::size_t left_out() const { return mesh_.table().size() - labels_.size(); }
+  [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
+
+  /// "lo", "hi": what the numbers of vertices count between, 0 to 65535; "box": its "origin" and
+  /// "edges"; "groups": [place of the first label in labels() or -1, the same of the second, how
+  /// many triangles], in the order of the triangles.
+  [[nodiscard]] nlohmann::ordered_json json() const;
+  /// Base64 of three 16-bit numbers a vertex, little endian.
+  void write_vertices(const AppendText& append);
+  /// Base64 of three 32-bit numbers of vertices a triangle, little endian.
+  void write_triangles(const AppendText& append);
+
+ private:
+  void choose(std::optional<Label> surrounding);
+  void collect_rows();
+  [[nodiscard]] std::int64_t place(Label rank) const;
+
+  io::GroupedMesh& mesh_;
+  std::vector<Label> labels_;
+  std::vector<io::FacetGroup> groups_;
+  std::vector<std::uint64_t> rows_;  ///< of vertices, ascending
+  std::uint64_t triangles_ = 0;
+  io::Position lo_{}, hi_{};
+};
+
+}  // namespace mw::cli

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Bands of rows through the rasteriser.
+#include "engine/cli/picture/draw.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+constexpr int kSamples = 3;
+constexpr double kLineWidth = 1.1;  // pixels
+constexpr std::int64_t kBandBytes = 64 << 20;
+constexpr std::int64_t kSampleBytes = 8;
+
+struct Measured {
+  picture::Extent extent;
+  std::uint64_t triangles = 0;
+};
+
+Measured measure(MeshScene& scene, const picture::View& view) {
+  Measured out;
+  scene.each([&](const SceneTriangle& triangle) {
+    for (const Vec3& corner : triangle.corners) out.extent.add(view, corner);
+    ++out.triangles;
+  });
+  if (out.extent.empty()) {
+    throw Error(ErrorKind::kInput,
+                "there is nothing to see: no tets of these labels, or none "
+                "behind the cut");
+  }
+  constexpr double kMost = 1e100;  // products of lengths are far from infinite
+  if (out.extent.lo.minCoeff() < -kMost || out.extent.hi.maxCoeff() > kMost) {
+    throw Error(ErrorKind::kInput, "vertices lie farther out than 1e100; the mesh is damaged");
+  }
+  return out;
+}
+
+/// How dark edges are, 0 to 1.  What is seen has on average so many pixels a triangle.
+double line_share(const Measured& measured, const PictureStyle& style) {
+  constexpr double kFaint = 3, kPlain = 14;  // pixels across
+  constexpr double kDarkest = 0.5;
+  if (style.lines == Lines::kNone) return 0;
+  if (style.lines == Lines::kAll) return kDarkest;
+  const double pixels = static_cast<double>(style.width) * style.height;
+  const double across = std::sqrt(pixels / static_cast<double>(measured.triangles));
+  return kDarkest * std::clamp((across - kFaint) / (kPlain - kFaint), 0.0, 1.0);
+}
+
+class Painter {
+ public:
+  Painter(const Measured& measured, const PictureStyle& style)
+      : view_(style.view),
+        camera_(style.view, measured.extent, style.width, style.height),
+        line_share_(line_share(measured, style)) {}
+
+  void paint(const SceneTriangle& triangle, picture::Raster& raster) const {
+    picture::ScreenTriangle out{.lined = triangle.lined,
+                                .face = picture::lit(triangle.colour, triangle.normal, view_),
+                                .line_width = line_share_ > 0 ? kLineWidth : 0};
+    out.line = picture::mixed(out.face, {0, 0, 0}, line_share_);
+    for (std::size_t i = 0; i < 3; ++i) out.corners[i] = camera_.at(triangle.corners[i]);
+    raster.draw(out);
+  }
+
+ private:
+  picture::View view_;
+  picture::Camera camera_;
+  double line_share_;
+};
+
+int band_rows(const PictureStyle& style) {
+  const std::int64_t row = style.width * kSamples * kSamples * kSampleBytes;
+  return static_cast<int>(std::clamp<std::int64_t>(kBandBytes / row, 1, style.height));
+}
+
+}  // namespace
+
+std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBytes& take) {
+  const Measured measured = measure(scene, style.view);
+  const Painter painter(measured, style);
+  io::PngWriter png(static_cast<std::uint32_t>(style.width),
+                    static_cast<std::uint32_t>(style.height), style.transparent, take);
+  std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(style.width));
+  const int rows = band_rows(style);
+  for (int first = 0; first < style.height; first += rows) {
+    const picture::Band band{style.width, first, std::min(rows, style.height - first)};
+    picture::Raster raster(band, kSamples);
+    scene.each([&](const SceneTriangle& triangle) { painter.paint(triangle, raster); });
+    for (int y = 0; y < band.rows; ++y) {
+      raster.read_row(y, row);
+      png.write_row(row);
+    }
+  }
+  png.finish();
+  return measured.triangles;
+}
+
+}  // namespace mw::cli

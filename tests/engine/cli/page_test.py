@@ -1,0 +1,216 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""The page of a run is whole, tells what the report tells, needs no network, and its view runs."""
+import base64
+import html.parser
+import json
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+PROGRAM = os.environ["MW_PROGRAM"]
+CHROMIUM = shutil.which("chromium")
+ADDRESSES = ("src", "href", "action", "data", "srcset")
+VOID = {"meta", "br", "img", "input", "link", "hr"}
+EVIL = "</script><script>alert(1)</script> <b>&\"quoted\""
+
+
+def start(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+
+def run(*arguments):
+    done = start(*arguments)
+    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout
+
+
+class Page(html.parser.HTMLParser):
+    """Text, scripts by id, addresses; wrong nesting is an error."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.open, self.text, self.scripts, self.addresses, self.tags = [], [], {}, [], []
+        with open(path, encoding="utf-8") as file:
+            self.source = file.read()
+        self.feed(self.source)
+        self.close()
+        assert not self.open, self.open
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.tags.append(tag)
+        self.addresses += [attributes[key] for key in ADDRESSES if key in attributes]
+        if tag not in VOID:
+            self.open.append((tag, attributes.get("id", "")))
+
+    def handle_startendtag(self, tag, attributes):
+        self.tags.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1][0] == tag, (tag, self.open)
+        self.open.pop()
+
+    def handle_data(self, data):
+        if self.open and self.open[-1][0] == "script":
+            self.scripts[self.open[-1][1]] = self.scripts.get(self.open[-1][1], "") + data
+        else:
+            self.text.append(data)
+
+
+class RunPage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        os.chdir(cls.folder.name)
+        run("synth", "voronoi", "--shape", "24,20,16", "--labels", "12", "--seed", "1", "-o", "v.npy")
+        with open("names.csv", "w", encoding="utf-8") as file:
+            file.write('id,name,r,g,b\n1,"%s",1,2,3\n' % EVIL.replace('"', '""'))
+        cls.out = run(
+            "mesh", "v.npy", "-o", "v.vtu", "--names", "names.csv", "--report", "v.json", "--html", "v.html",
+            "--memory", "192MiB"
+        )
+        cls.peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
+        cls.page = Page("v.html")
+        with open("v.json", encoding="utf-8") as file:
+            cls.report = json.load(file)
+
+    @classmethod
+    def tearDownClass(cls):
+        os.chdir("/")
+        cls.folder.cleanup()
+
+    def test_asks_no_network(self):
+        self.assertIn("v.html", self.out)
+        for address in self.page.addresses:
+            self.assertTrue(address.startswith("data:image/png;base64,"), address[:60])
+        self.assertEqual(len(self.page.addresses), 2)
+        for piece in ("http:", "https:", "url(", "@import", "fetch(", "XMLHttp"):
+            self.assertNotIn(piece, self.page.source)
+        self.assertIn("default-src 'none'", self.page.source)
+
+    def test_tells_what_the_report_tells(self):
+        text = " ".join(" ".join(self.page.text).split())
+        report = self.report
+        shape, quality = report["shape"], report["quality"]
+        for fact in (
+            f'{report["output"]["vertices"]:,}',
+            f'{report["output"]["tets"]:,}',
+            report["digest"],
+            f'{quality["radius_ratio_min"]:.4f}',
+            f'{quality["radius_ratio_mean"]:.3f}',
+            f'{quality["dihedral_min_deg"]:.1f}° to {quality["dihedral_max_deg"]:.1f}°',
+            f'{100 * shape["volume_error_max_abs"]:.2f} %',
+            "verify v.npy v.vtu",
+        ):
+            self.assertIn(fact, text)
+        for row in shape["per_label"]:
+            self.assertRegex(text, rf'\b{row["label"]}\b.*{row["voxels"]:,} *{100 * row["volume_error"]:.2f} %')
+
+    def test_histograms_are_those_of_the_report(self):
+        quality, shape = self.report["quality"], self.report["shape"]
+        self.assertEqual(sum(quality["dihedral_histogram"]), 6 * self.report["output"]["tets"])
+        self.assertAlmostEqual(sum(shape["bend_histogram"]), 1, places=9)
+        titles = re.findall(r"<title>[^<]*: ([0-9.]+) %</title>", self.page.source)
+        expected = [100 * n / self.report["output"]["tets"] for n in quality["radius_ratio_histogram"]]
+        for title, share in zip(titles, expected):
+            self.assertAlmostEqual(float(title), share, delta=0.006)
+
+    def test_names_cannot_leave_their_place(self):
+        self.assertIn(EVIL, " ".join(self.page.text))
+        self.assertEqual(self.page.tags.count("script"), 4)
+
+    def test_promises(self):
+        text = " ".join(self.page.text)
+        self.assertEqual(text.count("not checked here"), 5)
+        self.assertEqual(text.count("holds"), 3)
+        self.assertNotIn("FAILS", text)
+        # A mesh without a floor is not said to keep one.
+        run("mesh", "v.npy", "-o", "w.vtu", "--quality-floor", "0", "--html", "w.html")
+        self.assertIn("the run had no floor", " ".join(Page("w.html").text))
+
+    def test_draws_a_cut_wherever_the_labels_are(self):
+        for low in (1, 17):
+            labels = numpy.zeros((10, 10, 24), numpy.uint8)
+            labels[2:8, 2:8, low : low + 5] = 3
+            numpy.save("far.npy", labels)
+            run("mesh", "far.npy", "-o", "far.vtu", "--html", "far.html")
+            self.assertEqual(len(Page("far.html").addresses), 2)
+
+    def view(self):
+        data = json.loads(self.page.scripts["view-data"])
+        places = numpy.frombuffer(base64.b64decode(self.page.scripts["view-vertices"], validate=True), "<u2")
+        lo, hi = numpy.array(data["lo"]), numpy.array(data["hi"])
+        vertices = lo + places.reshape(-1, 3) / 65535 * (hi - lo)
+        triangles = numpy.frombuffer(base64.b64decode(self.page.scripts["view-triangles"], validate=True), "<u4")
+        return data, vertices, triangles.reshape(-1, 3)
+
+    def test_surfaces_of_the_view_enclose_the_labels(self):
+        data, vertices, triangles = self.view()
+        self.assertEqual(sum(count for _, _, count in data["groups"]), len(triangles))
+        volumes = {row["label"]: row["volume_voxels"] for row in self.report["shape"]["per_label"]}
+        self.assertEqual({int(label["label"]) for label in data["labels"]}, set(volumes))
+        for place, label in enumerate(data["labels"]):
+            first, parts = 0, []
+            for a, b, count in data["groups"]:
+                group = triangles[first : first + count]
+                if a == place:
+                    parts.append(group)
+                if b == place:
+                    parts.append(group[:, ::-1])
+                first += count
+            surface = numpy.concatenate(parts)
+            sides = numpy.concatenate([surface[:, [i, (i + 1) % 3]] for i in range(3)])
+            self.assertEqual(sorted(map(tuple, sides)), sorted(map(tuple, sides[:, ::-1])), "closed")
+            p, q, r = (vertices[surface[:, i]] for i in range(3))
+            volume = (p * numpy.cross(q, r)).sum() / 6
+            self.assertAlmostEqual(volume / volumes[int(label["label"])], 1, delta=0.01)
+        self.assertEqual(data["labels"][0]["colour"], [1, 2, 3])
+
+    def test_memory_stays_under_the_budget(self):
+        self.assertLess(self.peak, 192 << 20)
+        done = start("mesh", "v.npy", "-o", "x.vtu", "--html", "x.html", "--memory", "191MiB")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("192MiB", done.stderr)
+        self.assertFalse(os.path.exists("x.html"))
+
+    def test_names_of_files_are_used_once(self):
+        for taken in ("v.npy", "x.vtu", "x.json"):
+            done = start("mesh", "v.npy", "-o", "x.vtu", "--report", "x.json", "--html", taken)
+            self.assertEqual(done.returncode, 2, taken)
+            self.assertIn("--html " + taken, done.stderr)
+
+    @unittest.skipUnless(CHROMIUM, "no chromium")
+    def test_runs_in_a_browser(self):
+        """Draws, with a cut and edges too, without an error of script or WebGL."""
+        with open("t.html", "w", encoding="utf-8") as file:
+            file.write(self.page.source)
+            file.write("<script>document.querySelector('input[name=cut][value=\"1\"]').click();"
+                       "document.getElementById('view-edges').click();"
+                       "document.getElementById('labels-none').click();"
+                       "document.getElementById('labels-all').click();</script>")
+        command = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                   "--enable-unsafe-swiftshader", "--virtual-time-budget=3000", "--dump-dom",
+                   "file://" + os.path.abspath("t.html")]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        top = done.stdout[:400]
+        if 'data-view="none"' in top:
+            self.skipTest("this chromium has no WebGL 2")
+        self.assertIn('data-view="drawn"', top)
+        self.assertNotIn("data-error", top)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
