@@ -8,6 +8,7 @@
 #include "io/labels/label_table.h"
 #include "kernels/core/label_box.h"
 #include "kernels/lattice/level_map.h"
+#include "kernels/size/size_field.h"
 
 namespace mw::engine {
 
@@ -28,6 +29,8 @@ class PreparedLabels {
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
+  /// Limits on edges; null: none.
+  [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
   /// How many voxels of the input have each dense label.
   [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return label_voxels_; }
 
@@ -38,11 +41,13 @@ class PreparedLabels {
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(int threads);
+  [[nodiscard]] bool all_may_be_large(const Box3& cubes) const;
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
 
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;
   LevelMap levels_;
+  SizeField sizes_;
   std::vector<std::uint64_t> label_voxels_;
 };
 

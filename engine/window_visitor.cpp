@@ -41,14 +41,18 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
              .max_distance = settings.max_distance.value_or(kMostCoarseDistance),
              .weights = {},
              .metric = metric,
-             .quality_floor = settings.quality_floor},
+             .quality_floor = settings.quality_floor,
+             .sizes = labels.sizes()},
       simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor,
-                .surface = surface_weights(settings)},
+                .surface = surface_weights(settings),
+                .sizes = labels.sizes()},
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance),
-      target_reduction_(settings.target_reduction) {}
+      target_reduction_(settings.target_reduction) {
+  simplify_.sizes = labels.sizes();
+}
 
 void WindowVisitor::polish(const WindowOrder& order) {
   constexpr int kSweeps = 3, kSmoothSweeps = 4;

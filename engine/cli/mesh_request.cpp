@@ -287,6 +287,9 @@ void require_names_used_once(const MeshRequest& request) {
   if (is_same_file(request.volume.names, request.output)) {
     throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is --names");
   }
+  if (is_same_file(request.sizes.file, request.output)) {
+    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is --size-file");
+  }
   const auto require_new = [](const char* flag, const std::filesystem::path& path,
                               const std::vector<std::filesystem::path>& taken) {
     for (const std::filesystem::path& other : taken) {
@@ -295,9 +298,19 @@ void require_names_used_once(const MeshRequest& request) {
     }
   };
   require_new("--report", request.report,
-              {request.volume.path, request.volume.names, request.output});
+              {request.volume.path, request.volume.names, request.sizes.file, request.output});
   require_new("--trace", request.trace,
-              {request.volume.path, request.volume.names, request.output, request.report});
+              {request.volume.path, request.volume.names, request.sizes.file, request.output,
+               request.report});
+}
+
+void settle_sizes(MeshRequest& request) {
+  engine::MeshSettings& settings = request.settings;
+  settings.sizes = size_settings(request.sizes);
+  engine::check(settings);
+  if (settings.sizes.labels.empty() || settings.optimizer != engine::Optimizer::kTetgen) return;
+  throw Error(ErrorKind::kUsage,
+              "--optimizer tetgen knows no sizes: leave out --size, or set --optimizer local");
 }
 
 }  // namespace
@@ -309,6 +322,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
   add_march_options(options, request);
   add_bound_options(options, request);
   add_method_options(options, request);
+  add_size_options(options, request.sizes);
   add_resource_options(options, request);
   add_choice_options(options, request.choice);
   add_output_options(options, request);
@@ -322,6 +336,7 @@ void check_mesh_request(MeshRequest& request) {
   (void)open_options(request.volume);
   check_choice(request.choice);
   require_names_used_once(request);
+  settle_sizes(request);
   if (request.settings.optimizer == engine::Optimizer::kTetgen) (void)engine::codt::find_worker();
 }
 

@@ -146,6 +146,8 @@ bool Flipper::replace_within(LocalVertex p, LocalVertex q, double budget) {
     budget -= best_triangulation(p, q, polygon, budget - kLeastGain);
     if (!(budget > kLeastGain) || !collect_triangles(p, q, polygon)) return false;
   }
+  const auto keeps_lengths = [&](const LocalTet& t) { return limits_.allow_tet(t); };
+  if (!std::all_of(new_tets_.begin(), new_tets_.end(), keeps_lengths)) return false;
   if (!surface_allows(p, q)) return false;
   replace();
   if (guard_ != nullptr && is_between_labels()) guard_->commit();

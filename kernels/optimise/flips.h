@@ -8,6 +8,7 @@
 
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
+#include "kernels/size/edge_limits.h"
 #include "kernels/topology/edge_ring.h"
 
 namespace mw {
@@ -39,9 +40,14 @@ namespace mw {
 /// EM), and edge removal makes the same meshes.
 class Flipper {
  public:
-  /// guard: keeps the distance bound; null: no bound.
-  Flipper(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard = nullptr)
-      : mesh_(mesh), metric_(metric), quality_floor_(quality_floor), guard_(guard) {}
+  /// guard: keeps the distance bound; null: no bound.  sizes: limits on edges; null: none.
+  Flipper(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard = nullptr,
+          const SizeField* sizes = nullptr)
+      : mesh_(mesh),
+        metric_(metric),
+        quality_floor_(quality_floor),
+        guard_(guard),
+        limits_(mesh, metric, sizes) {}
 
   /// Replaces the ring of edge (p, q) by the best triangulation of the ring's polygon, joined to
   /// both ends (dynamic programming over at most kMaxRing vertices).  On a surface the polygon is
@@ -88,6 +94,7 @@ class Flipper {
   const Metric& metric_;
   double quality_floor_;
   DistanceGuard* guard_;
+  EdgeLimits limits_;
   double least_ = 0.0;  ///< what the new tets must reach
   EdgeRing ring_;
   std::vector<Polygon> polygons_;
