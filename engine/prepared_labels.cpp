@@ -66,12 +66,20 @@ SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
   return {volume.info().shape, Metric(spacing), std::move(limits), sizes.gradation};
 }
 
+std::optional<InnerDemand> inner_demand(const io::LabelTable& table, const SizeSettings& sizes) {
+  if (!sizes.inner_vertices) return std::nullopt;
+  std::vector<bool> wanted(table.size(), sizes.labels.empty());
+  for (const LabelSize& s : sizes.labels) wanted[table.dense(s.label)] = true;
+  return InnerDemand(std::move(wanted));
+}
+
 }  // namespace
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                int threads, const std::filesystem::path& folder)
     : original_(volume.info().shape, volume.table().size(), folder),
       sizes_(size_field(volume, settings.sizes)),
+      inner_(inner_demand(volume.table(), settings.sizes)),
       label_voxels_(volume.table().size()) {
   read_bricks(volume, threads);
   volume.raw().drop_buffers();  // it is not read again

@@ -7,6 +7,7 @@
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
 #include "kernels/core/label_box.h"
+#include "kernels/inner/inner_demand.h"
 #include "kernels/lattice/level_map.h"
 #include "kernels/size/size_field.h"
 
@@ -31,6 +32,8 @@ class PreparedLabels {
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
   /// Limits on edges; null: none.
   [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
+  /// Labels whose tets should have an inner vertex; null: none.
+  [[nodiscard]] const InnerDemand* inner() const { return inner_ ? &*inner_ : nullptr; }
   /// How many voxels of the input have each dense label.
   [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return label_voxels_; }
 
@@ -48,6 +51,7 @@ class PreparedLabels {
   std::optional<io::BrickVolume> coarse_;
   LevelMap levels_;
   SizeField sizes_;
+  std::optional<InnerDemand> inner_;
   std::vector<std::uint64_t> label_voxels_;
 };
 

@@ -52,6 +52,8 @@ struct LabelSize {
 struct SizeSettings {
   std::vector<LabelSize> labels;  ///< each label once; empty: no limits
   double gradation = 0.5;         ///< by how much limits grow with the distance to such a label
+  /// Tets of these labels, of all when there are none, get an inner vertex where shapes allow it.
+  bool inner_vertices = false;
 };
 
 /// Voxels are those of the lattice that the volume is meshed on.

@@ -308,9 +308,11 @@ void settle_sizes(MeshRequest& request) {
   engine::MeshSettings& settings = request.settings;
   settings.sizes = size_settings(request.sizes);
   engine::check(settings);
-  if (settings.sizes.labels.empty() || settings.optimizer != engine::Optimizer::kTetgen) return;
+  const bool sized = !settings.sizes.labels.empty() || settings.sizes.inner_vertices;
+  if (!sized || settings.optimizer != engine::Optimizer::kTetgen) return;
   throw Error(ErrorKind::kUsage,
-              "--optimizer tetgen knows no sizes: leave out --size, or set --optimizer local");
+              "--optimizer tetgen keeps no sizes or inner vertices: leave out --size and "
+              "--inner-vertices, or set --optimizer local");
 }
 
 }  // namespace

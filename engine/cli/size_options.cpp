@@ -71,6 +71,13 @@ void add_size_options(OptionSet& options, SizeRequest& request) {
                .assign = [&](const std::string& text) {
                  if (!text.empty()) request.gradation = parse_number(text);
                }});
+  options.add(
+      {.name = "inner-vertices",
+       .help = "gives tets with all corners on interfaces a vertex inside their label, where "
+               "the quality floor allows it; those of the labels of --size, else all",
+       .kind = ValueKind::kSwitch,
+       .fallback = "false",
+       .assign = [&](const std::string& text) { request.inner_vertices = parse_switch(text); }});
 }
 
 std::vector<LabelSize> parse_sizes(std::string_view text) {
@@ -111,7 +118,7 @@ std::vector<LabelSize> parse_size_table(std::string_view text, std::string_view 
 }
 
 engine::SizeSettings size_settings(const SizeRequest& request) {
-  engine::SizeSettings out{.labels = request.labels};
+  engine::SizeSettings out{.labels = request.labels, .inner_vertices = request.inner_vertices};
   if (!request.file.empty()) {
     const auto more = parse_size_table(read_table(request.file), request.file.string());
     out.labels.insert(out.labels.end(), more.begin(), more.end());

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How large tets may be in which labels (--size, --size-file, --gradation).
+// How large tets may be in which labels (--size, --size-file, --gradation,
+// --inner-vertices).
 #pragma once
 
 #include <filesystem>
@@ -17,6 +18,7 @@ struct SizeRequest {
   std::vector<engine::LabelSize> labels;
   std::filesystem::path file;  ///< empty: none
   std::optional<double> gradation;
+  bool inner_vertices = false;
 };
 
 void add_size_options(OptionSet& options, SizeRequest& request);

@@ -39,12 +39,13 @@ const char* optimizer_name(Optimizer optimizer) {
 
 /// Nothing without sizes.
 std::string sizes_text(const SizeSettings& sizes) {
-  if (sizes.labels.empty()) return {};
+  if (sizes.labels.empty()) return sizes.inner_vertices ? "inner-vertices = all\n" : "";
   std::string out = "size = ";
   for (const LabelSize& s : sizes.labels) {
     out += io::text(&s == sizes.labels.data() ? "" : ",", s.label, "=", number(s.longest_edge));
   }
-  return io::text(out, "\ngradation = ", number(sizes.gradation), "\n");
+  return io::text(out, "\ngradation = ", number(sizes.gradation), "\n",
+                  sizes.inner_vertices ? "inner-vertices = listed\n" : "");
 }
 
 }  // namespace

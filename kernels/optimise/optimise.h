@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "kernels/distance/distance_guard.h"
+#include "kernels/inner/tet_demands.h"
 #include "kernels/mesh/tet_mesh.h"
-#include "kernels/size/size_field.h"
 #include "kernels/surface/surface_energy.h"
 
 namespace mw {
@@ -29,7 +29,7 @@ struct OptimiseOptions {
   double smooth_below = 0.8;   ///< smoothing, at vertices whose worst tet is below
   double quality_floor = 0.1;  ///< no step creates a tet below, unless it replaces a worse one
   std::optional<SurfaceWeights> surface;  ///< as SmoothOptions
-  const SizeField* sizes = nullptr;       ///< edges keep to these limits; null: none
+  TetDemands demands;                     ///< as SimplifyOptions
 };
 
 struct OptimiseStats {

@@ -106,7 +106,8 @@ class Simplifier {
         queue_(mesh.vertex_count()),
         finder_(mesh, metric),
         shape_(mesh, metric, options),
-        limits_(mesh, metric, options.sizes),
+        limits_(mesh, metric, options.demands.sizes),
+        inner_(mesh, options.demands.inner),
         topology_(mesh, options.topology),
         bends_(mesh, metric) {}
 
@@ -182,6 +183,10 @@ class Simplifier {
 
   bool try_contraction(Contraction c) {
     ++stats_.tried;
+    if (!inner_.allows_contraction(c.keep, c.drop)) {
+      ++stats_.no_inner;
+      return false;
+    }
     switch (judge(c)) {
       case StarVerdict::kInverted:
         ++stats_.inverted;
@@ -224,6 +229,7 @@ class Simplifier {
   CandidateFinder finder_;
   ShapeFilter shape_;
   EdgeLimits limits_;
+  InnerFilter inner_;
   CollapseTest topology_;
   BendFilter bends_;
   SimplifyStats stats_;
@@ -237,6 +243,7 @@ SimplifyStats& SimplifyStats::operator+=(const SimplifyStats& other) {
   inverted += other.inverted;
   low_quality += other.low_quality;
   too_long += other.too_long;
+  no_inner += other.no_inner;
   topology += other.topology;
   folded += other.folded;
   distance += other.distance;

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// New vertices for tets that have none inside their label.
+#pragma once
+
+#include "kernels/distance/carried_samples.h"
+#include "kernels/inner/cavity.h"
+#include "kernels/inner/inner_demand.h"
+#include "kernels/odt/codt.h"
+
+namespace mw {
+
+struct InnerOptions {
+  CavityLimits limits;
+  SteinerIds ids;
+};
+
+/// Gives tets that a demand names, and that have all corners on interfaces or the box, a vertex
+/// inside their label.
+///
+/// It replaces, in turn, the tets around one of the edges inside the label, the two at a triangle
+/// inside it, the tet and all such neighbours, or the tet alone: whichever leaves the best worst
+/// radius ratio, if that keeps the limits.  Interfaces stay the same triangles, so labels are the
+/// same point sets and carried samples stay valid.  Tets of fixed vertices may be replaced when all
+/// tets around are loaded, as flips do.
+///
+/// What no cavity can do for within the limits stays as it is: a tet whose neighbours are all of
+/// other labels, with a radius ratio below some 0.4, and slivers between interfaces.
+///
+/// REQUIRES: as codt().  ENSURES: as codt(); the result depends on content only.
+/// Returns how many vertices are new.
+std::uint64_t add_inner_vertices(TetMesh& mesh, CarriedSamples& samples, Point box,
+                                 const Metric& metric, const InnerDemand& demand,
+                                 const InnerOptions& options);
+
+}  // namespace mw
