@@ -203,6 +203,7 @@ void report_shape(FinishedMesh& finished, const PreparedLabels& labels, const La
                   RunReport& report) {
   report.shape = finished.shape;
   report.label_volumes6 = std::move(finished.label_volumes6);
+  report.longest_edges = std::move(finished.longest_edges);
   report.label_voxels = labels.label_voxels();
   for (Label label = 0; label < report.label_voxels.size(); ++label) {
     if (!kept.keeps(label)) report.label_voxels[label] = 0;

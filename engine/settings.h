@@ -50,7 +50,7 @@ struct LabelSize {
 
 /// Limits on the edges of some labels, and of what is around them (kernels/size/size_field.h).
 struct SizeSettings {
-  std::vector<LabelSize> labels;  ///< each label once; empty: no limits
+  std::vector<LabelSize> labels;  ///< each label once, ascending; empty: no limits
   double gradation = 0.5;         ///< by how much limits grow with the distance to such a label
   /// Tets of these labels, of all when there are none, get an inner vertex where shapes allow it.
   bool inner_vertices = false;

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// New inner vertices change shapes inside labels and nothing else, and stay.
+#include "kernels/inner/inner_vertices.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/optimise/optimise.h"
+#include "kernels/quality/mesh_quality.h"
+#include "kernels/simplify/simplify.h"
+#include "tests/kernels/mesh/dense_mesh.h"
+
+namespace mw::test {
+namespace {
+
+constexpr double kFloor = 0.1;
+constexpr VertexId kFirstId = VertexId{1} << 63;
+
+InnerDemand random_demand(std::mt19937& random, std::size_t labels) {
+  std::vector<bool> wanted(labels);
+  for (std::size_t i = 0; i < labels; ++i) wanted[i] = below(random, 4) != 0;
+  return InnerDemand(wanted);
+}
+
+/// Labels around each vertex, from the list of tets; the box counts as one.
+std::size_t count_lacking(const TetMesh& mesh, const InnerDemand& demand) {
+  std::vector<std::set<Label>> labels(mesh.vertex_count());
+  const std::vector<LocalTet> tets = mesh.tets();
+  for (const LocalTet& t : tets) {
+    for (const LocalVertex v : t.vertices) labels[v].insert(t.label);
+  }
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.planes(v) != 0) labels[v].insert(kExterior);
+  }
+  return static_cast<std::size_t>(std::count_if(tets.begin(), tets.end(), [&](const LocalTet& t) {
+    return demand.wants(t.label) &&
+           std::all_of(t.vertices.begin(), t.vertices.end(),
+                       [&](LocalVertex v) { return labels[v].size() > 1; });
+  }));
+}
+
+/// Triangles with a tet of each of two labels, or one tet, by ids.
+std::multiset<std::array<VertexId, 3>> boundary_triangles(const TetMesh& mesh) {
+  std::map<std::array<VertexId, 3>, std::vector<Label>> beside;
+  for (const LocalTet& t : mesh.tets()) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const LinkTriangle f = link_triangle(t, corner);
+      std::array<VertexId, 3> ids{mesh.id(f.a), mesh.id(f.b), mesh.id(f.c)};
+      std::sort(ids.begin(), ids.end());
+      beside[ids].push_back(t.label);
+    }
+  }
+  std::multiset<std::array<VertexId, 3>> out;
+  for (const auto& [ids, labels] : beside) {
+    EXPECT_LE(labels.size(), 2U);
+    if (labels.size() == 1 || labels[0] != labels[1]) out.insert(ids);
+  }
+  return out;
+}
+
+std::map<Label, std::int64_t> volumes(const TetMesh& mesh) {
+  std::map<Label, std::int64_t> out;
+  for (const LocalTet& t : mesh.tets()) {
+    EXPECT_GT(volume6_of(mesh, t), 0);
+    out[t.label] += volume6_of(mesh, t);
+  }
+  return out;
+}
+
+double worst_ratio(const TetMesh& mesh, const Metric& metric) {
+  double worst = 1.0;
+  for (const LocalTet& t : mesh.tets()) worst = std::min(worst, radius_ratio(mesh, metric, t));
+  return worst;
+}
+
+struct Case {
+  SmallVolume volume;
+  Metric metric;
+  TetMesh mesh;
+  InnerDemand demand;
+};
+
+/// A simplified mesh; odd ones are cut out of a larger volume, with fixed vertices.
+Case random_case(std::mt19937& random, int i) {
+  const auto kind = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
+  SmallVolume volume = random_volume_of(random, kind, {8, 7, 9}, 1 + below(random, 4));
+  const Metric metric = i % 3 == 0 ? Metric({1, 1, 1.5}) : Metric();
+  TetMesh mesh = i % 2 == 0 ? dense_mesh(volume) : dense_cutout(volume, {{1, 0, 2}, {8, 6, 9}});
+  simplify(mesh, metric, {.quality_floor = kFloor});
+  InnerDemand demand = random_demand(random, volume.label_count);
+  return {std::move(volume), metric, std::move(mesh), std::move(demand)};
+}
+
+std::uint64_t add_inner(Case& c, TetMesh& mesh) {
+  CarriedSamples none;
+  return add_inner_vertices(mesh, none, far_corner(c.volume.shape), c.metric, c.demand,
+                            {.limits = {.least_ratio = kFloor}, .ids = {kFirstId, 1U << 20U}});
+}
+
+TEST(InnerVertices, ChangeNothingButTetsInsideLabels) {
+  std::mt19937 random(2301);
+  std::size_t before = 0, after = 0;
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    Case c = random_case(random, i);
+    TetMesh mesh = c.mesh;
+    const std::uint64_t added = add_inner(c, mesh);
+    EXPECT_EQ(boundary_triangles(mesh), boundary_triangles(c.mesh));
+    EXPECT_EQ(volumes(mesh), volumes(c.mesh));
+    EXPECT_GE(worst_ratio(mesh, c.metric), std::min(kFloor, worst_ratio(c.mesh, c.metric)) - 1e-12);
+    std::uint64_t fresh = 0;
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      if (mesh.id(v) < kFirstId) continue;
+      ++fresh;
+      EXPECT_TRUE(mesh.is_free(v));
+      EXPECT_EQ(mesh.order(v), 1);
+    }
+    EXPECT_EQ(fresh, added);
+    before += count_lacking(c.mesh, c.demand);
+    after += count_lacking(mesh, c.demand);
+  }
+  EXPECT_GT(before, 300U);
+  EXPECT_LT(after, before / 2);
+}
+
+TEST(InnerVertices, AreAFunctionOfTheMesh) {
+  std::mt19937 random(2302);
+  for (int i = 0; i < 10; ++i) {
+    Case c = random_case(random, i);
+    TetMesh mesh = c.mesh, again = c.mesh;
+    EXPECT_EQ(add_inner(c, mesh), add_inner(c, again));
+    EXPECT_EQ(mesh.sorted_tets(), again.sorted_tets());
+    ASSERT_EQ(mesh.vertex_count(), again.vertex_count());
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      EXPECT_EQ(mesh.vertex(v), again.vertex(v));
+    }
+  }
+}
+
+/// With the demand no contraction and no flip takes a tet's last inner vertex; without it some do.
+TEST(InnerDemand, SimplifyAndFlipsLeaveNoMoreTetsWithout) {
+  std::mt19937 random(2303);
+  bool would_be_more = false;
+  for (int i = 0; i < 30 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_volume_of(random, VolumeKind::kBlobs, {8, 8, 8}, 3);
+    const InnerDemand demand = random_demand(random, volume.label_count);
+    TetMesh mesh = dense_mesh(volume), other = mesh;
+    const std::size_t before = count_lacking(mesh, demand);
+    OptimiseOptions flips{.flip_below = 0.7, .quality_floor = kFloor};
+    simplify(other, Metric(), {.quality_floor = kFloor, .inner_quality = 0.1});
+    optimise(other, Metric(), flips);
+    would_be_more |= count_lacking(other, demand) > before;
+    flips.demands.inner = &demand;
+    simplify(mesh, Metric(),
+             {.quality_floor = kFloor, .inner_quality = 0.1, .demands = {.inner = &demand}});
+    optimise(mesh, Metric(), flips);
+    EXPECT_LE(count_lacking(mesh, demand), before);
+  }
+  EXPECT_TRUE(would_be_more);
+}
+
+}  // namespace
+}  // namespace mw::test
