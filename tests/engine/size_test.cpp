@@ -154,7 +154,7 @@ void expect_promises(const Trial& trial, const SmallMesh& mesh) {
 TEST(Sizes, AreKeptByEveryEdgeWithAllPromises) {
   std::mt19937 random(2401);
   int used = 0, listed = 0;
-  for (int i = 0; i < 40 && !HasFailure(); ++i) {
+  for (int i = 0; i < 24 && !HasFailure(); ++i) {
     const Trial trial = random_sized(random, i);
     SCOPED_TRACE(trial.text());
     const SmallMesh mesh = small_mesh(run_in_memory(trial));
@@ -163,13 +163,13 @@ TEST(Sizes, AreKeptByEveryEdgeWithAllPromises) {
     listed += trial.settings.sizes.labels.empty() ? 0 : 1;
     used += most > 0.8 ? 1 : 0;
   }
-  EXPECT_GT(listed, 20);
+  EXPECT_GT(listed, 12);
   EXPECT_GT(used, listed / 2) << "the limits hardly matter";
 }
 
 TEST(Sizes, MakeTheSameMeshOnAnyNumberOfThreads) {
   std::mt19937 random(2402);
-  for (int i = 0; i < 8 && !HasFailure(); ++i) {
+  for (int i = 0; i < 4 && !HasFailure(); ++i) {
     Trial trial = random_sized(random, i);
     trial.settings.sizes.inner_vertices = true;
     SCOPED_TRACE(trial.text());
