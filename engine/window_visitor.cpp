@@ -7,6 +7,7 @@
 
 #include "engine/stopwatch.h"
 #include "kernels/coarsen/carrier_faces.h"
+#include "kernels/inner/inner_vertices.h"
 
 namespace mw::engine {
 namespace {
@@ -159,6 +160,7 @@ void WindowVisitor::add_inner(Index3 window, WindowContent& content, VisitStats&
   const InnerOptions options{
       .limits = {.least_ratio = std::max(optimise_.quality_floor, kLeastInnerRatio),
                  .sizes = labels_.sizes()},
+      .later = later_boxes(window),
       .ids = ids_of(window)};
   stats.inner_vertices +=
       add_inner_vertices(content.mesh, content.samples, lattice_corner(grid_.volume()), metric_,

@@ -11,7 +11,6 @@
 #include "engine/settings.h"
 #include "engine/window.h"
 #include "io/labels/label_table.h"
-#include "kernels/inner/inner_vertices.h"
 #include "kernels/lattice/graded_start.h"
 #include "kernels/odt/codt.h"
 #include "kernels/optimise/optimise.h"

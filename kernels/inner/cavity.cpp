@@ -102,12 +102,17 @@ void Cavity::search(CavityPlace& best) const {
   }
 }
 
-std::optional<CavityPlace> Cavity::best_place(Point start, const CavityLimits& limits) const {
+std::optional<CavityPlace> Cavity::first_place(Point start) const {
   CavityPlace best{start, worst_at(start, 0.0)};
   const Point other = middle();
   const double there = worst_at(other, best.worst);
   if (there > best.worst) best = {other, there};
   if (best.worst <= 0.0) return std::nullopt;
+  return best;
+}
+
+std::optional<CavityPlace> Cavity::best_place(CavityPlace first, const CavityLimits& limits) const {
+  CavityPlace best = first;
   search(best);
   if (best.worst < limits.least_ratio) return std::nullopt;
   if (limits.sizes != nullptr && !keeps_lengths(best.position, *limits.sizes)) return std::nullopt;

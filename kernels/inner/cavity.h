@@ -33,10 +33,12 @@ class Cavity {
   /// positive, as old and new ones have one boundary.
   [[nodiscard]] std::vector<LocalTet> tets_around(LocalVertex row) const;
 
-  /// The best place that a search from `start` and from the middle of the corners finds; none when
-  /// no place keeps the limits, with all new tets exactly positive.
-  /// Cost: about a hundred looks at the surface.
-  [[nodiscard]] std::optional<CavityPlace> best_place(Point start,
+  /// The better place of `start` and the middle of the corners; none when some new tet would not be
+  /// exactly positive in both.
+  [[nodiscard]] std::optional<CavityPlace> first_place(Point start) const;
+  /// The best place that a search from there finds; none when it does not keep the limits.
+  /// Cost: some 25 looks at the surface.
+  [[nodiscard]] std::optional<CavityPlace> best_place(CavityPlace first,
                                                       const CavityLimits& limits) const;
 
  private:

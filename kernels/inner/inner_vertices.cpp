@@ -12,9 +12,11 @@
 namespace mw {
 namespace {
 
-constexpr int kPasses = 3;
+constexpr int kPasses = 2;
 /// Cavities that leave at least this need no comparison with others.
 constexpr double kGoodRatio = 0.45;
+/// Cavities of a tet in which a place is searched for.
+constexpr std::size_t kSearches = 3;
 
 using TetKey = std::array<LocalVertex, 4>;
 
@@ -32,16 +34,16 @@ Point between(Point a, Point b) {
 class Pass {
  public:
   Pass(const TetMesh& mesh, const Metric& metric, const InnerDemand& demand,
-       const CavityLimits& limits)
-      : mesh_(mesh), metric_(metric), demand_(demand), limits_(limits) {}
+       const InnerOptions& options)
+      : mesh_(mesh), metric_(metric), demand_(demand), options_(options) {}
 
   void run() {
     for (const LocalTet& tet : mesh_.tets()) {
-      if (!lacks_inner(tet) || gone_.contains(key_of(tet))) continue;
-      best_.reset();
+      if (!lacks_inner(tet) || gone_.contains(key_of(tet)) || waits(tet)) continue;
+      choices_.clear();
       try_edges(tet);
       try_triangles(tet);
-      if (best_) take(*best_);
+      choose();
     }
   }
 
@@ -66,16 +68,52 @@ class Pass {
            std::all_of(tet.vertices.begin(), tet.vertices.end(),
                        [&](LocalVertex v) { return is_surely_on_boundary(mesh_, v); });
   }
-  [[nodiscard]] bool is_good() const { return best_ && best_->place.worst >= kGoodRatio; }
+  /// A later call sees all that this one does of the tet.
+  [[nodiscard]] bool waits(const LocalTet& tet) const {
+    return std::any_of(options_.later.begin(), options_.later.end(), [&](const LatticeBox& box) {
+      return std::all_of(tet.vertices.begin(), tet.vertices.end(),
+                         [&](LocalVertex v) { return has_star_inside(v, box); });
+    });
+  }
+
+  [[nodiscard]] bool has_star_inside(LocalVertex v, const LatticeBox& box) const {
+    const auto is_inside = [&](LocalVertex w) {
+      if (w == mesh_.infinity()) return true;
+      const Point p = mesh_.position(w);
+      return p.x >= box.lo.x && p.y >= box.lo.y && p.z >= box.lo.z && p.x <= box.hi.x &&
+             p.y <= box.hi.y && p.z <= box.hi.z;
+    };
+    const auto star = mesh_.star(v);
+    return std::all_of(star.begin(), star.end(), [&](const LinkTriangle& t) {
+      return is_inside(t.a) && is_inside(t.b) && is_inside(t.c);
+    });
+  }
 
   void offer(std::vector<LocalTet> tets, Point start) {
-    if (is_good()) return;
     const auto is_gone = [&](const LocalTet& t) { return gone_.contains(key_of(t)); };
     if (std::any_of(tets.begin(), tets.end(), is_gone)) return;
     Cavity cavity(mesh_, metric_, std::move(tets));
-    const std::optional<CavityPlace> place = cavity.best_place(start, limits_);
-    if (!place || (best_ && place->worst <= best_->place.worst)) return;
-    best_.emplace(Choice{std::move(cavity), *place});
+    const std::optional<CavityPlace> place = cavity.first_place(start);
+    if (place) choices_.push_back({std::move(cavity), *place});
+  }
+
+  /// Searches for better places in the cavities that begin best, and takes the best of them.
+  void choose() {
+    std::vector<Choice*> order;
+    for (Choice& c : choices_) order.push_back(&c);
+    std::stable_sort(order.begin(), order.end(), [](const Choice* a, const Choice* b) {
+      return a->place.worst > b->place.worst;
+    });
+    order.resize(std::min(order.size(), kSearches));
+    Choice* best = nullptr;
+    for (Choice* const c : order) {
+      const auto place = c->cavity.best_place(c->place, options_.limits);
+      if (!place || (best != nullptr && place->worst <= best->place.worst)) continue;
+      best = c;
+      best->place = *place;
+      if (place->worst >= kGoodRatio) break;
+    }
+    if (best != nullptr) take(*best);
   }
 
   void try_edges(const LocalTet& tet) {
@@ -142,9 +180,9 @@ class Pass {
   const TetMesh& mesh_;
   const Metric& metric_;
   const InnerDemand& demand_;
-  const CavityLimits& limits_;
+  const InnerOptions& options_;
   EdgeRing ring_;
-  std::optional<Choice> best_;
+  std::vector<Choice> choices_;  ///< for the tet at hand
   std::set<TetKey> gone_;
   std::vector<Point> added_;
   std::vector<LocalTet> made_;
@@ -160,7 +198,7 @@ std::uint64_t add_inner_vertices(TetMesh& mesh, CarriedSamples& samples, Point b
   rebuild(mesh, samples, mesh.tets(), {}, box);
   std::uint64_t given = 0;
   for (int i = 0; i < kPasses; ++i) {
-    Pass pass(mesh, metric, demand, options.limits);
+    Pass pass(mesh, metric, demand, options);
     pass.run();
     if (pass.added().empty() || pass.added().size() > options.ids.count - given) break;
     std::vector<BlockVertex> added;

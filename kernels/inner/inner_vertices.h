@@ -7,11 +7,15 @@
 #include "kernels/inner/cavity.h"
 #include "kernels/inner/inner_demand.h"
 #include "kernels/odt/codt.h"
+#include "kernels/optimise/optimise.h"
 
 namespace mw {
 
 struct InnerOptions {
   CavityLimits limits;
+  /// What later calls will see.  Tets wait for them when the stars of all corners lie in one of
+  /// these boxes: a search that fails is then made once.
+  std::vector<LatticeBox> later;
   SteinerIds ids;
 };
 

@@ -93,8 +93,9 @@ Case random_case(std::mt19937& random, int i) {
 
 std::uint64_t add_inner(Case& c, TetMesh& mesh) {
   CarriedSamples none;
-  return add_inner_vertices(mesh, none, far_corner(c.volume.shape), c.metric, c.demand,
-                            {.limits = {.least_ratio = kFloor}, .ids = {kFirstId, 1U << 20U}});
+  return add_inner_vertices(
+      mesh, none, far_corner(c.volume.shape), c.metric, c.demand,
+      {.limits = {.least_ratio = kFloor}, .later = {}, .ids = {kFirstId, 1U << 20U}});
 }
 
 TEST(InnerVertices, ChangeNothingButTetsInsideLabels) {
