@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "engine/interface_shape.h"
+#include "engine/longest_edges.h"
 #include "engine/physical_position.h"
 #include "engine/vertex_rows.h"
 
@@ -97,6 +98,9 @@ class Writer {
         sink_(sink),
         remembered_(remembered) {}
 
+  /// From now on edges are measured.
+  void measure_edges() { edges_.emplace(volume_.table().size()); }
+
   void write(Index3 where, const BlockMesh& block, audit::QualityMeter* quality) {
     const std::vector<io::Position> positions = positions_of(block, volume_.info(), layers_);
     std::vector<io::TetRows> tets = oriented_tets(block, is_mirrored(volume_.info().space));
@@ -105,6 +109,7 @@ class Writer {
         quality->add(positions[a], positions[b], positions[c], positions[d]);
       }
     }
+    if (edges_) edges_->add(block.tets, positions);
     const std::vector<std::uint64_t> rows = write_vertices(where, block, positions);
     std::vector<RawLabel> labels;
     labels.reserve(tets.size());
@@ -116,6 +121,7 @@ class Writer {
   }
 
   [[nodiscard]] const VertexRows& rows() const { return rows_; }
+  [[nodiscard]] const std::optional<LongestEdges>& edges() const { return edges_; }
 
  private:
   std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
@@ -136,6 +142,7 @@ class Writer {
   Index3 layers_;
   io::MeshSink& sink_;
   Remembered& remembered_;
+  std::optional<LongestEdges> edges_;
 };
 
 io::VolumeInfo lattice_info(io::VolumeInfo info, Index3 layers) {
@@ -201,6 +208,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
               .record = {.box = box_of(volume.info()), .promises = options.promises}});
   Remembered remembered(options.hold);
   Writer writer(std::move(uses), volume, options.layers, sink, remembered);
+  if (options.measure_edges) writer.measure_edges();
   audit::QualityMeter quality;
   std::optional<ShapeWatch> shape;
   if (options.measure_shape) shape.emplace(grid, volume, selection, options.layers, remembered);
@@ -215,6 +223,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
   out.most_remembered = writer.rows().most_remembered();
   if (options.measure_quality) out.quality = quality.report();
   if (shape) shape->report(out);
+  if (writer.edges()) out.longest_edges = writer.edges()->lengths();
   return out;
 }
 

@@ -22,6 +22,7 @@ struct OutputOptions {
   WantedLabel wanted;                        ///< empty: every label
   bool measure_quality = false;              ///< about 0.1 us a tet
   bool measure_shape = false;                ///< volumes, area and bends; about 1 us a tet
+  bool measure_edges = false;                ///< the longest of each label
   HoldMemory hold;                           ///< optional
   std::optional<io::MeshPromises> promises;  ///< to be told in the file; set by mesh_volume()
   Index3 layers{1, 1, 1};  ///< that the volume's voxels were cut into; set by mesh_volume()
@@ -36,6 +37,8 @@ struct FinishedMesh {
   /// With measure_shape, by dense label: six times the volume that is written, exact, in cubic
   /// units of the lattice.
   std::vector<Int128> label_volumes6;
+  /// With measure_edges, by dense label; physical units, 0 where nothing is written.
+  std::vector<double> longest_edges;
   std::size_t most_remembered = 0;     ///< see VertexRows; 16 bytes each
   std::uint64_t most_shape_bytes = 0;  ///< see InterfaceShape
 };

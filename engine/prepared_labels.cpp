@@ -54,15 +54,37 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
   return uniform;
 }
 
+/// What settings ask of edges, in lengths of the metric.
+SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
+  if (sizes.labels.empty()) return {};
+  const auto& spacing = volume.info().space.spacing;
+  const double unit = *std::min_element(spacing.begin(), spacing.end());
+  std::vector<double> limits(volume.table().size(), SizeField::kNoLimit);
+  for (const LabelSize& s : sizes.labels) {
+    limits[volume.table().dense(s.label)] = s.longest_edge / unit;
+  }
+  return {volume.info().shape, Metric(spacing), std::move(limits), sizes.gradation};
+}
+
+std::optional<InnerDemand> inner_demand(const io::LabelTable& table, const SizeSettings& sizes) {
+  if (!sizes.inner_vertices) return std::nullopt;
+  std::vector<bool> wanted(table.size(), sizes.labels.empty());
+  for (const LabelSize& s : sizes.labels) wanted[table.dense(s.label)] = true;
+  return InnerDemand(std::move(wanted));
+}
+
 }  // namespace
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                int threads, const std::filesystem::path& folder)
     : original_(volume.info().shape, volume.table().size(), folder),
       faces_(volume.info().shape),
+      sizes_(size_field(volume, settings.sizes)),
+      inner_(inner_demand(volume.table(), settings.sizes)),
       label_voxels_(volume.table().size()) {
   read_bricks(volume, threads);
   volume.raw().drop_buffers();  // it is not read again
+  if (sizes_.limits()) sizes_.spread();
   // Coarsening keeps the topology of labels, not that of interfaces.
   if (settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder);
@@ -96,6 +118,7 @@ void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) 
     original_.write(brick, one);
     count(brick, one);
     faces_.count(labels, brick, original_.uniform_label(brick) != kExterior);
+    if (sizes_.limits()) sizes_.add(original_.box_of(brick), one);
   });
 }
 
@@ -144,6 +167,13 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
   });
 }
 
+/// Do sizes allow the largest cells in all of these cubes?
+bool PreparedLabels::all_may_be_large(const Box3& cubes) const {
+  bool all = true;
+  each_index(cubes, [&](Index3 c) { all = all && sizes_.allows_cell(scaled(c, kBrick), 4); });
+  return all;
+}
+
 void PreparedLabels::find_levels(int threads) {
   const Index3 volume = original_.shape();
   levels_ = LevelMap(volume);
@@ -153,16 +183,18 @@ void PreparedLabels::find_levels(int threads) {
   tbb_each_index(threads, levels_.cubes(), [&](Index3 cube) {
     const Box3 around = clipped(grown({cube, cube + Index3{1, 1, 1}}, 1), levels_.cubes());
     if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) &&
-        all_uniform(shapes(), around)) {
+        all_uniform(shapes(), around) && all_may_be_large(around)) {
       levels_.set_eighths(cube, 0xff);
       return;
     }
     const Box3 box{scaled(cube, kBrick), scaled(cube + Index3{1, 1, 1}, kBrick)};
     levels_.set_eighths(
-        cube, LevelMap::allowed_eighths(shape(grown(box, LevelMap::kHalo)), volume, cube));
+        cube, LevelMap::allowed_eighths(shape(grown(box, LevelMap::kHalo)), volume, cube, sizes()));
   });
-  levels_.find_cubes(
-      [&](Index3 cube) { return is_whole(cube) && shapes().uniform_label(cube) != kExterior; });
+  levels_.find_cubes([&](Index3 cube) {
+    return is_whole(cube) && shapes().uniform_label(cube) != kExterior &&
+           sizes_.allows_cell(scaled(cube, kBrick), 4);
+  });
 }
 
 }  // namespace mw::engine

@@ -8,7 +8,9 @@
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
 #include "kernels/core/label_box.h"
+#include "kernels/inner/inner_demand.h"
 #include "kernels/lattice/level_map.h"
+#include "kernels/size/size_field.h"
 
 namespace mw::engine {
 
@@ -31,6 +33,10 @@ class PreparedLabels {
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
   /// Where there is much to do.
   [[nodiscard]] const BoundaryFaces& faces() const { return faces_; }
+  /// Limits on edges; null: none.
+  [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
+  /// Labels whose tets should have an inner vertex; null: none.
+  [[nodiscard]] const InnerDemand* inner() const { return inner_ ? &*inner_ : nullptr; }
   /// How many voxels of the input have each dense label.
   [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return label_voxels_; }
 
@@ -41,12 +47,15 @@ class PreparedLabels {
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(int threads);
+  [[nodiscard]] bool all_may_be_large(const Box3& cubes) const;
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
 
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;
   LevelMap levels_;
   BoundaryFaces faces_;
+  SizeField sizes_;
+  std::optional<InnerDemand> inner_;
   std::vector<std::uint64_t> label_voxels_;
 };
 

@@ -155,13 +155,17 @@ std::uint64_t always_bytes(const io::DenseVolume& volume, int threads) {
   return program_bytes(volume.table().size(), threads) + kCopies * volume.info().names.bytes();
 }
 
+std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings) {
+  return prepared_label_bytes(volume.info().shape, !settings.sizes.labels.empty());
+}
+
 /// Tells at once, before any work, the least that the parts take whose size is known by then.
 /// What windows take depends on the labels, and on what earlier windows leave.
 void require_least(const RunLayout& layout, const io::DenseVolume& volume,
                    const MeshSettings& settings, const io::MeshSink& sink, int threads,
                    const MemoryBudget& budget) {
-  const std::uint64_t always = always_bytes(volume, threads) +
-                               prepared_label_bytes(volume.info().shape) + index_bytes(layout);
+  const std::uint64_t always =
+      always_bytes(volume, threads) + prepared_bytes(volume, settings) + index_bytes(layout);
   const std::uint64_t reading = preparation_bytes(settings) + volume.raw().buffer_bytes(1);
   const std::uint64_t least = always + std::max(reading, sink.buffer_bytes());
   if (least > budget.limit()) budget.fail(least);
@@ -172,7 +176,7 @@ void require_least(const RunLayout& layout, const io::DenseVolume& volume,
 PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settings, int threads,
                        const StoreOptions& options, RunStore& store,
                        MemoryBudget::Reservation& room) {
-  room = store.reserve(Purpose::kLabels, prepared_label_bytes(volume.info().shape));
+  room = store.reserve(Purpose::kLabels, prepared_bytes(volume, settings));
   const std::uint64_t each = preparation_bytes(settings);
   const std::uint64_t at_once =
       std::clamp<std::uint64_t>(options.memory / 4 / each, 1, static_cast<std::uint64_t>(threads));
@@ -217,6 +221,7 @@ void report_shape(FinishedMesh& finished, const PreparedLabels& labels, const La
                   RunReport& report) {
   report.shape = finished.shape;
   report.label_volumes6 = std::move(finished.label_volumes6);
+  report.longest_edges = std::move(finished.longest_edges);
   report.label_voxels = labels.label_voxels();
   for (Label label = 0; label < report.label_voxels.size(); ++label) {
     if (!kept.keeps(label)) report.label_voxels[label] = 0;
@@ -277,6 +282,7 @@ void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& asked) {
   check(volume.info(), settings);
+  check(volume.table(), settings);
   RunHooks hooks = asked;
   hooks.output.promises = promises_of(settings);
   const VoxelLattice lattice(volume, settings.surface);

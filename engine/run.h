@@ -37,6 +37,7 @@ struct RunReport : VisitStats {
   std::optional<audit::ShapeReport> shape;      ///< the same
   std::vector<std::uint64_t> label_voxels;      ///< with shape, by dense label; 0: not written
   std::vector<Int128> label_volumes6;           ///< see FinishedMesh
+  std::vector<double> longest_edges;            ///< the same, with shape and sizes
   std::uint64_t memory_budget_bytes = 0;
   std::uint64_t peak_accounted_bytes = 0;
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time

@@ -3,6 +3,8 @@
 // Which settings make sense.
 #include "engine/settings.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "kernels/distance/distance_guard.h"
@@ -13,9 +15,27 @@ namespace {
 constexpr int kMaxMarches = 4;
 constexpr double kMaxDistance = 16.0;
 constexpr int kMaxOdtIterations = 1000;
+constexpr double kMaxGradation = 10.0;
 
 [[noreturn]] void refuse(const std::string& setting, const std::string& allowed) {
   throw Error(ErrorKind::kUsage, setting + " must be " + allowed);
+}
+
+void check_sizes(const SizeSettings& sizes) {
+  if (!(sizes.gradation >= 0.0 && sizes.gradation <= kMaxGradation)) {
+    refuse("gradation", "from 0 to 10");
+  }
+  std::vector<RawLabel> labels;
+  for (const LabelSize& s : sizes.labels) {
+    if (!(s.longest_edge > 0.0) || !std::isfinite(s.longest_edge)) {
+      refuse("size", "positive, for every label");
+    }
+    labels.push_back(s.label);
+  }
+  std::sort(labels.begin(), labels.end());
+  if (std::adjacent_find(labels.begin(), labels.end()) != labels.end()) {
+    refuse("size", "given once for a label");
+  }
 }
 
 }  // namespace
@@ -52,6 +72,7 @@ void check(const MeshSettings& s) {
       !(*s.max_distance >= DistanceGuard::least_distance() && *s.max_distance <= kMaxDistance)) {
     refuse("max-distance", "from 0.71 to 16 voxels, or none (the samples are 0.71 voxels apart)");
   }
+  check_sizes(s.sizes);
 }
 
 }  // namespace mw::engine

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "kernels/core/error.h"
+#include "kernels/core/label.h"
 #include "kernels/topology/kept_topology.h"
 
 namespace mw::engine {
@@ -38,6 +40,22 @@ enum class Optimizer {
   kNone,
 };
 
+/// No edge of a tet of this label is longer.
+struct LabelSize {
+  RawLabel label = 0;
+  double longest_edge = 0.0;  ///< physical units
+
+  friend bool operator==(const LabelSize&, const LabelSize&) = default;
+};
+
+/// Limits on the edges of some labels, and of what is around them (kernels/size/size_field.h).
+struct SizeSettings {
+  std::vector<LabelSize> labels;  ///< each label once, ascending; empty: no limits
+  double gradation = 0.5;         ///< by how much limits grow with the distance to such a label
+  /// Tets of these labels, of all when there are none, get an inner vertex where shapes allow it.
+  bool inner_vertices = false;
+};
+
 /// Voxels are those of the lattice that the volume is meshed on.
 struct MeshSettings {
   int window = 32;  ///< window edge in voxels, even
@@ -53,6 +71,7 @@ struct MeshSettings {
   KeptTopology topology = KeptTopology::kLabels;
   Surface surface = Surface::kSmooth;
   Optimizer optimizer = Optimizer::kLocal;
+  SizeSettings sizes;
   int odt_iterations = 10;  ///< at most, in each window, by kTetgen; the paper's number (Sec 6)
 };
 

@@ -63,6 +63,24 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
                                           " can be", ways_out(volume, settings)));
 }
 
+/// Start meshes have edges as long as the diagonal of a voxel, and no step cuts an edge.
+void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const auto& labels = settings.sizes.labels;
+  if (labels.empty()) return;
+  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
+  const double least = std::sqrt(x * x + y * y + z * z);
+  const auto shortest = std::min_element(
+      labels.begin(), labels.end(),
+      [](const LabelSize& a, const LabelSize& b) { return a.longest_edge < b.longest_edge; });
+  if (shortest->longest_edge >= least) return;
+  // Rounded up, so that what is told can be kept.
+  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(least)));
+  throw Error(ErrorKind::kUsage,
+              io::text("size ", shortest->longest_edge, " is less than the diagonal of a voxel (",
+                       x, " x ", y, " x ", z, "), the longest edge of the finest start mesh; ",
+                       std::ceil(scale * least) / scale, " can be kept"));
+}
+
 }  // namespace
 
 Index3 layers_of(const io::VolumeInfo& volume, Surface surface) {
@@ -79,6 +97,16 @@ void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
   check(settings);
   check_shape(volume.shape, layers_of(volume, settings.surface));
   check_floor(volume, settings);
+  check_sizes(volume, settings);
+}
+
+void check(const io::LabelTable& labels, const MeshSettings& settings) {
+  for (const LabelSize& s : settings.sizes.labels) {
+    if (labels.contains(s.label)) continue;
+    const std::string name = labels.is_signed() ? std::to_string(static_cast<std::int64_t>(s.label))
+                                                : std::to_string(s.label);
+    throw Error(ErrorKind::kUsage, "size: the volume has no label " + name);
+  }
 }
 
 }  // namespace mw::engine

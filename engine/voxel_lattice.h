@@ -35,7 +35,12 @@ class VoxelLattice {
 
 /// What a run asks of a volume, told before any work.
 /// ERRORS: those of check(settings); kInput when the lattice has too many voxels along an axis;
-///         kUsage when the quality floor cannot be kept at this spacing, with the floor that can.
+///         kUsage when the quality floor cannot be kept at this spacing, with the floor that can,
+///         or when a size is less than the diagonal of a voxel of the lattice.
 void check(const io::VolumeInfo& volume, const MeshSettings& settings);
+
+/// What a run asks of a volume's labels.
+/// ERRORS: kUsage when a size is given for a label that the volume does not have.
+void check(const io::LabelTable& labels, const MeshSettings& settings);
 
 }  // namespace mw::engine

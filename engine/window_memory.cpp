@@ -27,6 +27,8 @@ constexpr std::uint64_t kBytesPerLabel = 96;
 
 // Places of a brick of the input and of a coarsened one, its large cells and faces.
 constexpr std::uint64_t kBytesPerBrick = 22;
+// Limits on edges in eight cubes, while they are found.
+constexpr std::uint64_t kBytesPerSizedBrick = 8 * 16;
 // A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
@@ -82,8 +84,8 @@ std::uint64_t program_bytes(std::size_t labels, int threads) {
          kBytesPerLabel * labels;
 }
 
-std::uint64_t prepared_label_bytes(Index3 shape) {
-  return kBytesPerBrick * bricks_of(shape);
+std::uint64_t prepared_label_bytes(Index3 shape, bool sized) {
+  return (kBytesPerBrick + (sized ? kBytesPerSizedBrick : 0)) * bricks_of(shape);
 }
 
 std::uint64_t preparation_bytes(const MeshSettings& settings) {

@@ -33,8 +33,8 @@ using StartSizeOf = std::function<StartSize(Index3 block)>;
 /// table.
 [[nodiscard]] std::uint64_t program_bytes(std::size_t labels, int threads);
 
-/// What PreparedLabels holds.
-[[nodiscard]] std::uint64_t prepared_label_bytes(Index3 shape);
+/// What PreparedLabels holds of a volume of this shape; sized: with limits on edges.
+[[nodiscard]] std::uint64_t prepared_label_bytes(Index3 shape, bool sized = false);
 /// What it takes beside that while it is made.
 [[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings);
 

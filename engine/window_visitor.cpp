@@ -7,6 +7,7 @@
 
 #include "engine/stopwatch.h"
 #include "kernels/coarsen/carrier_faces.h"
+#include "kernels/inner/inner_vertices.h"
 
 namespace mw::engine {
 namespace {
@@ -20,6 +21,9 @@ SimplifyOptions simplify_options(const MeshSettings& settings) {
   if (settings.quality_floor == 0.0) options.inner_quality = 0.0;
   return options;
 }
+
+/// Without a floor new vertices still leave no slivers.
+constexpr double kLeastInnerRatio = 0.1;
 
 std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings) {
   if (settings.surface == Surface::kVoxel) return std::nullopt;
@@ -41,14 +45,18 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
              .max_distance = settings.max_distance.value_or(kMostCoarseDistance),
              .weights = {},
              .metric = metric,
-             .quality_floor = settings.quality_floor},
+             .quality_floor = settings.quality_floor,
+             .sizes = labels.sizes()},
       simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor,
-                .surface = surface_weights(settings)},
+                .surface = surface_weights(settings),
+                .demands = {.sizes = labels.sizes()}},
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance),
-      target_reduction_(settings.target_reduction) {}
+      target_reduction_(settings.target_reduction) {
+  simplify_.demands = optimise_.demands;
+}
 
 void WindowVisitor::polish(const WindowOrder& order) {
   constexpr int kSweeps = 3, kSmoothSweeps = 4;
@@ -56,6 +64,7 @@ void WindowVisitor::polish(const WindowOrder& order) {
   optimise_.sweeps *= optimise_.surface ? kSmoothSweeps : kSweeps;
   optimise_.flip_below = kFlipBelow;
   if (optimise_.surface) order_ = order;
+  simplify_.demands.inner = optimise_.demands.inner = labels_.inner();
 }
 
 void WindowVisitor::reconnect_with(Triangulate triangulate) {
@@ -68,6 +77,7 @@ VisitStats& VisitStats::operator+=(const VisitStats& other) {
   simplify += other.simplify;
   optimise += other.optimise;
   codt += other.codt;
+  inner_vertices += other.inner_vertices;
   start_seconds += other.start_seconds;
   simplify_seconds += other.simplify_seconds;
   optimise_seconds += other.optimise_seconds;
@@ -120,9 +130,10 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   polish.later = later_boxes(window);
   stats.optimise += optimise(content.mesh, metric_, polish, keep_distance);
   watch.lap(stats.optimise_seconds);
-  if (!triangulate_) return;
-  reconnect(window, content, stats);
+  if (!triangulate_ && optimise_.demands.inner == nullptr) return;
+  if (triangulate_) reconnect(window, content, stats);
   watch.lap(stats.codt_seconds);
+  if (optimise_.demands.inner != nullptr) add_inner(window, content, stats);
   OptimiseOptions light = optimise_;
   light.sweeps = std::min(light.sweeps, 1);
   stats.optimise += optimise(content.mesh, metric_, light, keep_distance);
@@ -140,10 +151,25 @@ std::vector<LatticeBox> WindowVisitor::later_boxes(Index3 window) const {
   return out;
 }
 
+SteinerIds WindowVisitor::ids_of(Index3 window) const {
+  return steiner_ids(raster(window, grid_.windows()),
+                     static_cast<std::uint64_t>(grid_.windows().product()));
+}
+
+void WindowVisitor::add_inner(Index3 window, WindowContent& content, VisitStats& stats) const {
+  const InnerOptions options{
+      .limits = {.least_ratio = std::max(optimise_.quality_floor, kLeastInnerRatio),
+                 .sizes = labels_.sizes()},
+      .later = later_boxes(window),
+      .ids = ids_of(window)};
+  stats.inner_vertices +=
+      add_inner_vertices(content.mesh, content.samples, lattice_corner(grid_.volume()), metric_,
+                         *optimise_.demands.inner, options);
+}
+
 void WindowVisitor::reconnect(Index3 window, WindowContent& content, VisitStats& stats) const {
   CodtOptions options = codt_;
-  options.ids = steiner_ids(raster(window, grid_.windows()),
-                            static_cast<std::uint64_t>(grid_.windows().product()));
+  options.ids = ids_of(window);
   stats.codt += codt(content.mesh, content.samples, lattice_corner(grid_.volume()), metric_,
                      options, triangulate_);
 }

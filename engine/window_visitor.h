@@ -25,6 +25,7 @@ struct VisitStats {
   SimplifyStats simplify;
   OptimiseStats optimise;
   CodtStats codt;
+  std::uint64_t inner_vertices = 0;  ///< added
   double start_seconds = 0.0;
   double simplify_seconds = 0.0;
   double optimise_seconds = 0.0;
@@ -42,7 +43,8 @@ class WindowVisitor {
   WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
                 const WindowGrid& grid, BlockStore& store);
 
-  /// Optimises longer and flips more: for the last march, when shape is all that is left to gain.
+  /// Optimises longer and flips more, and adds the inner vertices that labels demand: for the last
+  /// march, when shape is all that is left to gain.
   /// order: of its windows; the sweeps after the first are for what no later window will see.
   void polish(const WindowOrder& order);
   /// Adds constrained ODT with this triangulation, which many threads may ask at once.  Local
@@ -64,6 +66,8 @@ class WindowVisitor {
   [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;
+  void add_inner(Index3 window, WindowContent& content, VisitStats& stats) const;
+  [[nodiscard]] SteinerIds ids_of(Index3 window) const;
   /// use(labels around the block, its box).
   template <typename Use>
   [[nodiscard]] auto with_labels(Index3 block, Use use) const;

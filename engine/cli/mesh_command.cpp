@@ -92,7 +92,8 @@ engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& v
   if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
   hooks.output = {.wanted = wanted_labels(request.choice, volume.table()),
                   .measure_quality = is_measured(request),
-                  .measure_shape = is_measured(request)};
+                  .measure_shape = is_measured(request),
+                  .measure_edges = is_measured(request) && !request.settings.sizes.labels.empty()};
   return engine::mesh_volume(volume, request.settings, files.all(), hooks);
 }
 
@@ -180,7 +181,10 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   const io::LabelVolume& volume = input.volume();
   const FingerprintVolume fingerprint(volume);
   const io::LabelTable table = engine::collect_labels(fingerprint, request.threads);
-  FinishedRun run{.volume = volume.info(), .labels = table, .specks = input.specks()};
+  FinishedRun run{.volume = volume.info(),
+                  .labels = table,
+                  .sizes = request.settings.sizes,
+                  .specks = input.specks()};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
   run.engine = mesh_or_keep(request, io::DenseVolume(volume, table), files, fingerprint.text(),

@@ -301,6 +301,9 @@ void require_names_used_once(const MeshRequest& request) {
       throw Error(ErrorKind::kUsage, "-o " + output.string() + ": this is --names");
     }
   }
+  if (is_same_file(request.sizes.file, request.output)) {
+    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is --size-file");
+  }
   const auto require_new = [](const char* flag, const std::filesystem::path& path,
                               const std::vector<std::filesystem::path>& taken) {
     for (const std::filesystem::path& other : taken) {
@@ -309,12 +312,13 @@ void require_names_used_once(const MeshRequest& request) {
     }
   };
   require_new("--report", request.report,
-              {request.volume.path, request.volume.names, request.output});
+              {request.volume.path, request.volume.names, request.sizes.file, request.output});
   require_new("--trace", request.trace,
-              {request.volume.path, request.volume.names, request.output, request.report});
-  require_new(
-      "--html", request.html,
-      {request.volume.path, request.volume.names, request.output, request.report, request.trace});
+              {request.volume.path, request.volume.names, request.sizes.file, request.output,
+               request.report});
+  require_new("--html", request.html,
+              {request.volume.path, request.volume.names, request.sizes.file, request.output,
+               request.report, request.trace});
 }
 
 /// The page is drawn when the mesh is written, in what it leaves of the budget.
@@ -322,6 +326,17 @@ void require_memory_for_page(const MeshRequest& request) {
   constexpr std::uint64_t kLeast = 192 << 20;
   if (request.html.empty() || *request.memory >= kLeast) return;
   throw Error(ErrorKind::kUsage, "--html: needs --memory 192MiB or more");
+}
+
+void settle_sizes(MeshRequest& request) {
+  engine::MeshSettings& settings = request.settings;
+  settings.sizes = size_settings(request.sizes);
+  engine::check(settings);
+  const bool sized = !settings.sizes.labels.empty() || settings.sizes.inner_vertices;
+  if (!sized || settings.optimizer != engine::Optimizer::kTetgen) return;
+  throw Error(ErrorKind::kUsage,
+              "--optimizer tetgen keeps no sizes or inner vertices: leave out --size and "
+              "--inner-vertices, or set --optimizer local");
 }
 
 }  // namespace
@@ -333,6 +348,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
   add_march_options(options, request);
   add_bound_options(options, request);
   add_method_options(options, request);
+  add_size_options(options, request.sizes);
   add_resource_options(options, request);
   add_choice_options(options, request.choice);
   add_output_options(options, request);
@@ -347,6 +363,7 @@ void check_mesh_request(MeshRequest& request) {
   check_choice(request.choice);
   require_names_used_once(request);
   require_memory_for_page(request);
+  settle_sizes(request);
   if (request.settings.optimizer == engine::Optimizer::kTetgen) (void)engine::codt::find_worker();
 }
 

@@ -3,6 +3,7 @@
 // The report of a run of `mwmesh mesh`.
 #include "engine/cli/run_report.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/cli/json_rows.h"
@@ -110,6 +111,23 @@ ordered_json shape_json(const FinishedRun& run) {
   return out;
 }
 
+/// What was asked of sizes; limits and longest edges are in the rows of labels.
+ordered_json size_json(const FinishedRun& run) {
+  return {{"labels", run.sizes.labels.size()}, {"inner_vertices_added", run.engine.inner_vertices}};
+}
+
+/// Adds to the row of a label that has a limit on its edges.
+void add_size(Label label, const FinishedRun& run, ordered_json& row) {
+  const auto& sizes = run.sizes.labels;  // ascending
+  const RawLabel raw = run.labels.raw(label);
+  const auto listed = std::lower_bound(
+      sizes.begin(), sizes.end(), raw,
+      [](const engine::LabelSize& s, RawLabel wanted) { return s.label < wanted; });
+  if (listed == sizes.end() || listed->label != raw) return;
+  row["size"] = listed->longest_edge;
+  row["longest_edge"] = run.engine.longest_edges[label];
+}
+
 }  // namespace
 
 double vertex_fraction(std::uint64_t vertices, Index3 shape) {
@@ -137,6 +155,7 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
           {"output", output_json(run, mesh)},
           {"quality", quality_json(run.engine.quality.value())},
           {"shape", shape_json(run)},
+          {"size", size_json(run)},
           {"distance", {{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}}},
           {"topology", {{"checked", false}, {"labels_changed", nullptr}}},
           {"performance", performance_json(run)},
@@ -148,7 +167,9 @@ void write_run_report(io::AtomicFile& file, const FinishedRun& run,
                       const std::filesystem::path& mesh, ordered_json settings) {
   const auto each_row = [&](const TakeRow& take) {
     each_volume(run, [&](const audit::VolumeRow& row) {
-      take(volume_row_json(row, run.labels, run.volume.names));
+      ordered_json out = volume_row_json(row, run.labels, run.volume.names);
+      add_size(row.label, run, out);
+      take(out);
     });
   };
   append_with_rows(run_report(run, mesh, std::move(settings)), each_row,

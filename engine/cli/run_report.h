@@ -19,6 +19,7 @@ namespace mw::cli {
 struct FinishedRun {
   const io::VolumeInfo& volume;
   const io::LabelTable& labels;
+  const engine::SizeSettings& sizes;
   std::optional<io::SpeckFacts> specks;
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels

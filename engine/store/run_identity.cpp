@@ -37,6 +37,17 @@ const char* optimizer_name(Optimizer optimizer) {
                                            : "none";
 }
 
+/// Nothing without sizes.
+std::string sizes_text(const SizeSettings& sizes) {
+  if (sizes.labels.empty()) return sizes.inner_vertices ? "inner-vertices = all\n" : "";
+  std::string out = "size = ";
+  for (const LabelSize& s : sizes.labels) {
+    out += io::text(&s == sizes.labels.data() ? "" : ",", s.label, "=", number(s.longest_edge));
+  }
+  return io::text(out, "\ngradation = ", number(sizes.gradation), "\n",
+                  sizes.inner_vertices ? "inner-vertices = listed\n" : "");
+}
+
 }  // namespace
 
 std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& s) {
@@ -59,7 +70,7 @@ std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& s) {
                   "target-reduction = ", number(s.target_reduction), "\n",                 //
                   "surface = ", s.surface == Surface::kSmooth ? "smooth" : "voxel", "\n",  //
                   "optimizer = ", optimizer_name(s.optimizer), "\n",                       //
-                  "odt-iterations = ", s.odt_iterations, "\n");
+                  "odt-iterations = ", s.odt_iterations, "\n", sizes_text(s.sizes));
 }
 
 }  // namespace mw::engine

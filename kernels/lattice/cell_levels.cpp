@@ -31,15 +31,16 @@ bool inside(const Box3& a, const Box3& b) {
 
 }  // namespace
 
-CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level)
-    : labels_(labels), volume_(volume) {
+CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level,
+                       const SizeField* sizes)
+    : labels_(labels), volume_(volume), sizes_(sizes) {
   find_levels(max_level);
   find_leaves(asked);
 }
 
 CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level,
-                       const LevelMap& large)
-    : labels_(labels), volume_(volume) {
+                       const LevelMap& large, const SizeField* sizes)
+    : labels_(labels), volume_(volume), sizes_(sizes) {
   find_leaves(asked);
   bool all_large = true;
   std::size_t i = 0;
@@ -64,7 +65,7 @@ void CellLevels::find_levels(int highest) {
     Level level = cells_of(k);
     std::size_t i = 0;
     each_index(level.cells, [&](Index3 c) {
-      level.allowed[i++] = is_uniform(c, k) && finer_allowed(c, k) ? 1 : 0;
+      level.allowed[i++] = is_uniform(c, k) && finer_allowed(c, k) && is_small(c, k) ? 1 : 0;
     });
     levels_.push_back(std::move(level));
   }
@@ -88,6 +89,10 @@ bool CellLevels::is_uniform(Index3 cell, int level) const {
     if (labels_.at(voxels.lo + child) != first) return false;
   }
   return true;
+}
+
+bool CellLevels::is_small(Index3 cell, int level) const {
+  return sizes_ == nullptr || sizes_->allows_cell(voxels_of(cell, level).lo, level);
 }
 
 bool CellLevels::finer_allowed(Index3 cell, int level) const {

@@ -73,8 +73,8 @@ class StartBuilder {
         options_(options),
         carriers_(options.max_distance),
         levels_(labels.shape, volume, {block.lo - Index3{1, 1, 1}, block.hi + Index3{1, 1, 1}},
-                options.max_level, large),
-        surface_(levels_, labels.shape, volume),
+                options.max_level, large, options.sizes),
+        surface_(levels_, labels.shape, volume, options.sizes),
         templates_(options.metric, options.quality_floor),
         used_(static_cast<std::size_t>(corners_.voxels()), 0),
         known_(static_cast<std::size_t>(block.voxels()), nullptr) {}

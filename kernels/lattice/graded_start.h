@@ -24,8 +24,10 @@ struct StartOptions {
   bool with_samples = false;  ///< samples for the distance bound
   double max_distance = 1.5;  ///< with samples: that bound, in voxels
   QuadricWeights weights;
-  Metric metric;               ///< of the quadrics, and of the shapes of cells
-  double quality_floor = 0.0;  ///< no tet below it, if the metric allows (start_quality.h)
+  Metric metric;                     ///< of the quadrics, and of the shapes of cells
+  double quality_floor = 0.0;        ///< no tet below it, if the metric allows (start_quality.h)
+  const SizeField* sizes = nullptr;  ///< edges keep to these limits, if they are at least the
+                                     ///< diagonal of a voxel; null: none
 };
 
 /// Voxels around a block whose labels its start mesh depends on.
@@ -52,8 +54,8 @@ struct StartLabels {
 /// (CarrierFaces); without coarsening that is the face itself.
 ///
 /// REQUIRES: labels cover `block` and kStartHalo around it; the block is inside the volume and
-///           starts at a multiple of 2^max_level; levels is of the shape labels (not looked at for
-///           max_level <= 2).
+///           starts at a multiple of 2^max_level; levels is of the shape labels and the sizes (not
+///           looked at for max_level <= 2).
 /// ENSURES: canonical; a local function of the labels: all blocks give a shared vertex the same id,
 ///          position and quadric.  Each sample of each voxel face between two labels is with the
 ///          one block that holds the tet on the smaller label's side of its triangle.

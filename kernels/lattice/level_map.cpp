@@ -32,9 +32,10 @@ LevelMap::LevelMap(Index3 volume)
       eighths_(static_cast<std::size_t>(cubes_.product()), 0),
       whole_(eighths_.size(), 0) {}
 
-std::uint8_t LevelMap::allowed_eighths(const LabelBox& labels, Index3 volume, Index3 cube) {
+std::uint8_t LevelMap::allowed_eighths(const LabelBox& labels, Index3 volume, Index3 cube,
+                                       const SizeField* sizes) {
   const Index3 lo{cube.x * kCube, cube.y * kCube, cube.z * kCube};
-  const CellLevels levels(labels, volume, {lo, lo + Index3{kCube, kCube, kCube}}, 3);
+  const CellLevels levels(labels, volume, {lo, lo + Index3{kCube, kCube, kCube}}, 3, sizes);
   unsigned bits = 0;
   each_index(Index3{2, 2, 2}, [&](Index3 i) {
     const Index3 voxel = lo + Index3{i.x * kEighth, i.y * kEighth, i.z * kEighth};

@@ -8,6 +8,7 @@
 
 #include "kernels/core/each_index.h"
 #include "kernels/core/label_box.h"
+#include "kernels/size/size_field.h"
 
 namespace mw {
 
@@ -27,15 +28,15 @@ class LevelMap {
   [[nodiscard]] Index3 cubes() const { return cubes_; }
 
   /// The eight cells of 8 voxels in cube `cube` that are allowed, as bits (x lowest).
-  /// REQUIRES: labels cover the cube and kHalo around it.
+  /// REQUIRES: labels cover the cube and kHalo around it.  sizes: null: no limits.
   [[nodiscard]] static std::uint8_t allowed_eighths(const LabelBox& labels, Index3 volume,
-                                                    Index3 cube);
+                                                    Index3 cube, const SizeField* sizes = nullptr);
 
   /// Thread safety: different cubes may be set at once.
   void set_eighths(Index3 cube, std::uint8_t eighths) { eighths_[row(cube)] = eighths; }
 
   /// Decides on the cells of 16 voxels.  REQUIRES: all eighths set; is_uniform says whether a cube
-  /// lies inside the volume and inside one label.
+  /// lies inside the volume and inside one label, and may be one cell for its size.
   template <typename IsUniform>
   void find_cubes(IsUniform is_uniform) {
     each_index(cubes_, [&](Index3 c) {

@@ -46,7 +46,7 @@ CellNodes SurfaceNodes::between_labels(const Cell& cell) const {
     for (unsigned axis = 0; axis < 3; ++axis) lowest += node_along(node, axis) * kStrides[axis];
     for (unsigned i = 0; i < 8; ++i) {
       const std::size_t voxel = lowest + (i & 1U) + (i >> 1 & 1U) * 4 + (i >> 2) * 16;
-      if (near.single[voxel]) return true;
+      if (near.has_corners[voxel]) return true;
       for (unsigned axis = 0; axis < 3; ++axis) {
         const bool lower = (i >> axis & 1U) == 0;
         if (!lower || node_along(node, axis) != 1) continue;
@@ -57,14 +57,20 @@ CellNodes SurfaceNodes::between_labels(const Cell& cell) const {
   });
 }
 
+bool SurfaceNodes::has_corners(Index3 voxel) const {
+  if (is_clipped(voxel)) return true;
+  return sizes_ != nullptr &&
+         !sizes_->allows_cell({voxel.x & ~1LL, voxel.y & ~1LL, voxel.z & ~1LL}, 1);
+}
+
 SurfaceNodes::Around SurfaceNodes::around(Index3 lo) const {
   Around out{};
   const Box3 box = grown({lo, lo + Index3{2, 2, 2}}, 1);
-  const bool ends = !volume_.contains(box.hi);
+  const bool may = sizes_ != nullptr || !volume_.contains(box.hi);
   std::size_t i = 0;
   each_index(box, [&](Index3 voxel) {
     out.labels[i] = labels_.at(voxel);
-    out.single[i] = ends && volume_.contains(voxel) && is_clipped(voxel);
+    out.has_corners[i] = may && volume_.contains(voxel) && has_corners(voxel);
     ++i;
   });
   return out;

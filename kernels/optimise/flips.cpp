@@ -146,7 +146,9 @@ bool Flipper::replace_within(LocalVertex p, LocalVertex q, double budget) {
     budget -= best_triangulation(p, q, polygon, budget - kLeastGain);
     if (!(budget > kLeastGain) || !collect_triangles(p, q, polygon)) return false;
   }
-  if (!surface_allows(p, q)) return false;
+  const auto keeps_lengths = [&](const LocalTet& t) { return limits_.allow_tet(t); };
+  if (!std::all_of(new_tets_.begin(), new_tets_.end(), keeps_lengths)) return false;
+  if (!inner_.allows_replacement(old_tets_, new_tets_) || !surface_allows(p, q)) return false;
   replace();
   if (guard_ != nullptr && is_between_labels()) guard_->commit();
   return true;

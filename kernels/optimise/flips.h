@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "kernels/distance/distance_guard.h"
+#include "kernels/inner/tet_demands.h"
 #include "kernels/mesh/tet_mesh.h"
+#include "kernels/size/edge_limits.h"
 #include "kernels/topology/edge_ring.h"
 
 namespace mw {
@@ -40,8 +42,14 @@ namespace mw {
 class Flipper {
  public:
   /// guard: keeps the distance bound; null: no bound.
-  Flipper(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard = nullptr)
-      : mesh_(mesh), metric_(metric), quality_floor_(quality_floor), guard_(guard) {}
+  Flipper(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard = nullptr,
+          const TetDemands& demands = {})
+      : mesh_(mesh),
+        metric_(metric),
+        quality_floor_(quality_floor),
+        guard_(guard),
+        limits_(mesh, metric, demands.sizes),
+        inner_(mesh, demands.inner) {}
 
   /// Replaces the ring of edge (p, q) by the best triangulation of the ring's polygon, joined to
   /// both ends (dynamic programming over at most kMaxRing vertices).  On a surface the polygon is
@@ -88,6 +96,8 @@ class Flipper {
   const Metric& metric_;
   double quality_floor_;
   DistanceGuard* guard_;
+  EdgeLimits limits_;
+  InnerFilter inner_;
   double least_ = 0.0;  ///< what the new tets must reach
   EdgeRing ring_;
   std::vector<Polygon> polygons_;

@@ -54,8 +54,11 @@ class Turns {
 /// Flips edges, but not one again that failed and did not change since.
 class EdgeFlips {
  public:
-  EdgeFlips(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard)
-      : mesh_(mesh), flipper_(mesh, metric, quality_floor, guard), failed_(mesh.vertex_count()) {}
+  EdgeFlips(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
+            DistanceGuard* guard)
+      : mesh_(mesh),
+        flipper_(mesh, metric, options.quality_floor, guard, options.demands),
+        failed_(mesh.vertex_count()) {}
 
   /// Tries the edges of tet (v, t.a, t.b, t.c); true after the first flip that succeeds.
   bool improve_tet(LocalVertex v, const LinkTriangle& t) {
@@ -78,7 +81,7 @@ class EdgeFlips {
 
 std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                          DistanceGuard* guard, const Turns& turns) {
-  EdgeFlips flipper(mesh, metric, options.quality_floor, guard);
+  EdgeFlips flipper(mesh, metric, options, guard);
   std::uint64_t flips = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!turns.has(v)) continue;
@@ -99,7 +102,7 @@ std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOpti
 
 std::uint64_t unfold_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                            DistanceGuard& guard, const Turns& turns) {
-  Unfolder unfolder(mesh, metric, *options.surface, options.quality_floor, guard);
+  Unfolder unfolder(mesh, metric, *options.surface, options.quality_floor, guard, options.demands);
   std::uint64_t flips = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!turns.has(v) || !mesh.is_alive(v) || !mesh.is_free(v) || !mesh.on_interface(v)) continue;
@@ -110,8 +113,10 @@ std::uint64_t unfold_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOp
 
 std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                            DistanceGuard* guard, VolumeDebts& debts, const Turns& turns) {
-  Smoother smoother(mesh, metric, {options.smooth_below, options.quality_floor, options.surface},
-                    guard, &debts);
+  Smoother smoother(
+      mesh, metric,
+      {options.smooth_below, options.quality_floor, options.surface, options.demands.sizes}, guard,
+      &debts);
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!turns.has(v) || !mesh.is_alive(v) || !mesh.is_free(v)) continue;
@@ -153,7 +158,9 @@ std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const Optimise
                                .junction_area = 0.03,
                                .bend = 0.0,
                                .with_pressure = false};
-  Smoother smoother(mesh, metric, {options.smooth_below, options.quality_floor, weights}, guard);
+  Smoother smoother(mesh, metric,
+                    {options.smooth_below, options.quality_floor, weights, options.demands.sizes},
+                    guard);
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v) || !mesh.on_interface(v)) continue;

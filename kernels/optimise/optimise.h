@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/distance/distance_guard.h"
+#include "kernels/inner/tet_demands.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/surface/surface_energy.h"
 
@@ -28,6 +29,7 @@ struct OptimiseOptions {
   double smooth_below = 0.8;   ///< smoothing, at vertices whose worst tet is below
   double quality_floor = 0.1;  ///< no step creates a tet below, unless it replaces a worse one
   std::optional<SurfaceWeights> surface;  ///< as SmoothOptions
+  TetDemands demands;                     ///< as SimplifyOptions
 };
 
 struct OptimiseStats {

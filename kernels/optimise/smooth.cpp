@@ -198,6 +198,7 @@ Smoother::Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& opt
     : mesh_(mesh),
       metric_(metric),
       options_(options),
+      limits_(mesh, metric, options.sizes),
       guard_(guard),
       debts_(debts),
       surface_energy_(options.surface.value_or(SurfaceWeights{})) {
@@ -228,7 +229,7 @@ bool Smoother::smooth(LocalVertex v) {
       fitted && options_.surface->bend > 0.0 && surface_energy_.least_cosine() < kSharpCosine;
   if (folded) search_around(mover, surface_, best);
   const double enough = (1.0 - kLeastGain) * present.energy;
-  const bool moved = take(mover, start, best, enough, folded ? kHalvings : 0,
+  const bool moved = take(mover, start, best, enough, folded || limits_.any() ? kHalvings : 0,
                           [&](Point x) { return move_to(v, x); });
   if (fitted && debts_ != nullptr) {
     debts_->set(v, surface_energy_.debts_at(metric_.vector(start, mesh_.position(v))));
@@ -236,8 +237,9 @@ bool Smoother::smooth(LocalVertex v) {
   return moved;
 }
 
-/// If the distance bound lets it.
+/// If the distance bound and the limits on edges let it.
 bool Smoother::move_to(LocalVertex v, Point target) {
+  if (!limits_.allow_star(v, v, target)) return false;
   const bool guarded = guard_ != nullptr && mesh_.on_interface(v);
   if (guarded && !guard_->allows_move(mesh_, v, target)) return false;
   const Vec3 move = metric_.vector(mesh_.position(v), target);

@@ -8,6 +8,7 @@
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/star_batch.h"
+#include "kernels/size/edge_limits.h"
 #include "kernels/surface/curvature_field.h"
 #include "kernels/surface/surface_energy.h"
 #include "kernels/surface/surface_star.h"
@@ -20,6 +21,7 @@ struct SmoothOptions {
   /// With a guard: interface vertices, however good their tets, go where SurfaceEnergy and the
   /// shape energy together are least.  None, or no guard: where shapes are best within the slack.
   std::optional<SurfaceWeights> surface;
+  const SizeField* sizes = nullptr;  ///< edges keep to these limits; null: none
 };
 
 /// Moves vertices to where the shape energy of their stars (kernels/quality/star_batch.h) is
@@ -50,6 +52,7 @@ class Smoother {
   TetMesh& mesh_;
   const Metric& metric_;
   SmoothOptions options_;
+  EdgeLimits limits_;
   DistanceGuard* guard_;
   VolumeDebts* debts_;
   StarBatch star_;

@@ -18,12 +18,12 @@ namespace mw {
 class Unfolder {
  public:
   Unfolder(TetMesh& mesh, const Metric& metric, const SurfaceWeights& weights, double quality_floor,
-           DistanceGuard& guard)
+           DistanceGuard& guard, const TetDemands& demands = {})
       : mesh_(mesh),
         metric_(metric),
         weights_(weights),
         guard_(guard),
-        flipper_(mesh, metric, quality_floor, &guard),
+        flipper_(mesh, metric, quality_floor, &guard, demands),
         failed_(mesh.vertex_count()) {}
 
   /// Tries the interface edges at v; returns how many were flipped.  REQUIRES: v free.

@@ -25,7 +25,7 @@ struct StarTerms {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
 
-enum class StarVerdict { kGood, kInverted, kLowQuality };
+enum class StarVerdict { kGood, kInverted, kLowQuality, kTooLong };
 
 /// The real tets at a vertex v as they were when it was collected.  Positions of v are offsets from
 /// where it was then, in metric units.

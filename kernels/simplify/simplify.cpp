@@ -11,6 +11,7 @@
 #include "kernels/simplify/contraction.h"
 #include "kernels/simplify/shape_filter.h"
 #include "kernels/simplify/vertex_queue.h"
+#include "kernels/size/edge_limits.h"
 #include "kernels/topology/collapse_test.h"
 
 namespace mw {
@@ -105,6 +106,8 @@ class Simplifier {
         queue_(mesh.vertex_count()),
         finder_(mesh, metric),
         shape_(mesh, metric, options),
+        limits_(mesh, metric, options.demands.sizes),
+        inner_(mesh, options.demands.inner),
         topology_(mesh, options.topology),
         bends_(mesh, metric) {}
 
@@ -140,15 +143,25 @@ class Simplifier {
     }
   }
 
+  [[nodiscard]] bool keeps_lengths(const Contraction& c) const {
+    return limits_.allow_star(c.drop, c.keep, c.position) &&
+           (!c.moves || limits_.allow_star(c.keep, c.drop, c.position));
+  }
+
+  /// Edges and tets at this very place.
+  StarVerdict judge_place(const Contraction& c) {
+    return keeps_lengths(c) ? shape_.judge(c) : StarVerdict::kTooLong;
+  }
+
   /// The verdict on the planned place.  When that is refused, c becomes the first of its other
   /// places that is good, and as cheap as this round demands; not with the paper's filter, which
   /// goes with the paper's place.
   StarVerdict judge(Contraction& c) {
-    const StarVerdict verdict = shape_.judge(c);
+    const StarVerdict verdict = judge_place(c);
     if (verdict == StarVerdict::kGood || !c.moves || options_.edge_variance) return verdict;
     for (const Contraction& other : other_places(mesh_, metric_, c)) {
       if (other.cost > queue_.current_bound()) continue;
-      if (shape_.judge(other) != StarVerdict::kGood) continue;
+      if (judge_place(other) != StarVerdict::kGood) continue;
       c = other;
       return StarVerdict::kGood;
     }
@@ -161,7 +174,7 @@ class Simplifier {
     if (!c.moves) return false;
     for (const Contraction& other : other_places(mesh_, metric_, c)) {
       if (other.position == c.position || other.cost > queue_.current_bound()) continue;
-      if (!bends_.stays_smooth(other) || shape_.judge(other) != StarVerdict::kGood) continue;
+      if (!bends_.stays_smooth(other) || judge_place(other) != StarVerdict::kGood) continue;
       c = other;
       return true;
     }
@@ -170,12 +183,19 @@ class Simplifier {
 
   bool try_contraction(Contraction c) {
     ++stats_.tried;
+    if (!inner_.allows_contraction(c.keep, c.drop)) {
+      ++stats_.no_inner;
+      return false;
+    }
     switch (judge(c)) {
       case StarVerdict::kInverted:
         ++stats_.inverted;
         return false;
       case StarVerdict::kLowQuality:
         ++stats_.low_quality;
+        return false;
+      case StarVerdict::kTooLong:
+        ++stats_.too_long;
         return false;
       case StarVerdict::kGood:
         break;
@@ -208,6 +228,8 @@ class Simplifier {
   VertexQueue queue_;
   CandidateFinder finder_;
   ShapeFilter shape_;
+  EdgeLimits limits_;
+  InnerFilter inner_;
   CollapseTest topology_;
   BendFilter bends_;
   SimplifyStats stats_;
@@ -220,6 +242,8 @@ SimplifyStats& SimplifyStats::operator+=(const SimplifyStats& other) {
   contracted += other.contracted;
   inverted += other.inverted;
   low_quality += other.low_quality;
+  too_long += other.too_long;
+  no_inner += other.no_inner;
   topology += other.topology;
   folded += other.folded;
   distance += other.distance;

@@ -8,6 +8,7 @@
 
 #include "kernels/core/parallel_for.h"
 #include "kernels/distance/distance_guard.h"
+#include "kernels/inner/tet_demands.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/topology/kept_topology.h"
 
@@ -24,6 +25,7 @@ struct SimplifyOptions {
   std::optional<double> edge_variance;
   KeptTopology topology = KeptTopology::kLabels;
   bool keep_smooth = false;  ///< contractions that fold interfaces are refused (BendFilter)
+  TetDemands demands;        ///< not met yet, they may stay so; what is met is kept
   /// Contraction ends when no more than this many vertices, fixed ones included, are left.
   std::size_t enough_vertices = 0;
   /// Runs the loop over all vertices that fills the queue (4 to 5 % of the time, bench).  The
@@ -37,6 +39,8 @@ struct SimplifyStats {
   std::uint64_t contracted = 0;
   std::uint64_t inverted = 0;
   std::uint64_t low_quality = 0;
+  std::uint64_t too_long = 0;
+  std::uint64_t no_inner = 0;  ///< tets would lose their last inner vertex
   std::uint64_t topology = 0;
   std::uint64_t folded = 0;
   std::uint64_t distance = 0;

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A few tets of one label, to be replaced by those around a new vertex among them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kernels/mesh/tet_mesh.h"
+#include "kernels/size/size_field.h"
+
+namespace mw {
+
+/// Where a new vertex would go, and the worst radius ratio that it leaves.
+struct CavityPlace {
+  Point position;
+  double worst = 0.0;
+};
+
+/// What is asked of the new tets.
+struct CavityLimits {
+  double least_ratio = 0.0;
+  const SizeField* sizes = nullptr;  ///< null: none
+};
+
+/// Tets of one label whose union is a ball with all their vertices on its surface.
+class Cavity {
+ public:
+  Cavity(const TetMesh& mesh, const Metric& metric, std::vector<LocalTet> tets);
+
+  [[nodiscard]] const std::vector<LocalTet>& tets() const { return tets_; }
+  /// The tets between a vertex and the surface: they cover the same points, once, if all are
+  /// positive, as old and new ones have one boundary.
+  [[nodiscard]] std::vector<LocalTet> tets_around(LocalVertex row) const;
+
+  /// The better place of `start` and the middle of the corners; none when some new tet would not be
+  /// exactly positive in both.
+  [[nodiscard]] std::optional<CavityPlace> first_place(Point start) const;
+  /// The best place that a search from there finds; none when it does not keep the limits.
+  /// Cost: some 25 looks at the surface.
+  [[nodiscard]] std::optional<CavityPlace> best_place(CavityPlace first,
+                                                      const CavityLimits& limits) const;
+
+ private:
+  void find_surface();
+  [[nodiscard]] Point middle() const;
+  /// The worst radius ratio with the vertex at x, or less than `enough`; 0 when it is not allowed.
+  [[nodiscard]] double worst_at(Point x, double enough) const;
+  [[nodiscard]] bool keeps_lengths(Point x, const SizeField& sizes) const;
+  void search(CavityPlace& best) const;
+
+  const TetMesh& mesh_;
+  const Metric& metric_;
+  std::vector<LocalTet> tets_;
+  std::vector<LinkTriangle> surface_;  ///< positive with a vertex inside
+};
+
+}  // namespace mw

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// New vertices for tets that have none inside their label.
+#pragma once
+
+#include "kernels/distance/carried_samples.h"
+#include "kernels/inner/cavity.h"
+#include "kernels/inner/inner_demand.h"
+#include "kernels/odt/codt.h"
+#include "kernels/optimise/optimise.h"
+
+namespace mw {
+
+struct InnerOptions {
+  CavityLimits limits;
+  /// What later calls will see.  Tets wait for them when the stars of all corners lie in one of
+  /// these boxes: a search that fails is then made once.
+  std::vector<LatticeBox> later;
+  SteinerIds ids;
+};
+
+/// Gives tets that a demand names, and that have all corners on interfaces or the box, a vertex
+/// inside their label.
+///
+/// It replaces, in turn, the tets around one of the edges inside the label, the two at a triangle
+/// inside it, the tet and all such neighbours, or the tet alone: whichever leaves the best worst
+/// radius ratio, if that keeps the limits.  Interfaces stay the same triangles, so labels are the
+/// same point sets and carried samples stay valid.  Tets of fixed vertices may be replaced when all
+/// tets around are loaded, as flips do.
+///
+/// What no cavity can do for within the limits stays as it is: tets in sharp edges and thin parts
+/// of a label, above all those with neighbours of other labels alone.  (Even a regular tet falls
+/// apart into four of radius ratio 0.3.)  With a floor of 0.2 that is a quarter of such tets on
+/// synthetic grains, with one of 0.1 a twentieth.
+///
+/// REQUIRES: as codt().  ENSURES: as codt(); the result depends on content only.
+/// Returns how many vertices are new.
+std::uint64_t add_inner_vertices(TetMesh& mesh, CarriedSamples& samples, Point box,
+                                 const Metric& metric, const InnerDemand& demand,
+                                 const InnerOptions& options);
+
+}  // namespace mw

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Lengths against the limits of both ends and of the label around.
+#include "kernels/size/edge_limits.h"
+
+#include <algorithm>
+
+namespace mw {
+
+bool EdgeLimits::is_within(Point a, Point b, double limit) const {
+  return metric_.vector(a, b).squaredNorm() <= limit * limit;
+}
+
+bool EdgeLimits::star_keeps(LocalVertex v, LocalVertex without, Point x) const {
+  const double at_x = sizes_->at(x);
+  for (const LinkTriangle& t : mesh_.star(v)) {
+    if (t.label == kExterior || t.has(without)) continue;
+    const double limit = std::min(at_x, sizes_->of_label(t.label));
+    for (const LocalVertex w : {t.a, t.b, t.c}) {
+      const Point y = mesh_.position(w);
+      if (!is_within(x, y, std::min(limit, sizes_->at(y)))) return false;
+    }
+  }
+  return true;
+}
+
+bool EdgeLimits::tet_keeps(const LocalTet& tet) const {
+  if (tet.label == kExterior) return true;
+  const double limit = sizes_->of_label(tet.label);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Point a = mesh_.position(tet.vertices[i]);
+    const double at_a = std::min(limit, sizes_->at(a));
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      const Point b = mesh_.position(tet.vertices[j]);
+      if (!is_within(a, b, std::min(at_a, sizes_->at(b)))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace mw

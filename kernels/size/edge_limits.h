@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Refuses edges that a SizeField does not allow.
+#pragma once
+
+#include "kernels/mesh/tet_mesh.h"
+#include "kernels/size/size_field.h"
+
+namespace mw {
+
+/// Tells whether changes of a mesh keep its edges within limits.  A start mesh has none that is too
+/// long, so it is enough to refuse new ones.  Without a field everything is allowed, at no cost.
+class EdgeLimits {
+ public:
+  /// Keeps references; sizes: null, or one that limits().
+  EdgeLimits(const TetMesh& mesh, const Metric& metric, const SizeField* sizes)
+      : mesh_(mesh), metric_(metric), sizes_(sizes) {}
+
+  [[nodiscard]] bool any() const { return sizes_ != nullptr; }
+
+  /// The edges of v's tets at v, were v at x; tets that have the vertex `without` do not count (v
+  /// itself: all count).
+  [[nodiscard]] bool allow_star(LocalVertex v, LocalVertex without, Point x) const {
+    return sizes_ == nullptr || star_keeps(v, without, x);
+  }
+  /// All edges of a tet that could be.
+  [[nodiscard]] bool allow_tet(const LocalTet& tet) const {
+    return sizes_ == nullptr || tet_keeps(tet);
+  }
+
+ private:
+  [[nodiscard]] bool star_keeps(LocalVertex v, LocalVertex without, Point x) const;
+  [[nodiscard]] bool tet_keeps(const LocalTet& tet) const;
+  [[nodiscard]] bool is_within(Point a, Point b, double limit) const;
+
+  const TetMesh& mesh_;
+  const Metric& metric_;
+  const SizeField* sizes_;
+};
+
+}  // namespace mw

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How long edges may be, label by label and place by place.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "kernels/core/index.h"
+#include "kernels/core/label.h"
+#include "kernels/core/metric.h"
+
+namespace mw {
+
+/// Limits on the edges of a mesh: for each label that is listed one of its own, and around it one
+/// that grows with the distance.
+///
+/// The volume is cut into cubes of 8^3 voxels.  At a place in cube C the limit is the least of
+/// H + gradation * d over all listed labels: H is the label's own, d the distance between C and the
+/// nearest cube that has voxels of it (0 for neighbours), from box to box.  So it is never above
+/// H + gradation * distance to the label, and within 8 voxels of the label it is H: labels that
+/// move less stay inside.  An edge keeps to the limits at its ends and to those of the labels
+/// around it.
+///
+/// Lengths are those of a Metric.  Thread safety: const members from many threads.
+/// Memory: 4 bytes a cube; while it is made 16.
+class SizeField {
+ public:
+  static constexpr std::int64_t kCube = 8;
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+  /// Nothing is limited.
+  SizeField() = default;
+  /// label_limits: by dense label; kNoLimit: not listed.  No voxel is known yet.
+  SizeField(Index3 volume, const Metric& metric, std::vector<double> label_limits,
+            double gradation);
+
+  [[nodiscard]] bool limits() const { return !values_.empty(); }
+
+  /// Tells of the voxels of a box, x fastest.  Parts without a common cube may come at once.
+  void add(const Box3& box, std::span<const Label> voxels);
+  /// Finds the limits, once all voxels are known.  Cost: some 50 ns a cube and value in the list.
+  void spread();
+
+  /// The limit at a place in the volume, without those of labels.
+  /// REQUIRES: limits(), spread() was called.
+  [[nodiscard]] double at(Point p) const {
+    return values_[row(cube_at(p.x, cubes_.x), cube_at(p.y, cubes_.y), cube_at(p.z, cubes_.z))];
+  }
+  [[nodiscard]] double of_label(Label label) const {
+    return label < label_limits_.size() ? label_limits_[label] : kNoLimit;
+  }
+  /// May the start mesh have a cell of 2^level voxels there, with edges between any of its corners?
+  /// Single voxels always.
+  [[nodiscard]] bool allows_cell(Index3 lo, int level) const;
+
+ private:
+  static constexpr int kCubeShift = 13;  // units of the lattice
+  static_assert(std::int64_t{1} << kCubeShift == kCube * kUnitsPerVoxel);
+
+  /// The far side of the volume belongs to the last cube.
+  [[nodiscard]] static std::int64_t cube_at(std::int32_t units, std::int64_t cubes) {
+    return std::min<std::int64_t>(units >> kCubeShift, cubes - 1);
+  }
+  [[nodiscard]] std::size_t row(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return static_cast<std::size_t>((z * cubes_.y + y) * cubes_.x + x);
+  }
+
+  Index3 cubes_;
+  Vec3 cube_edges_ = Vec3::Zero();
+  double voxel_diagonal_ = 0.0;
+  std::vector<double> label_limits_;
+  double gradation_ = 0.0;
+  std::vector<float> values_;  ///< by cube, rounded down; before spread() only of its own voxels
+};
+
+}  // namespace mw

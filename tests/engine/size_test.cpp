@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sizes end to end: limits on edges, gradation and inner vertices of whole runs, all promises kept.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "engine/store/run_identity.h"
+#include "engine/voxel_lattice.h"
+#include "kernels/audit/betti.h"
+#include "kernels/audit/quality.h"
+#include "kernels/audit/validity.h"
+#include "kernels/core/each_index.h"
+#include "tests/engine/memory_run.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::test::below;
+using audit::test::random_volume_of;
+using audit::test::VolumeKind;
+using test::expect_same;
+using test::MemoryVolume;
+using test::raw_label;
+using test::run_in_memory;
+using test::small_mesh;
+using test::SmallMesh;
+using test::SmallVolume;
+using test::Trial;
+
+constexpr double kRounding = 1e-9;
+
+std::vector<Label> labels_of(const SmallVolume& volume) {
+  const std::set<Label> all(volume.labels.begin(), volume.labels.end());
+  return {all.begin(), all.end()};
+}
+
+double diagonal_of(const Trial& trial) {
+  const MemoryVolume volume(trial.volume, trial.frame);
+  const Index3 layers = layers_of(volume.info(), trial.settings.surface);
+  const auto& s = trial.frame.spacing;
+  return std::hypot(s[0] / static_cast<double>(layers.x), s[1] / static_cast<double>(layers.y),
+                    s[2] / static_cast<double>(layers.z));
+}
+
+/// Some labels with limits from the least that can be kept to six times that.
+void add_sizes(std::mt19937& random, Trial& trial) {
+  const double least = diagonal_of(trial);
+  for (const Label label : labels_of(trial.volume)) {
+    if (below(random, 2) == 0) continue;
+    trial.settings.sizes.labels.push_back(
+        {raw_label(label), least * (1.0 + 0.05 * below(random, 100))});
+  }
+  trial.settings.sizes.gradation = 0.25 * below(random, 5);
+}
+
+Trial random_sized(std::mt19937& random, int i) {
+  constexpr std::array<std::array<double, 3>, 3> kSpacings{
+      {{1, 1, 1}, {0.5, 0.5, 1.25}, {0.7, 0.5, 0.5}}};
+  constexpr std::array<StartMesh, 4> kStarts{StartMesh::kCoarse, StartMesh::kCoarse,
+                                             StartMesh::kOctree, StartMesh::kDense};
+  const auto kind = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
+  const auto edge = [&] { return std::int64_t{6 + below(random, 22)}; };
+  const Index3 shape{edge(), edge(), edge()};
+  Trial trial{.volume = random_volume_of(random, kind, shape, 2 + below(random, 3)),
+              .settings = {.window = below(random, 2) == 0 ? 8 : 16,
+                           .order = i % 2 == 0 ? Order::kRaster : Order::kColour,
+                           .start = kStarts[below(random, 4)],
+                           .quality_floor = 0.1},
+              .frame = {.spacing = kSpacings[below(random, 3)], .origin = {3, -1, 0}}};
+  if (below(random, 3) == 0) trial.settings.surface = Surface::kVoxel;
+  add_sizes(random, trial);
+  trial.settings.sizes.inner_vertices = below(random, 2) == 0;
+  return trial;
+}
+
+/// How far a place is from a label's voxels.
+double distance_to(const Trial& trial, Label label, const audit::Position& p) {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t i = 0;
+  each_index(trial.volume.shape, [&](Index3 v) {
+    if (trial.volume.labels[i++] != label) return;
+    const std::array<std::int64_t, 3> at{v.x, v.y, v.z};
+    double squared = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double lo =
+          trial.frame.origin[axis] + trial.frame.spacing[axis] * static_cast<double>(at[axis]);
+      const double hi = lo + trial.frame.spacing[axis];
+      const double way = std::max({lo - p[axis], p[axis] - hi, 0.0});
+      squared += way * way;
+    }
+    least = std::min(least, squared);
+  });
+  return std::sqrt(least);
+}
+
+/// The limit at each vertex: what the gradation allows.
+std::vector<double> limits_at_vertices(const Trial& trial, const SmallMesh& mesh) {
+  std::vector<double> out;
+  for (const audit::Position& p : mesh.vertices) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const LabelSize& s : trial.settings.sizes.labels) {
+      const double way = distance_to(trial, test::test_label(s.label), p);
+      least = std::min(least, s.longest_edge + trial.settings.sizes.gradation * way);
+    }
+    out.push_back(least);
+  }
+  return out;
+}
+
+/// Calls visit(tet, row, row, length) for the edges of all tets.
+template <typename Visit>
+void each_edge(const SmallMesh& mesh, Visit visit) {
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const auto a = mesh.tets[t][i], b = mesh.tets[t][j];
+        const auto &p = mesh.vertices[a], &q = mesh.vertices[b];
+        visit(t, a, b, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+      }
+    }
+  }
+}
+
+/// Every edge by brute force; returns the largest share of a label's limit that is used.
+double expect_sizes(const Trial& trial, const SmallMesh& mesh) {
+  std::vector<double> of_label(trial.volume.label_count, std::numeric_limits<double>::infinity());
+  for (const LabelSize& s : trial.settings.sizes.labels) {
+    of_label[test::test_label(s.label)] = s.longest_edge;
+  }
+  const std::vector<double> at = limits_at_vertices(trial, mesh);
+  double most = 0.0;
+  each_edge(mesh, [&](std::size_t t, auto a, auto b, double length) {
+    const double limit = of_label[mesh.labels[t]];
+    EXPECT_LE(length, limit * (1 + kRounding));
+    EXPECT_LE(length, std::min(at[a], at[b]) * (1 + kRounding));
+    most = std::max(most, length / limit);
+  });
+  return most;
+}
+
+void expect_promises(const Trial& trial, const SmallMesh& mesh) {
+  const std::size_t n = trial.volume.label_count;
+  const auto expected = voxel_betti(trial.volume.view(), n);
+  const auto actual = mesh_betti(mesh.view(), n);
+  for (std::size_t label = 0; label <= n; ++label) EXPECT_TRUE(actual[label] == expected[label]);
+  const auto report = check_validity(mesh.view(), trial.volume.view(), trial.frame, n);
+  for (const audit::Check& c : report.checks) EXPECT_TRUE(c.passed) << c.name << ": " << c.detail;
+  EXPECT_GE(measure_quality(mesh.view()).radius_ratio_min,
+            trial.settings.quality_floor - kRounding);
+}
+
+TEST(Sizes, AreKeptByEveryEdgeWithAllPromises) {
+  std::mt19937 random(2401);
+  int used = 0, listed = 0;
+  for (int i = 0; i < 24 && !HasFailure(); ++i) {
+    const Trial trial = random_sized(random, i);
+    SCOPED_TRACE(trial.text());
+    const SmallMesh mesh = small_mesh(run_in_memory(trial));
+    expect_promises(trial, mesh);
+    const double most = expect_sizes(trial, mesh);
+    listed += trial.settings.sizes.labels.empty() ? 0 : 1;
+    used += most > 0.8 ? 1 : 0;
+  }
+  EXPECT_GT(listed, 12);
+  EXPECT_GT(used, listed / 2) << "the limits hardly matter";
+}
+
+TEST(Sizes, MakeTheSameMeshOnAnyNumberOfThreads) {
+  std::mt19937 random(2402);
+  for (int i = 0; i < 4 && !HasFailure(); ++i) {
+    Trial trial = random_sized(random, i);
+    trial.settings.sizes.inner_vertices = true;
+    SCOPED_TRACE(trial.text());
+    expect_same(run_in_memory(trial, {.threads = 3}), run_in_memory(trial));
+  }
+}
+
+/// Tets of these labels with all corners on interfaces or the box.
+std::size_t count_lacking(const SmallMesh& mesh, const Trial& trial) {
+  std::vector<std::set<Label>> around(mesh.vertices.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (const auto v : mesh.tets[t]) around[v].insert(mesh.labels[t]);
+  }
+  const auto on_box = [&](const audit::Position& p) {
+    const std::array<std::int64_t, 3> shape{trial.volume.shape.x, trial.volume.shape.y,
+                                            trial.volume.shape.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double from = p[axis] - trial.frame.origin[axis];
+      const double end = trial.frame.spacing[axis] * static_cast<double>(shape[axis]);
+      if (from < kRounding || from > end - kRounding) return true;
+    }
+    return false;
+  };
+  std::size_t lacking = 0;
+  for (const auto& tet : mesh.tets) {
+    lacking += std::all_of(tet.begin(), tet.end(), [&](auto v) {
+      return around[v].size() > 1 || on_box(mesh.vertices[v]);
+    });
+  }
+  return lacking;
+}
+
+TEST(InnerVerticesOfARun, AreThereForMostTets) {
+  std::mt19937 random(2403);
+  std::size_t without = 0, with = 0;
+  for (int i = 0; i < 10 && !HasFailure(); ++i) {
+    Trial trial{.volume = random_volume_of(random, VolumeKind::kBlobs, {20, 18, 22}, 4),
+                .settings = {.window = 16, .quality_floor = 0.1},
+                .frame = {}};
+    without += count_lacking(small_mesh(run_in_memory(trial)), trial);
+    trial.settings.sizes.inner_vertices = true;
+    SCOPED_TRACE(trial.text());
+    const SmallMesh mesh = small_mesh(run_in_memory(trial));
+    expect_promises(trial, mesh);
+    with += count_lacking(mesh, trial);
+  }
+  EXPECT_LT(with, without / 3) << without;
+}
+
+TEST(Sizes, AreRefusedWhereTheyCannotBeKept) {
+  std::mt19937 random(2404);
+  Trial trial{.volume = random_volume_of(random, VolumeKind::kBlobs, {8, 8, 8}, 2),
+              .settings = {},
+              .frame = {}};
+  const auto expect_refused = [&](const std::vector<LabelSize>& labels, const char* piece) {
+    trial.settings.sizes.labels = labels;
+    try {
+      run_in_memory(trial);
+      FAIL() << piece;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      EXPECT_NE(std::string(error.what()).find(piece), std::string::npos) << error.what();
+    }
+  };
+  const RawLabel known = raw_label(trial.volume.labels[0]);
+  expect_refused({{known, 1.7}}, "1.74 can be kept");
+  expect_refused({{known, 3.0}, {known, 4.0}}, "once");
+  expect_refused({{known, 0.0}}, "positive");
+  expect_refused({{5, 3.0}}, "no label 5");
+  trial.settings.sizes.gradation = -1;
+  expect_refused({{known, 3.0}}, "gradation");
+}
+
+TEST(Sizes, BelongToWhatARunIs) {
+  const io::VolumeInfo volume;
+  std::set<std::string> texts;
+  MeshSettings settings;
+  texts.insert(identity_text(volume, settings));
+  settings.sizes.inner_vertices = true;
+  texts.insert(identity_text(volume, settings));
+  settings.sizes.labels = {{3, 2.0}};
+  texts.insert(identity_text(volume, settings));
+  settings.sizes.inner_vertices = false;
+  texts.insert(identity_text(volume, settings));
+  settings.sizes.labels = {{3, 2.5}};
+  texts.insert(identity_text(volume, settings));
+  settings.sizes.gradation = 1.0;
+  texts.insert(identity_text(volume, settings));
+  EXPECT_EQ(texts.size(), 6U);
+}
+
+}  // namespace
+}  // namespace mw::engine

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Limits on edges against their definition, cube by cube.
+#include "kernels/size/size_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "kernels/core/each_index.h"
+#include "tests/oracle/small_volumes.h"
+
+namespace mw::test {
+namespace {
+
+using audit::test::below;
+using audit::test::SmallVolume;
+using audit::test::volume_from;
+
+constexpr std::int64_t kCube = SizeField::kCube;
+
+/// A volume with few voxels of labels above 0, and limits on some of them.
+struct Case {
+  SmallVolume volume;
+  Metric metric;
+  std::vector<double> limits;
+  double gradation = 0.0;
+
+  [[nodiscard]] SizeField field() const {
+    SizeField out(volume.shape, metric, limits, gradation);
+    out.add({{0, 0, 0}, volume.shape}, volume.labels);
+    out.spread();
+    return out;
+  }
+  [[nodiscard]] Label label_at(Index3 v) const {
+    return volume.labels[static_cast<std::size_t>(Box3{{0, 0, 0}, volume.shape}.offset(v))];
+  }
+};
+
+Case random_case(std::mt19937& random) {
+  constexpr std::array<std::array<double, 3>, 3> kSpacings{{{1, 1, 1}, {1, 1, 2.5}, {3, 1, 2}}};
+  const auto edge = [&] { return std::int64_t{5 + below(random, 70)}; };
+  const Index3 shape{edge(), edge(), edge()};
+  const auto labels = 2 + below(random, 5);
+  Case out{.volume = volume_from(shape, labels,
+                                 [&](auto, auto, auto) {
+                                   return below(random, 3000) == 0 ? below(random, labels) : 0U;
+                                 }),
+           .metric = Metric(kSpacings[below(random, 3)]),
+           .limits = {SizeField::kNoLimit},
+           .gradation = 0.1 * below(random, 20)};
+  for (std::uint32_t i = 1; i < labels; ++i) {
+    out.limits.push_back(below(random, 4) == 0 ? SizeField::kNoLimit : 2 + 0.7 * below(random, 20));
+  }
+  return out;
+}
+
+Index3 cube_of(const Case& c, Point p) {
+  const auto along = [](std::int32_t u, std::int64_t voxels) {
+    return std::min<std::int64_t>(u / kUnitsPerVoxel, voxels - 1) / kCube;
+  };
+  return {along(p.x, c.volume.shape.x), along(p.y, c.volume.shape.y), along(p.z, c.volume.shape.z)};
+}
+
+/// The definition: every voxel is looked at.
+double defined_at(const Case& c, Point p) {
+  const Index3 here = cube_of(c, p);
+  const Vec3 edges = c.metric.voxel() * kCube;
+  const auto gap = [](std::int64_t a, std::int64_t b) {
+    return static_cast<double>(std::max<std::int64_t>(std::abs(a - b) - 1, 0));
+  };
+  double least = SizeField::kNoLimit;
+  each_index(c.volume.shape, [&](Index3 v) {
+    const double limit = c.limits[c.label_at(v)];
+    if (limit == SizeField::kNoLimit) return;
+    const Vec3 gaps{gap(here.x, v.x / kCube) * edges[0], gap(here.y, v.y / kCube) * edges[1],
+                    gap(here.z, v.z / kCube) * edges[2]};
+    least = std::min(least, limit + c.gradation * gaps.norm());
+  });
+  return least;
+}
+
+Point random_place(std::mt19937& random, Index3 shape) {
+  const auto along = [&](std::int64_t voxels) {
+    return static_cast<std::int32_t>(
+        below(random, static_cast<std::uint32_t>(voxels * kUnitsPerVoxel + 1)));
+  };
+  return {along(shape.x), along(shape.y), along(shape.z)};
+}
+
+TEST(SizeField, IsWhatItsDefinitionSays) {
+  std::mt19937 random(2201);
+  int limited = 0;
+  for (int i = 0; i < 30 && !HasFailure(); ++i) {
+    const Case c = random_case(random);
+    const SizeField field = c.field();
+    for (int k = 0; k < 8; ++k) {
+      const Point p = random_place(random, c.volume.shape);
+      const double expected = defined_at(c, p);
+      if (expected == SizeField::kNoLimit) {
+        EXPECT_EQ(field.at(p), expected);
+        continue;
+      }
+      ++limited;
+      EXPECT_LE(field.at(p), expected * (1 + 1e-12));
+      EXPECT_GE(field.at(p), expected * (1 - 1e-6));
+    }
+  }
+  EXPECT_GT(limited, 100);
+}
+
+TEST(SizeField, AllowsCellsWhoseDiagonalFitsAtAllTheirCorners) {
+  std::mt19937 random(2202);
+  std::array<int, 2> seen{};
+  for (int i = 0; i < 40 && !HasFailure(); ++i) {
+    const Case c = random_case(random);
+    const SizeField field = c.field();
+    for (int k = 0; k < 20; ++k) {
+      const int level = 1 + static_cast<int>(below(random, 4));
+      const auto units = std::int32_t{kUnitsPerVoxel << level};
+      Point lo = random_place(random, c.volume.shape);
+      lo = {lo.x / units * units, lo.y / units * units, lo.z / units * units};
+      const Point hi{lo.x + units, lo.y + units, lo.z + units};
+      if (hi.x > c.volume.shape.x * kUnitsPerVoxel || hi.y > c.volume.shape.y * kUnitsPerVoxel ||
+          hi.z > c.volume.shape.z * kUnitsPerVoxel) {
+        continue;
+      }
+      double least = SizeField::kNoLimit;
+      each_index(Index3{3, 3, 3}, [&](Index3 at) {
+        least = std::min(least, field.at({lo.x + static_cast<std::int32_t>(at.x) * units / 2,
+                                          lo.y + static_cast<std::int32_t>(at.y) * units / 2,
+                                          lo.z + static_cast<std::int32_t>(at.z) * units / 2}));
+      });
+      const bool fits = c.metric.vector(lo, hi).norm() <= least;
+      const Index3 voxel{lo.x / kUnitsPerVoxel, lo.y / kUnitsPerVoxel, lo.z / kUnitsPerVoxel};
+      EXPECT_EQ(field.allows_cell(voxel, level), fits);
+      EXPECT_TRUE(field.allows_cell(voxel, 0));
+      ++seen[fits ? 1 : 0];
+    }
+  }
+  EXPECT_GT(seen[0], 40);
+  EXPECT_GT(seen[1], 40);
+}
+
+}  // namespace
+}  // namespace mw::test
