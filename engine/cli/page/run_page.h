@@ -10,15 +10,12 @@
 
 namespace mw::cli {
 
-/// What a page takes in memory beside the mesh's lists, at most: samples of a picture, or the
-/// triangles of the view.
-inline constexpr std::uint64_t kPageBytes = 80 << 20;
-
 /// Writes the page and gives the file its name.  report: run_report(run).
 /// It holds figures, charts, pictures, and the surfaces of the largest labels (ViewData), and says
 /// what it leaves out; 20 MB at most.  Nothing in it asks a network.
-/// REQUIRES: mesh is the one that the run wrote.  Memory: kPageBytes, and 40 bytes a label.
-/// ERRORS: those of file and mesh.
+/// REQUIRES: mesh is the one that the run wrote.  Memory: beside the mesh's lists 80 MiB (samples
+/// of a picture, then the triangles of the view), and 40 bytes a label. ERRORS: those of file and
+/// mesh.
 void write_run_page(io::AtomicFile& file, const FinishedRun& run, io::GroupedMesh& mesh,
                     const nlohmann::ordered_json& report);
 
