@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "io/mesh/tet_volume.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -17,19 +18,6 @@ using FaceRecord = std::array<std::uint64_t, 4>;
 /// Two ascending rows, the third row of the triangle doubled and odd when its wing is turned, and
 /// the two labels.
 using EdgeRecord = std::array<std::uint64_t, 5>;
-
-/// Six times the signed volume.
-double determinant(const Position& a, const Position& b, const Position& c, const Position& d) {
-  std::array<Position, 3> e{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    e[0][k] = b[k] - a[k];
-    e[1][k] = c[k] - a[k];
-    e[2][k] = d[k] - a[k];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
 
 std::array<std::uint64_t, 3> rows_of(const FaceRecord& face) {
   return {face[0], face[1], face[2] >> 1};
@@ -85,7 +73,7 @@ void ShapeSink::add_tet(const io::TetRows& tet, RawLabel label) {
                                        std::to_string(positions_.size()));
   }
   const auto [a, b, c, d] = rows;
-  const double volume6 = determinant(positions_[a], positions_[b], positions_[c], positions_[d]);
+  const double volume6 = io::volume6(positions_[a], positions_[b], positions_[c], positions_[d]);
   volumes_[label].add(std::abs(volume6) / 6);
   // The normal of a b c points at d, into the tet, when that is positive; with each swap it turns.
   const std::uint64_t positive = volume6 > 0 ? 1 : 0;

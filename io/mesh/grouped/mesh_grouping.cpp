@@ -7,6 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/sink_counts.h"
+#include "io/mesh/tet_volume.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -15,19 +16,6 @@ namespace {
 /// The corners of the facet opposite to each corner of a positive tet, normal outwards.
 constexpr std::array<std::array<std::size_t, 3>, 4> kFacets{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
-/// Six times the signed volume.
-double determinant(const Position& a, const Position& b, const Position& c, const Position& d) {
-  std::array<Position, 3> e{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    e[0][k] = b[k] - a[k];
-    e[1][k] = c[k] - a[k];
-    e[2][k] = d[k] - a[k];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
 
 /// Rows of a facet that lie together: by which the two tets of a triangle find each other.
 std::array<std::uint64_t, 3> key_of(const std::array<std::uint64_t, 4>& face) {
@@ -121,7 +109,7 @@ void MeshGrouping::place_tet(TetRows tet, Faces& faces) {
     }
   }
   const auto at = [&](std::size_t corner) { return mesh_.vertices_[tet[corner]]; };
-  if (determinant(at(0), at(1), at(2), at(3)) < 0) std::swap(tet[2], tet[3]);
+  if (volume6(at(0), at(1), at(2), at(3)) < 0) std::swap(tet[2], tet[3]);
   const std::uint64_t number = mesh_.tets_.size();
   mesh_.tets_.append(tet);
   for (std::uint64_t opposite = 0; opposite < 4; ++opposite) {

@@ -68,7 +68,7 @@ inline MeshData touching_mesh(unsigned seed) {
   if (seed % 2 == 1) {
     for (RawLabel& label : mesh.labels) label = random() % 3;
   }
-  mesh.box = MeshBox{.edges = {{{4, 0, 0}, {0, 3, 0}, {0, 0, 3}}}};
+  mesh.record.box = MeshBox{.edges = {{{4, 0, 0}, {0, 3, 0}, {0, 0, 3}}}};
   if (seed % 3 != 0) return mesh;
   for (std::size_t i = 0; i < mesh.tets.size(); i += 1 + random() % 9) {
     mesh.tets.erase(mesh.tets.begin() + static_cast<std::ptrdiff_t>(i));

@@ -195,7 +195,7 @@ TEST(GroupedMesh, SidesOfATurnedBoxFarAway) {
   };
   for (Position& p : mesh.vertices) p = turn(p);
   mesh.record.box = MeshBox{.origin = turn({0, 0, 0}),
-                     .edges = {{{3 * c, 3 * s, 0}, {-2 * s, 2 * c, 0}, {0, 0, 2}}}};
+                            .edges = {{{3 * c, 3 * s, 0}, {-2 * s, 2 * c, 0}, {0, 0, 2}}}};
   const TempDir dir;
   GroupedSink sink(dir.path(), nullptr);
   std::array<std::uint64_t, kSides> facets{};
