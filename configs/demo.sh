@@ -56,7 +56,7 @@ print_table() {
 
 main() {
   local input name bound verdict=0 names=()
-  bash "$root/configs/setup.sh"
+  bash "$root/configs/setup.sh" program
   input="${1:-$(find_atlas)}"
   name="demo/$(stem "$input")"
   mkdir -p demo

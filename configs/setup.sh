@@ -2,7 +2,10 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that are missing and builds build/release.  Quiet unless it fails.
+# Usage: setup.sh [program|all].  program: without tests and benchmarks, and what only they need.
 set -euo pipefail
+
+what="${1:-all}"
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 log="$(mktemp)"
@@ -21,7 +24,9 @@ quietly() {
 }
 
 wanted_packages() {
-  sed 's/#.*//' "$root/configs/packages.txt" | tr -s ' \t' '\n' | sed '/^$/d'
+  local lists=("$root/configs/packages.txt")
+  [[ "$what" == program ]] || lists+=("$root/configs/test-packages.txt")
+  sed 's/#.*//' "${lists[@]}" | tr -s ' \t' '\n' | sed '/^$/d'
 }
 
 is_installed() {
@@ -47,7 +52,7 @@ as_root() {
 install_packages() {
   local missing
   if ! command -v dpkg-query >/dev/null; then
-    echo "setup: no dpkg here; going on without installing what configs/packages.txt lists" >&2
+    echo "setup: no dpkg here; going on without installing what configs/packages.txt and test-packages.txt list" >&2
     return
   fi
   mapfile -t missing < <(missing_packages)
@@ -63,11 +68,14 @@ install_packages() {
 }
 
 build() {
+  local tests=ON
+  [[ "$what" == program ]] && tests=OFF
   cd "$root"
   echo "setup: building build/release"
-  quietly cmake --preset release || die "cmake failed (see above)"
+  quietly cmake --preset release -DMW_BUILD_TESTS=$tests -DMW_BUILD_BENCH=$tests || die "cmake failed (see above)"
   quietly cmake --build --preset release --parallel 2 || die "the build failed (see above)"
 }
 
+[[ "$what" == program || "$what" == all ]] || die "'$what' is neither program nor all"
 install_packages
 build
