@@ -24,6 +24,8 @@ def read(path):
     head, start = _head(data, path)
     arrays = {}
     for node in head.iter("DataArray"):
+        if node.get("format") != "appended":
+            continue  # field data
         arrays[node.get("Name")] = _array(data, start + int(node.get("offset")), node.get("type"))
     return Mesh(
         points=arrays["Points"].reshape(-1, 3),
