@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/file/errors.h"
 #include "kernels/core/face_sample.h"
+#include "kernels/core/lattice.h"
 #include "kernels/core/layers.h"
 #include "kernels/lattice/start_quality.h"
 
@@ -81,6 +83,45 @@ void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
                        std::ceil(scale * least) / scale, " can be kept"));
 }
 
+/// Largest absolute coordinate of the box.
+double farthest_coordinate(const io::VolumeInfo& volume) {
+  double farthest = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto end = [&](int axis, std::int64_t voxels) {
+      return (corner >> axis & 1) != 0 ? static_cast<double>(voxels) : 0.0;
+    };
+    const io::Vector3 place = to_world(
+        volume.space, {end(0, volume.shape.x), end(1, volume.shape.y), end(2, volume.shape.z)});
+    // A NaN stays, whatever comes behind it.
+    for (const double x : place) farthest = std::abs(x) <= farthest ? farthest : std::abs(x);
+  }
+  return farthest;
+}
+
+/// Meshes are written in double: points of the lattice must stay apart there with room for the
+/// shapes of tets between them, and volumes of lengths must be numbers.
+void check_coordinates(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  constexpr double kSmallest = 1e-30;
+  constexpr double kLargest = 1e30;
+  constexpr double kUnitsInLastPlace = 256;
+  const double farthest = farthest_coordinate(volume);
+  const auto voxel = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
+  const double least = std::min({voxel[0], voxel[1], voxel[2]});
+  if (!(farthest <= kLargest) || least < kSmallest) {
+    throw Error(ErrorKind::kInput,
+                io::text("spacing and origin give coordinates up to ", farthest, " and voxels of ",
+                         least, "; they can be from ", kSmallest, " to ", kLargest,
+                         ": set --spacing and --origin, or another unit"));
+  }
+  const double step = least / static_cast<double>(kUnitsPerVoxel);
+  const double most = step / (kUnitsInLastPlace * std::numeric_limits<double>::epsilon());
+  if (farthest <= most) return;
+  throw Error(ErrorKind::kInput, io::text("coordinates reach ", farthest,
+                                          ", where numbers are too far apart for voxels of ", least,
+                                          "; with these they can reach ", most,
+                                          ": set --origin nearer to 0, or a larger --spacing"));
+}
+
 }  // namespace
 
 Index3 layers_of(const io::VolumeInfo& volume, Surface surface) {
@@ -96,6 +137,7 @@ VoxelLattice::VoxelLattice(const io::DenseVolume& volume, Surface surface)
 void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
   check(settings);
   check_shape(volume.shape, layers_of(volume, settings.surface));
+  check_coordinates(volume, settings);
   check_floor(volume, settings);
   check_sizes(volume, settings);
 }

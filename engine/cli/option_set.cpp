@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "engine/cli/environment.h"
@@ -44,7 +43,12 @@ std::string content_of(const std::filesystem::path& path) {
   if (!file || std::filesystem::is_directory(path, ignored)) {
     refuse(path.string(), ": cannot read this config file");
   }
-  return {std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t kMostBytes = 1 << 20;
+  std::string content(kMostBytes + 1, '\0');
+  file.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(file.gcount()));
+  if (content.size() <= kMostBytes) return content;
+  refuse(path.string(), ": is no config file: it has more than 1 MiB");
 }
 
 std::string line_of(const std::string& file, const toml::source_region& source) {

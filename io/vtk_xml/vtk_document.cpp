@@ -4,6 +4,7 @@
 #include "io/vtk_xml/vtk_document.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "io/file/errors.h"
 
@@ -100,6 +101,22 @@ pugi::xml_node VtkDocument::grid() const {
   return xml_.child("VTKFile").child(kind_.type);
 }
 
+std::uint64_t VtkDocument::number(pugi::xml_node node, const char* attribute,
+                                  std::optional<std::uint64_t> fallback) const {
+  const pugi::xml_attribute found = node.attribute(attribute);
+  if (!found && fallback) return *fallback;
+  std::string_view digits = found.as_string();
+  digits.remove_prefix(std::min(digits.find_first_not_of(' '), digits.size()));
+  digits.remove_suffix(digits.size() - (digits.find_last_not_of(' ') + 1));
+  std::uint64_t value = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  if (found && error == std::errc() && stop == end) return value;
+  fail_input(file(), text(node.name(), " ", attribute),
+             found ? text("'", digits.substr(0, 40), "' is no whole number") : "missing",
+             "the file is damaged");
+}
+
 /// Reads from there to the end once; positions in it are the arrays' offsets.
 std::string_view VtkDocument::appended_text() {
   if (appended_text_.empty()) {
@@ -115,7 +132,7 @@ std::unique_ptr<ByteStream> VtkDocument::stream_of(pugi::xml_node array, const A
   if (format == "binary") {
     return std::make_unique<Base64Stream>(array.text().get(), name.file);
   }
-  const std::uint64_t offset = array.attribute("offset").as_ullong();
+  const std::uint64_t offset = number(array, "offset", 0);
   if (format != "appended" || !appended_ || offset > source_.size() - appended_start_) {
     fail_input(name.file, text("array '", name.array, "'"),
                text("format '", format, "' with no data at offset ", offset));

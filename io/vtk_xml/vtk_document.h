@@ -25,6 +25,9 @@ class VtkDocument {
   VtkDocument(const ByteSource& source, VtkKind kind);
 
   [[nodiscard]] pugi::xml_node grid() const;
+  /// The attribute as a whole number; without it the fallback, if there is one.
+  [[nodiscard]] std::uint64_t number(pugi::xml_node node, const char* attribute,
+                                     std::optional<std::uint64_t> fallback = {}) const;
   [[nodiscard]] const std::string& file() const { return source_.name(); }
   /// REQUIRES: array is a DataArray of the document.
   [[nodiscard]] std::vector<std::uint64_t> integers(pugi::xml_node array, std::uint64_t count);

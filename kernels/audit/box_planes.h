@@ -3,16 +3,19 @@
 // The box of a volume: its planes and corners, with room for other tools' rounding.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "kernels/audit/subject.h"
 
 namespace mw::audit {
 
-/// The six planes of [origin, origin + shape * spacing], as computed in double.
+/// The six planes of [origin, origin + shape * spacing], as computed in double.  Points are on one
+/// within 1e-9 of the extent, or what rounding does to coordinates so far from 0 if that is more.
 class BoxPlanes {
  public:
   BoxPlanes(const Frame& frame, Index3 shape) {
@@ -20,12 +23,19 @@ class BoxPlanes {
     for (std::size_t k = 0; k < 3; ++k) {
       const double extent = static_cast<double>(count[k]) * frame.spacing[k];
       planes_[k] = {frame.origin[k], frame.origin[k] + extent};
-      tolerance_[k] = kTolerance * extent;
+      const double farthest = std::max(std::abs(planes_[k][0]), std::abs(planes_[k][1]));
+      const double rounding = kUnitsInLastPlace * std::numeric_limits<double>::epsilon() * farthest;
+      tolerance_[k] = std::max(kTolerance * extent, rounding);
       volume_ *= extent;
+      volume_rounding_ += 2 * rounding / extent;
     }
+    volume_rounding_ *= volume_;
   }
 
   [[nodiscard]] double volume() const { return volume_; }
+  /// By how much volumes inside may sum up to something else because coordinates are rounded: all
+  /// points of each plane off by kUnitsInLastPlace.
+  [[nodiscard]] double volume_rounding() const { return volume_rounding_; }
 
   [[nodiscard]] bool contains(const Position& p) const {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -63,6 +73,8 @@ class BoxPlanes {
 
  private:
   static constexpr double kTolerance = 1e-9;
+  /// Three products and sums make a coordinate; other tools have some of their own.
+  static constexpr double kUnitsInLastPlace = 8;
 
   [[nodiscard]] bool is_on(const Position& p, std::size_t axis, std::size_t end) const {
     return std::abs(p[axis] - planes_[axis][end]) <= tolerance_[axis];
@@ -71,6 +83,7 @@ class BoxPlanes {
   std::array<std::array<double, 2>, 3> planes_{};
   std::array<double, 3> tolerance_{};
   double volume_ = 1;
+  double volume_rounding_ = 0;
 };
 
 }  // namespace mw::audit

@@ -211,7 +211,7 @@ class ValidityAudit {
     report_.box_volume = box_.volume();
     const double excess = report_.volume - report_.box_volume;
     const double error = has_gaps() ? excess : std::abs(excess);
-    conclude("volume", error <= kVolumeTolerance * report_.box_volume,
+    conclude("volume", error <= kVolumeTolerance * report_.box_volume + box_.volume_rounding(),
              "tets " + number(report_.volume) + ", box " + number(report_.box_volume));
   }
 

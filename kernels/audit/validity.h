@@ -36,15 +36,14 @@ struct ValidityReport {
 /// is looked at), "P2 orientation" (all strictly positive, exactly), "P2 vertices" (no two at one
 /// position, each in a tet), "P2 tets" (none twice), "P2 faces" (two tets on opposite sides, or one
 /// and on a plane of the box), "P2 box" (all vertices inside, all corners there), "P2 volume" (sum
-/// equals the box's to 1e-9), "P2 labels" (the mesh's are the volume's).  Together they prove a
-/// partition: faces that pair up on opposite sides cover the inside of the box equally often
-/// everywhere, and the volume says once. Of a mesh from which labels were left out, triangles of
-/// one tet may be anywhere, corners may be missing, the volume is at most the box's, and the labels
-/// are those that are kept.  What the volume proves is then sampled: "P2 overlap" (check_overlap).
-/// Planes and corners are those of the frame in double, to 1e-9 of the box's extent, since other
-/// tools round.
-/// REQUIRES: labels of the volume < label_count.  Memory: 17 bytes a tet, 50 a vertex.
-/// Deterministic.
+/// equals the box's to 1e-9, and the rounding of coordinates), "P2 labels" (the mesh's are the
+/// volume's).  Together they prove a partition: faces that pair up on opposite sides cover the
+/// inside of the box equally often everywhere, and the volume says once. Of a mesh from which
+/// labels were left out, triangles of one tet may be anywhere, corners may be missing, the volume
+/// is at most the box's, and the labels are those that are kept.  What the volume proves is then
+/// sampled: "P2 overlap" (check_overlap). Planes and corners are those of the frame in double, to
+/// 1e-9 of the box's extent, since other tools round (box_planes.h). REQUIRES: labels of the volume
+/// < label_count.  Memory: 17 bytes a tet, 50 a vertex. Deterministic.
 [[nodiscard]] ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume,
                                             const Frame& frame, std::size_t label_count,
                                             const KeptLabels& kept = {});

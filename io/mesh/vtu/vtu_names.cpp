@@ -28,8 +28,8 @@ pugi::xml_node find_array(pugi::xml_node fields, const char* element, const char
   return {};
 }
 
-std::uint64_t tuples_of(pugi::xml_node array) {
-  return array.attribute("NumberOfTuples").as_ullong();
+std::uint64_t tuples_of(pugi::xml_node array, const VtkDocument& document) {
+  return document.number(array, "NumberOfTuples");
 }
 
 bool is_integer(pugi::xml_node array) {
@@ -79,11 +79,11 @@ LabelNames read_vtu_names(VtkDocument& document) {
   const pugi::xml_node names = find_array(fields, "Array", kLabelName);
   const pugi::xml_node colours = find_array(fields, "DataArray", kLabelColour);
   if (!ids || !names || !is_integer(ids)) return {};
-  FieldNames read{.ids = document.integers(ids, tuples_of(ids)),
+  FieldNames read{.ids = document.integers(ids, tuples_of(ids, document)),
                   .names = document.strings(names),
                   .colours = {}};
-  if (is_integer(colours) && colours.attribute("NumberOfComponents").as_int() == 4) {
-    read.colours = document.integers(colours, 4 * tuples_of(colours));
+  if (is_integer(colours) && document.number(colours, "NumberOfComponents", 1) == 4) {
+    read.colours = document.integers(colours, 4 * tuples_of(colours, document));
   }
   return names_of(read, document.file());
 }
@@ -92,7 +92,7 @@ MeshRecord read_vtu_record(VtkDocument& document) {
   const pugi::xml_node array =
       find_array(document.grid().child("FieldData"), "DataArray", kRecordName);
   if (!is_integer(array)) return {};
-  const std::vector<std::uint64_t> codes = document.integers(array, tuples_of(array));
+  const std::vector<std::uint64_t> codes = document.integers(array, tuples_of(array, document));
   std::string value(codes.size(), '\0');
   std::transform(codes.begin(), codes.end(), value.begin(),
                  [](std::uint64_t code) { return static_cast<char>(code); });

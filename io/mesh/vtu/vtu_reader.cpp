@@ -19,8 +19,10 @@ namespace {
 constexpr std::uint64_t kMaxRows = std::uint64_t{1} << 56;
 
 std::uint64_t count_of(pugi::xml_node piece, const char* attribute, const VtkDocument& document) {
-  const std::uint64_t count = piece.attribute(attribute).as_ullong(kMaxRows);
-  if (count >= kMaxRows) fail_input(document.file(), attribute, "missing or not credible");
+  const std::uint64_t count = document.number(piece, attribute);
+  if (count >= kMaxRows) {
+    fail_input(document.file(), attribute, text(count, " is not credible"), "the file is damaged");
+  }
   return count;
 }
 
@@ -30,15 +32,16 @@ pugi::xml_node named_array(pugi::xml_node parent, const char* name, const VtkDoc
   return array;
 }
 
-bool is_integer_scalar(pugi::xml_node array) {
+bool is_integer_scalar(pugi::xml_node array, const VtkDocument& document) {
   const auto type = parse_number_type(array.attribute("type").as_string());
-  return type && !type->is_float && array.attribute("NumberOfComponents").as_int(1) == 1;
+  return type && !type->is_float && document.number(array, "NumberOfComponents", 1) == 1;
 }
 
 pugi::xml_node label_array(pugi::xml_node cell_data, const VtkDocument& document) {
   std::vector<std::string> integers;
   for (const pugi::xml_node array : cell_data.children("DataArray")) {
-    if (is_integer_scalar(array)) integers.emplace_back(array.attribute("Name").as_string());
+    if (is_integer_scalar(array, document))
+      integers.emplace_back(array.attribute("Name").as_string());
   }
   const std::string* name = choose_label(integers);
   if (name == nullptr) {
@@ -53,7 +56,7 @@ void read_points(pugi::xml_node piece, VtkDocument& document, MeshData& mesh) {
   const std::uint64_t count = count_of(piece, "NumberOfPoints", document);
   const pugi::xml_node array = piece.child("Points").child("DataArray");
   if (!array && count == 0) return;
-  if (!array || array.attribute("NumberOfComponents").as_int(3) != 3) {
+  if (!array || document.number(array, "NumberOfComponents", 3) != 3) {
     fail_input(document.file(), "Points", "missing or not of 3 components");
   }
   const std::vector<double> x = document.reals(array, count * 3);

@@ -73,6 +73,12 @@ TEST_F(ConfigTest, NamesFileLineAndKey) {
   expect_failure(2, "mesh --print-config --config .", "cannot read this config file");
 }
 
+TEST_F(ConfigTest, WhatHasNoEndIsNoConfigFile) {
+  expect_failure(2, "mesh v.npy -o v.vtu --config /dev/zero", "/dev/zero");
+  write("long.toml", std::string((1 << 20) + 1, '#'));
+  expect_failure(2, "mesh v.npy -o v.vtu --config long.toml", "long.toml");
+}
+
 TEST_F(ConfigTest, DefaultTomlSaysTheDefaults) {
   const std::string file = MW_SOURCE_DIR "/configs/default.toml";
   const ProgramRun with_file = run("mesh --print-config --config " + file);

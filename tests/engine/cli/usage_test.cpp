@@ -120,5 +120,22 @@ TEST_F(UsageTest, EndsWith130AndCleanWhenInterrupted) {
                  "interrupted", "timeout --foreground --preserve-status -s INT 1");
 }
 
+/// Points of the lattice are told apart in what is written, or the run is refused; up to what the
+/// message says it works.
+TEST_F(UsageTest, CoordinatesThatCannotBeToldApart) {
+  expect_done("synth spheres --shape 12,12,12 --labels 2 --seed 1 -o v.npy");
+  expect_failure(3, "mesh v.npy -o v.vtu --origin=4e15,4e15,4e15", "--origin nearer to 0");
+  expect_failure(3, "mesh v.npy -o v.vtu --spacing 1e300,1e300,1e300", "1e+30");
+  expect_failure(3, "mesh v.npy -o v.vtu --spacing 5e-324,1,1 --surface voxel --quality-floor 0",
+                 "1e-30");
+  expect_failure(3, "mesh v.npy -o v.vtu --spacing 4e-9,4e-9,4e-9 --origin=100,0,0", "can reach");
+  for (const std::string place :
+       {"--origin=1.7e10,-1.7e10,1.7e10", "--spacing 4e-9,4e-9,4e-9 --origin=0.5,-50,0.5",
+        "--spacing 1e-30,1e-30,1e-30", "--spacing 1e28,1e28,1e28"}) {
+    expect_done("mesh v.npy -o v.vtu " + place);
+    expect_done("verify v.npy v.vtu " + place);
+  }
+}
+
 }  // namespace
 }  // namespace mw::cli

@@ -177,5 +177,36 @@ TEST(VtuVariants, RefusesWhatIsBrokenOrNoTetMesh) {
   refuse("\x78\x9c", "\x78\x9d", {"a.vtu", "zlib"}, "appended");
 }
 
+/// Every number is read whole, or the file is refused.
+TEST(Vtu, NumbersThatAreNone) {
+  const TempDir dir;
+  for (const Style& style : {Style{}, Style{.format = "appended"}}) {
+    const std::string good = Writer(style).file();
+    // That of the labels; text has none.
+    const std::size_t label = good.find("offset=", good.find("Name=\"label\""));
+    const std::string offset =
+        label == good.npos ? "offset" : good.substr(label, good.find('"', label + 8) + 1 - label);
+    for (const auto& [number, changed] : std::vector<std::pair<std::string, std::string>>{
+             {"NumberOfCells=\"2\"", "NumberOfCells=\"-1\""},
+             {"NumberOfCells=\"2\"", "NumberOfCells=\"abc\""},
+             {"NumberOfCells=\"2\"", "NumberOfCells=\"\""},
+             {"NumberOfCells=\"2\"", "NumberOfCells=\"2x\""},
+             {"NumberOfCells=\"2\"", "NumberOfCells=\"99999999999999999999\""},
+             {"NumberOfCells=\"2\"", ""},
+             {"NumberOfPoints=\"5\"", "NumberOfPoints=\"5.0\""},
+             {offset, "offset=\"abc\""},
+             {offset, "offset=\"-1\""}}) {
+      const std::size_t at = good.find(number);
+      if (at == good.npos) continue;  // no offsets in text
+      std::string bad = good;
+      const auto path = dir.file("a.vtu", bad.replace(at, number.size(), changed));
+      expect_error(ErrorKind::kInput, {"a.vtu"}, [&] { static_cast<void>(read_mesh(path)); });
+    }
+    std::string padded = good;
+    padded.replace(padded.find("NumberOfCells=\"2\""), 17, "NumberOfCells=\" 2 \"");
+    EXPECT_EQ(read_mesh(dir.file("a.vtu", padded)).tets.size(), 2U);
+  }
+}
+
 }  // namespace
 }  // namespace mw::io

@@ -66,6 +66,28 @@ TEST(Audit, SoundMeshesPass) {
   }
 }
 
+/// Far from the origin, as EM in metres is, coordinates have few digits for the box.
+TEST(Audit, SoundMeshesPassWhereCoordinatesAreCoarse) {
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 100; ++trial) {
+    const SmallVolume v = random_volume(random);
+    const Frame frame{{4e-9, 4e-9, 4e-9}, {0.5, -0.5, 0.5}};
+    const AuditReport report =
+        audit(v.view(), v.label_count, five_tet_mesh(v, frame).view(), frame);
+    ASSERT_EQ(failures(report), Names{}) << v.text();
+  }
+}
+
+/// A lost tet is more than rounding there, too.
+TEST(Audit, RoundingHidesNoTet) {
+  const SmallVolume v = volume_from({4, 4, 4}, 1, [](auto, auto, auto) { return 0; });
+  const Frame frame{{4e-9, 4e-9, 4e-9}, {0.5, -0.5, 0.5}};
+  SmallMesh mesh = five_tet_mesh(v, frame);
+  mesh.tets.erase(mesh.tets.begin() + 100);
+  mesh.labels.erase(mesh.labels.begin() + 100);
+  EXPECT_FALSE(check(audit(v.view(), 1, mesh.view(), frame), "P2 volume").passed);
+}
+
 TEST(Audit, ChangeOfTheOpenRegionAloneIsAChange) {
   const SmallVolume pinched =
       volume_from({2, 2, 1}, 2, [](auto x, auto y, auto) { return (x + y) % 2; });
