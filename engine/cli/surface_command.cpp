@@ -129,10 +129,8 @@ int run_surface(const SurfaceFlags& flags) {
 }  // namespace
 
 void add_surface_command(CLI::App& program, Action& chosen) {
-  CLI::App* command = program.add_subcommand(
-      "surface",
-      "writes where labels of a mesh meet, as triangles; normals point out of the label, or out of "
-      "the lower one of two");
+  CLI::App* command =
+      program.add_subcommand("surface", "writes surfaces of labels, or where two of them meet");
   const auto flags = std::make_shared<SurfaceFlags>();
   command->add_option("MESH", flags->mesh, "mesh: " + io::mesh_extensions())->required();
   command
