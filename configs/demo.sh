@@ -55,7 +55,7 @@ print_table() {
 }
 
 main() {
-  local input name bound verdict=0 names=()
+  local input name verdict=0 names=()
   bash "$root/configs/setup.sh" program
   input="${1:-$(find_atlas)}"
   name="demo/$(stem "$input")"
@@ -66,8 +66,7 @@ main() {
   "$program" mesh "$input" "${names[@]}" -o "$name.vtu" --report "$name.run.json" \
     --html "$name.html" >"$name.log"
   echo "demo: verifying $name.vtu"
-  bound="$(jq -r .settings.max_distance "$name.run.json")"
-  "$program" verify "$input" "$name.vtu" "${names[@]}" --max-distance "$bound" --report "$name.verify.json" \
+  "$program" verify "$input" "$name.vtu" "${names[@]}" --report "$name.verify.json" \
     >>"$name.log" || verdict=$?
   [[ -s "$name.verify.json" ]] || die "verify gave no result (exit $verdict)"
   "$program" picture "$name.vtu" -o "$name.png" >>"$name.log"

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <ostream>
 
+#include "io/names/csv_records.h"
+
 namespace mw::cli {
 namespace {
 
@@ -39,13 +41,7 @@ std::vector<Column> columns_of(const TextTable& table) {
 }
 
 std::string csv_field(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string out = "\"";
-  for (const char c : field) {
-    out += c;
-    if (c == '"') out += c;
-  }
-  return out + '"';
+  return field.find_first_of(",\"\r\n") == std::string::npos ? field : io::csv_quoted(field);
 }
 
 }  // namespace

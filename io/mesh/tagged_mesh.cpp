@@ -6,14 +6,9 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
+#include "io/mesh/kept_rows.h"
 
 namespace mw::io {
-namespace {
-
-constexpr std::uint64_t kDropped = ~std::uint64_t{0};
-
-}  // namespace
-
 void TaggedMesh::add_tet(std::span<const std::uint64_t> tags, RawLabel mark) {
   mesh_.tets.push_back({tags[0], tags[1], tags[2], tags[3]});
   mesh_.labels.push_back(mark);
@@ -25,14 +20,13 @@ MeshData TaggedMesh::finish() {
   for (TetRows& tet : mesh_.tets) {
     for (std::uint64_t& corner : tet) corner = row_of(corner);
   }
-  const std::vector<std::uint64_t> rows = kept_rows();
-  for (TetRows& tet : mesh_.tets) {
-    for (std::uint64_t& corner : tet) corner = rows[corner];
-  }
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (rows[i] != kDropped) mesh_.vertices.push_back(nodes_[i].position);
-  }
+  KeptRows middles(nodes_.size());
+  for (const std::uint64_t tag : middles_) middles.middle(row_of(tag));
+  middles_ = {};
+  mesh_.vertices.reserve(nodes_.size());
+  for (const Node& node : nodes_) mesh_.vertices.push_back(node.position);
   nodes_ = {};
+  drop_middles(mesh_, middles);
   return std::move(mesh_);
 }
 
@@ -55,21 +49,6 @@ std::uint64_t TaggedMesh::row_of(std::uint64_t tag) const {
   }
   fail_input(file_, "elements", text("one names node ", tag, ", which is not in the file"),
              "write the mesh anew");
-}
-
-/// By node: its row, or kDropped.  REQUIRES: nodes sorted, tets by place of nodes.
-std::vector<std::uint64_t> TaggedMesh::kept_rows() {
-  std::vector<std::uint64_t> rows(nodes_.size(), 0);
-  for (const std::uint64_t tag : middles_) rows[row_of(tag)] = kDropped;
-  middles_ = {};
-  for (const TetRows& tet : mesh_.tets) {
-    for (const std::uint64_t corner : tet) rows[corner] = 0;
-  }
-  std::uint64_t next = 0;
-  for (std::uint64_t& row : rows) {
-    if (row != kDropped) row = next++;
-  }
-  return rows;
 }
 
 }  // namespace mw::io

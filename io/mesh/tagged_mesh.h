@@ -36,7 +36,6 @@ class TaggedMesh {
 
   void sort_nodes();
   [[nodiscard]] std::uint64_t row_of(std::uint64_t tag) const;
-  [[nodiscard]] std::vector<std::uint64_t> kept_rows();
 
   std::string file_;
   std::vector<Node> nodes_;

@@ -9,6 +9,7 @@
 #include "io/file/atomic_file.h"
 #include "io/file/errors.h"
 #include "io/file/open_bytes.h"
+#include "io/mesh/grouped/group_names.h"
 #include "io/names/csv_names.h"
 #include "io/names/csv_records.h"
 #include "io/names/name_fields.h"
@@ -21,11 +22,6 @@ bool fits(const LabelTable& table, Label rank, NumberRange range) {
   const auto number = static_cast<std::int64_t>(raw);
   if (!table.is_signed() && number < 0) return false;  // 2^63 and more
   return number >= range.least && number <= range.most;
-}
-
-std::string label_text(const LabelTable& table, Label rank) {
-  const RawLabel raw = table.raw(rank);
-  return table.is_signed() ? text(static_cast<std::int64_t>(raw)) : text(raw);
 }
 
 std::string colour_text(const LabelName* row) {
@@ -94,7 +90,7 @@ void write_label_table(const std::filesystem::path& mesh, const LabelTable& tabl
   file.append(std::string_view("id,number,name,r,g,b,a\n"));
   for (Label rank = 0; rank < table.size(); ++rank) {
     const LabelName* row = names.find(table.raw(rank));
-    file.append(text(label_text(table, rank), ",", numbers[rank], ",",
+    file.append(text(label_digits(table, rank), ",", numbers[rank], ",",
                      csv_quoted(names.name(table.raw(rank))), colour_text(row), "\n"));
   }
   file.commit();
