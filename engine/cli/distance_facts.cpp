@@ -72,9 +72,9 @@ ordered_json distance_json(const audit::DistanceReport& distance, const io::Labe
   }
   return {{"max_voxels", finite_json(distance.max_voxels)},
           {"mean_voxels", finite_json(distance.mean_voxels)},
-          {"samples_a_face", distance.samples_a_face},
-          {"input_covering_radius", distance.input_covering_radius},
-          {"mesh_covering_radius", distance.mesh_covering_radius},
+          {"covering_radius", audit::kCoveringRadius},
+          {"covered_above", distance.limit},
+          {"far_samples", distance.far_samples},
           {"per_label", std::move(labels)}};
 }
 

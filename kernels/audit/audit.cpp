@@ -119,12 +119,13 @@ DistanceReport measure_in_lattice(const VoxelLabels& volume, std::size_t label_c
                                   const AuditMesh& mesh, const Frame& frame,
                                   const AuditOptions& options) {
   const Index3 layers = options.layers;
+  const double limit = distance_limit(options.max_distance);
   if (layers == Index3{1, 1, 1}) {
-    return measure_distance(volume, label_count, mesh, frame, options.kept);
+    return measure_distance(volume, label_count, mesh, frame, options.kept, limit);
   }
   const LayeredLabels lattice = layered_labels(volume, layers);
   return measure_distance(lattice.view(), label_count, mesh, layered_frame(frame, layers),
-                          options.kept);
+                          options.kept, limit);
 }
 
 /// Without the labels that were left out.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace mw::audit {
@@ -27,8 +28,16 @@ class Offenders {
 
   /// describe() -> std::string is called for the first few only.
   template <class Describe>
+  requires std::is_invocable_v<Describe>
   void add(Describe&& describe) {
     if (count_++ < kNamed) first_.push_back(describe());
+  }
+  /// Those that somebody else counted come after one's own.
+  void add(const Offenders& others) {
+    count_ += others.count_;
+    for (const std::string& name : others.first_) {
+      if (first_.size() < kNamed) first_.push_back(name);
+    }
   }
   [[nodiscard]] std::uint64_t count() const { return count_; }
   /// "3 tets (5, 7, 9)"; "0 tets".

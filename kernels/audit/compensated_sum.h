@@ -15,6 +15,11 @@ class CompensatedSum {
     lost_ += std::abs(sum_) >= std::abs(value) ? (sum_ - next) + value : (value - next) + sum_;
     sum_ = next;
   }
+  /// Adds what another one has summed up, and what that has lost.
+  void add(const CompensatedSum& other) {
+    add(other.sum_);
+    lost_ += other.lost_;
+  }
   [[nodiscard]] double value() const { return sum_ + lost_; }
 
  private:

@@ -3,8 +3,10 @@
 // How far the mesh's label boundaries are from the input's, both ways (promise P4).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,15 +14,21 @@
 
 namespace mw::audit {
 
-/// From this many interface faces on, a voxel face has five samples instead of nine.
-inline constexpr std::size_t kManyInterfaceFaces = 4'000'000;
+/// No point of an interface is farther than this from one that was looked at, in voxels, but where
+/// distances are known to be no larger than a limit (DistanceTask::limit).
+inline constexpr double kCoveringRadius = 0.25;
 
-/// Covering radius of the samples on the mesh's triangles, in voxels.
-inline constexpr double kMeshCoveringRadius = 0.25;
+/// The limit unless another one is given.
+inline constexpr double kDistanceLimit = 1.0;
 
-/// Distances in voxels.  Every one is the largest over samples, hence a lower bound of the true
-/// one-sided Hausdorff distance, which is larger by no more than the covering radius of the side
-/// that was sampled (distance to a set changes by no more than one walks).
+/// The limit where a bound is checked.
+[[nodiscard]] inline double distance_limit(const std::optional<double>& bound) {
+  return std::min(kDistanceLimit, bound.value_or(kDistanceLimit));
+}
+
+/// Distances in voxels.  The largest of each kind is that of a sample, hence a lower bound of the
+/// true one-sided Hausdorff distance, which is either larger by no more than kCoveringRadius or no
+/// larger than the limit (a distance to a set changes by no more than one walks).
 struct DistanceReport {
   /// A label with an interface on one side only has infinite figures, in both directions.
   struct PerLabel {
@@ -43,9 +51,9 @@ struct DistanceReport {
   std::vector<Label> only_in_mesh;
   std::uint64_t voxel_faces = 0;
   std::uint64_t mesh_triangles = 0;
-  std::uint32_t samples_a_face = 0;
-  double input_covering_radius = 0;
-  double mesh_covering_radius = 0;
+  double limit = kDistanceLimit;
+  /// Samples farther than what was looked at around them: they count as that far.
+  std::uint64_t far_samples = 0;
 
   [[nodiscard]] bool is_finite() const { return only_in_volume.empty() && only_in_mesh.empty(); }
   /// The first label with the largest finite distance; nullptr when no label has one.
@@ -54,24 +62,20 @@ struct DistanceReport {
 
 /// P4.  A label's boundary are the voxel faces, or the triangles, between it and another label of
 /// the volume; the box is none.  Lengths are in voxels along each axis: (p - origin) / spacing.
-/// Input to mesh: samples on every voxel face of a label's boundary (corners, middles of edges,
-/// centre; corners and centre from kManyInterfaceFaces on), each to the nearest triangle of that
-/// label's boundary.  Mesh to input: samples that cover each triangle to kMeshCoveringRadius, each
-/// to the nearest voxel face.  Means are by area.
+/// Means are by area, of the centres of voxel faces and of pieces of triangles.
 /// Of a mesh from which labels were left out, boundaries of kept labels are also its triangles of
 /// one tet that are not on the box.  Those are samples of kLeftOut as well, held against the faces
 /// of all labels that were left out: no such triangle may be where none of these labels is.  The
 /// other way round nothing is known of them.
 /// REQUIRES: as voxel_betti and mesh_betti; finite vertices; positive spacing.
 /// Errors: kInput when the mesh is none, kResource above 2^20 voxels along an axis.
-/// Cost: two passes over the voxels, O(log) a sample; some 80 bytes a voxel face and 150 a triangle
-/// of the interface.  A mesh with more interface than any valid one (200 million samples) is
-/// sampled more coarsely, as mesh_covering_radius then says.  Deterministic, one thread.
+/// Cost: see measure_distances().  Deterministic, one thread.
 [[nodiscard]] DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
                                               const AuditMesh& mesh, const Frame& frame,
-                                              const KeptLabels& kept = {});
+                                              const KeptLabels& kept = {},
+                                              double limit = kDistanceLimit);
 
-/// The covering radii, in words: how much larger the true distances may be.
+/// What the figures mean, in words.
 [[nodiscard]] std::string sampling_text(const DistanceReport& report);
 
 }  // namespace mw::audit

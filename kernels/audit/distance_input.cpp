@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Faces and samples from the eight voxels around a corner.
+// Faces from the eight voxels around a corner.
 #include "kernels/audit/distance_input.h"
 
 #include <algorithm>
@@ -19,25 +19,6 @@ void require_countable(Index3 shape) {
               "audit: 2^20 voxels or more along an axis; audit parts, or without the distance");
 }
 
-/// Two of the eight voxels around a corner, with a face between them.
-struct Neighbours {
-  unsigned low = 0;
-  unsigned axis = 0;
-};
-
-constexpr std::array<Neighbours, 12> kNeighbours{{{0, 0},
-                                                  {2, 0},
-                                                  {4, 0},
-                                                  {6, 0},
-                                                  {0, 1},
-                                                  {1, 1},
-                                                  {4, 1},
-                                                  {5, 1},
-                                                  {0, 2},
-                                                  {1, 2},
-                                                  {2, 2},
-                                                  {3, 2}}};
-
 bool is_interface(Label a, Label b) {
   return a != b && a != kExterior && b != kExterior;
 }
@@ -45,13 +26,9 @@ bool is_interface(Label a, Label b) {
 /// curve_position of the voxel above and the axis, which together sort and name a face.
 std::vector<std::uint64_t> face_keys(const VoxelLabels& volume) {
   std::vector<std::uint64_t> keys;
-  MixedCorners(volume).visit([&](const MixedCorner& corner) {
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const Label below = corner.around[7U ^ 1U << axis];
-      if (is_interface(below, corner.around[7])) {
-        keys.push_back(curve_position(corner.at) << 2 | axis);
-      }
-    }
+  const Box3 all{{0, 0, 0}, volume.shape + Index3{1, 1, 1}};
+  visit_interface_faces(volume, all, [&](const VoxelFace& face, const LabelPair&) {
+    keys.push_back(curve_position(face.upper) << 2 | face.axis);
   });
   return keys;
 }
@@ -187,18 +164,6 @@ std::array<double, 2> CloseFaces::squared_distances(const VoxelPoint& p,
     }
   }
   return nearest;
-}
-
-void touch(const MixedCorner& corner, unsigned half, TouchedLabels& out) {
-  for (const Neighbours& n : kNeighbours) {
-    const bool has_sample = (n.low & half) == half && (half >> n.axis & 1U) == 0;
-    if (!has_sample) continue;
-    const Label a = corner.around[n.low];
-    const Label b = corner.around[n.low | 1U << n.axis];
-    if (!is_interface(a, b)) continue;
-    out.add(a);
-    out.add(b);
-  }
 }
 
 }  // namespace mw::audit

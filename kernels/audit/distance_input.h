@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The input's interface: its voxel faces between labels, and sample points on them.
+// The input's interface: its voxel faces between labels.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "kernels/audit/distance_shapes.h"
@@ -37,17 +37,17 @@ struct MixedCorner {
   std::array<Label, 8> around{};
 };
 
-/// Visits every corner around which there are two labels or more, x fastest.
+/// Visits those corners around which there are two labels or more, x fastest.
 class MixedCorners {
  public:
-  /// REQUIRES: at least one voxel; `volume` outlives this.
-  explicit MixedCorners(const VoxelLabels& volume) : volume_(volume) {}
+  /// REQUIRES: at least one voxel; corners from 0 to the shape; `volume` outlives this.
+  MixedCorners(const VoxelLabels& volume, const Box3& corners)
+      : volume_(volume), corners_(corners) {}
 
   template <class Visit>
   void visit(Visit&& visit) const {
-    const Index3 s = volume_.shape;
-    for (std::int64_t z = 0; z <= s.z; ++z) {
-      for (std::int64_t y = 0; y <= s.y; ++y) visit_row(y, z, visit);
+    for (std::int64_t z = corners_.lo.z; z < corners_.hi.z; ++z) {
+      for (std::int64_t y = corners_.lo.y; y < corners_.hi.y; ++y) visit_row(y, z, visit);
     }
   }
 
@@ -60,21 +60,24 @@ class MixedCorners {
   template <class Visit>
   void visit_row(std::int64_t y, std::int64_t z, Visit& visit) const {
     const std::array<const Label*, 4> row = rows(y, z);
-    const auto count = static_cast<std::size_t>(volume_.shape.x);
-    Label last = row[0][0];
-    bool last_is_uniform = true;
-    for (std::size_t x = 0; x <= count; ++x) {
-      const std::size_t i = x < count ? x : count - 1;
+    const std::int64_t last = volume_.shape.x - 1;
+    // Beyond the first and the last voxel are the same ones again, which adds no label.
+    const auto column = [&](std::int64_t x) {
+      const std::int64_t i = std::clamp<std::int64_t>(x, 0, last);
       const Label label = row[0][i];
-      const bool is_uniform = label == row[1][i] && label == row[2][i] && label == row[3][i];
-      const bool is_mixed = !is_uniform || !last_is_uniform || label != last;
-      if (is_mixed) visit(corner({static_cast<std::int64_t>(x), y, z}, row));
-      last = label;
-      last_is_uniform = is_uniform;
+      return std::pair(label, label == row[1][i] && label == row[2][i] && label == row[3][i]);
+    };
+    std::pair<Label, bool> before = column(corners_.lo.x - 1);
+    for (std::int64_t x = corners_.lo.x; x < corners_.hi.x; ++x) {
+      const std::pair<Label, bool> here = column(x);
+      const bool is_mixed = !here.second || here != before;
+      if (is_mixed) visit(corner({x, y, z}, row));
+      before = here;
     }
   }
 
   const VoxelLabels& volume_;
+  Box3 corners_;
 };
 
 /// The nearest voxel faces of two labels, when they are close.
@@ -103,66 +106,16 @@ class CloseFaces {
   const VoxelLabels& volume_;
 };
 
-/// How densely a voxel face is sampled.
-enum class FaceSampling {
-  kNine,  ///< corners, middles of edges, centre
-  kFive,  ///< corners and centre
-};
-
-[[nodiscard]] constexpr std::uint32_t samples_a_face(FaceSampling sampling) {
-  return sampling == FaceSampling::kNine ? 9 : 5;
-}
-
-/// Largest distance in voxels from a point of a face to the nearest sample on it: half the diagonal
-/// of a quarter, rounded up; from the middle of an edge to the centre.
-[[nodiscard]] constexpr double covering_radius(FaceSampling sampling) {
-  return sampling == FaceSampling::kNine ? 0.354 : 0.5;
-}
-
-/// A label at a sample, and how many of its boundary's faces have this sample.
-struct TouchedLabel {
-  Label label = 0;
-  std::uint32_t faces = 0;
-};
-
-/// Labels whose boundary has a sample, each once, in the order they are met.
-class TouchedLabels {
- public:
-  void clear() { size_ = 0; }
-  void add(Label label) {
-    for (std::size_t i = 0; i < size_; ++i) {
-      if (labels_[i].label != label) continue;
-      ++labels_[i].faces;
-      return;
-    }
-    labels_[size_++] = {label, 1};
-  }
-  [[nodiscard]] std::span<const TouchedLabel> get() const {
-    return std::span(labels_).first(size_);
-  }
-
- private:
-  std::array<TouchedLabel, 8> labels_{};
-  std::size_t size_ = 0;
-};
-
-/// Labels whose boundary has the sample half a voxel up from the corner along the axes in `half`.
-void touch(const MixedCorner& corner, unsigned half, TouchedLabels& out);
-
-/// Calls visit(VoxelPoint, span<const TouchedLabel>) once for every sample point on the interface,
-/// however many faces share it.
+/// Calls visit(VoxelFace, labels below and above) for every face between two labels whose first
+/// corner is one of `corners`.
 template <class Visit>
-void visit_face_samples(const VoxelLabels& volume, FaceSampling sampling, Visit&& visit) {
-  TouchedLabels touched;
-  MixedCorners(volume).visit([&](const MixedCorner& corner) {
-    for (unsigned half = 0; half < 7; ++half) {
-      if (sampling == FaceSampling::kFive && std::popcount(half) == 1) continue;
-      touched.clear();
-      touch(corner, half, touched);
-      if (touched.get().empty()) continue;
-      VoxelPoint p{};
-      for (unsigned k = 0; k < 3; ++k) p[k] = corner.at[k] + 0.5 * (half >> k & 1U);
-      visit(p, touched.get());
+void visit_interface_faces(const VoxelLabels& volume, const Box3& corners, Visit&& visit) {
+  MixedCorners(volume, corners).visit([&](const MixedCorner& corner) {
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const Label below = corner.around[7U ^ 1U << axis];
+      const Label above = corner.around[7];
+      if (below == above || below == kExterior || above == kExterior) continue;
+      visit(VoxelFace{corner.at, axis}, LabelPair{below, above});
     }
   });
 }

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Interface triangles from the tets on each triangle, and how finely to sample them.
+// Interface triangles from the tets on each triangle, and their pieces.
 #include "kernels/audit/distance_mesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "kernels/audit/box_planes.h"
-#include "kernels/audit/mesh_stars.h"
 
 namespace mw::audit {
 namespace {
@@ -48,19 +48,7 @@ class TriangleCollector {
     triangles_.push_back({corners(face.vertices), {label, unknown_ + 1}});
   }
 
-  /// All that was added, sorted along a curve.
-  std::vector<InterfaceTriangle> take() {
-    std::vector<std::pair<std::uint64_t, std::size_t>> order;
-    order.reserve(triangles_.size());
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      order.emplace_back(curve_position(triangles_[i].corners), i);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<InterfaceTriangle> sorted;
-    sorted.reserve(triangles_.size());
-    for (const auto& [position, i] : order) sorted.push_back(triangles_[i]);
-    return sorted;
-  }
+  std::vector<InterfaceTriangle> take() { return std::move(triangles_); }
 
  private:
   [[nodiscard]] VoxelTriangle corners(const std::array<std::uint32_t, 3>& vertices) const {
@@ -73,17 +61,6 @@ class TriangleCollector {
       }
     }
     return out;
-  }
-
-  [[nodiscard]] std::uint64_t curve_position(const VoxelTriangle& t) const {
-    constexpr double kCells = 1 << 20;
-    std::array<std::uint32_t, 3> cell{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double middle = (t[0][k] + t[1][k] + t[2][k]) / 3 + margin_;
-      const double place = middle / (3 * margin_) * kCells;
-      cell[k] = static_cast<std::uint32_t>(std::clamp(place, 0.0, kCells - 1));
-    }
-    return audit::curve_position(cell);
   }
 
   AuditMesh mesh_;
@@ -106,15 +83,43 @@ double squared_length(const VoxelPoint& v) {
 
 }  // namespace
 
-std::vector<InterfaceTriangle> interface_triangles(const AuditMesh& mesh, std::size_t label_count,
+std::vector<InterfaceTriangle> interface_triangles(const MeshStars& stars, std::size_t label_count,
                                                    const Frame& frame, Index3 shape,
                                                    bool with_gaps) {
-  TriangleCollector collector(mesh, label_count, frame, shape);
-  visit_faces(MeshStars(mesh), [&](const MeshFace& face) {
+  TriangleCollector collector(stars.mesh(), label_count, frame, shape);
+  visit_faces(stars, [&](const MeshFace& face) {
     collector.add(face);
     if (with_gaps) collector.add_gap(face);
   });
   return collector.take();
+}
+
+void sort_along_curve(std::vector<InterfaceTriangle>& triangles, const Box3& box) {
+  constexpr double kCells = 1 << 20;
+  const std::array<std::int64_t, 3> lo{box.lo.x, box.lo.y, box.lo.z};
+  const Index3 s = box.shape();
+  const auto longest = static_cast<double>(std::max({s.x, s.y, s.z}));
+  const auto position = [&](const InterfaceTriangle& t) {
+    const VoxelPoint middle = centroid(t.corners);
+    std::array<std::uint32_t, 3> cell{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double place = (middle[k] - static_cast<double>(lo[k])) / longest * kCells;
+      cell[k] = static_cast<std::uint32_t>(std::clamp(place, 0.0, kCells - 1));
+    }
+    return curve_position(cell);
+  };
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  order.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) order.emplace_back(position(triangles[i]), i);
+  std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
+    if (a.first != b.first) return a.first < b.first;
+    const InterfaceTriangle &t = triangles[a.second], &u = triangles[b.second];
+    return std::tie(t.corners, t.labels) < std::tie(u.corners, u.labels);
+  });
+  std::vector<InterfaceTriangle> sorted;
+  sorted.reserve(triangles.size());
+  for (const auto& [place, i] : order) sorted.push_back(triangles[i]);
+  triangles = std::move(sorted);
 }
 
 double area(const VoxelTriangle& t) {
@@ -125,22 +130,63 @@ double area(const VoxelTriangle& t) {
          2;
 }
 
-std::uint64_t parts_of_edge(const VoxelTriangle& t, double covering_radius) {
-  const double squared = std::max({squared_length(edge(t, 0, 1)), squared_length(edge(t, 0, 2)),
-                                   squared_length(edge(t, 1, 2))});
-  const double parts = std::sqrt(squared / 3) / covering_radius;
-  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::ceil(parts)));
+VoxelPoint centroid(const VoxelTriangle& t) {
+  VoxelPoint out{};
+  for (std::size_t k = 0; k < 3; ++k) out[k] = (t[0][k] + t[1][k] + t[2][k]) / 3;
+  return out;
 }
 
-double affordable_radius(std::span<const InterfaceTriangle> triangles, double wanted, double most) {
-  for (double radius = wanted;; radius *= 2) {
-    double samples = 0;
-    for (const InterfaceTriangle& t : triangles) {
-      const auto parts = static_cast<double>(parts_of_edge(t.corners, radius));
-      samples += (parts + 1) * (parts + 2) / 2 - 3;
-    }
-    if (samples <= most) return radius;
+double radius(const VoxelTriangle& t) {
+  const VoxelPoint middle = centroid(t);
+  double squared = 0;
+  for (const VoxelPoint& p : t) {
+    squared =
+        std::max(squared, squared_length({p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]}));
   }
+  return std::sqrt(squared);
+}
+
+std::array<VoxelTriangle, 2> halves(const VoxelTriangle& t) {
+  std::size_t from = 0;
+  double longest = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double squared = squared_length(edge(t, i, (i + 1) % 3));
+    if (squared > longest) from = i;
+    longest = std::max(longest, squared);
+  }
+  const std::size_t to = (from + 1) % 3;
+  VoxelPoint middle{};
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = (t[from][k] + t[to][k]) / 2;
+  std::array<VoxelTriangle, 2> out{t, t};
+  out[0][to] = middle;
+  out[1][from] = middle;
+  return out;
+}
+
+void add_estimates(const VoxelTriangle& t, PieceEstimates& sums) {
+  const double length = radius(t), surface = area(t);
+  double most = kPieceRadius;
+  for (double& sum : sums) {
+    sum += 1 + length / most + surface / (most * most);
+    most *= 2;
+  }
+}
+
+PieceEstimates total_estimates(std::span<const InterfaceTriangle> triangles) {
+  PieceEstimates sums{};
+  for (const InterfaceTriangle& t : triangles) add_estimates(t.corners, sums);
+  return sums;
+}
+
+double piece_radius(const PieceEstimates& sums) {
+  constexpr double kMostPieces = 1e7, kMostPiecesATriangle = 64;
+  const double most = std::max(kMostPieces, kMostPiecesATriangle * sums.back());
+  double radius = kPieceRadius;
+  for (const double sum : sums) {
+    if (sum <= most) break;
+    radius *= 2;
+  }
+  return radius;
 }
 
 }  // namespace mw::audit

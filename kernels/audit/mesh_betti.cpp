@@ -1,36 +1,36 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Betti numbers of a mesh: one sweep over triangles for the parts, one over vertices to count.
+// Parts and cells of a mesh: one sweep over triangles for the parts, one over vertices to count.
 #include <algorithm>
 #include <utility>
 
 #include "kernels/audit/mesh_parts.h"
-#include "kernels/audit/part_graph.h"
+#include "kernels/audit/parts_union.h"
 
 namespace mw::audit {
 namespace {
 
 class MeshSweep {
  public:
-  MeshSweep(const AuditMesh& mesh, std::size_t label_count)
-      : stars_(mesh),
+  MeshSweep(const MeshTile& tile, std::size_t label_count)
+      : stars_(tile),
         exterior_(static_cast<Label>(label_count)),
         euler_(label_count + 2),
         box_(box_cells(stars_)) {
     join_parts();
   }
 
-  std::vector<RegionBetti> run() {
+  MeshParts run() {
     for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
-      if (stars_.star(v).empty()) continue;
+      if (!stars_.owns(v) || stars_.star(v).empty()) continue;
       count_vertex(v);
       count_edges(v);
       visit_faces_at(stars_, v, sides_, [this](const MeshFace& face) { count_face(face); });
     }
     count_cells();
-    auto betti = betti_of_parts(part_class_, graph_, euler_);
-    betti.resize(std::size_t{exterior_} + 1);
-    return betti;
+    return {{std::move(part_class_), graph_.take_face_pairs(), graph_.take_vertex_pairs(),
+             euler_.cells(), euler_.total},
+            std::move(parts_)};
   }
 
  private:
@@ -66,8 +66,9 @@ class MeshSweep {
         if (other > v) edges_.push_back(other << 32 | class_of_tet(stars_, exterior_, tet));
       }
     }
-    for (; next_box_edge_ < box_.edges.size() && box_.edges[next_box_edge_] >> 32 == v;
+    for (; next_box_edge_ < box_.edges.size() && box_.edges[next_box_edge_] >> 32 <= v;
          ++next_box_edge_) {
+      if (box_.edges[next_box_edge_] >> 32 < v) continue;
       edges_.push_back(box_.edges[next_box_edge_] << 32 | exterior_);
     }
     std::sort(edges_.begin(), edges_.end());
@@ -96,9 +97,9 @@ class MeshSweep {
   }
 
   void count_cells() {
-    euler_.add(-1, std::span(&exterior_, 1));
     for (std::uint32_t tet = 0; tet < stars_.mesh().tets.size(); ++tet) {
-      if (!is_left_out(tet)) euler_.add(-1, std::span(&part_class_[parts_[tet]], 1));
+      if (!is_left_out(tet) && stars_.tile().owns_tet(tet))
+        euler_.add(-1, std::span(&part_class_[parts_[tet]], 1));
     }
   }
 
@@ -125,8 +126,14 @@ class MeshSweep {
 
 }  // namespace
 
+MeshParts mesh_parts(const MeshTile& tile, std::size_t label_count) {
+  return MeshSweep(tile, label_count).run();
+}
+
 std::vector<RegionBetti> mesh_betti(const AuditMesh& mesh, std::size_t label_count) {
-  return MeshSweep(mesh, label_count).run();
+  PartsUnion parts(label_count);
+  parts.add(mesh_parts({.mesh = mesh}, label_count).piece);
+  return parts.betti_of_mesh();
 }
 
 }  // namespace mw::audit

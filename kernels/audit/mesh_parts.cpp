@@ -14,7 +14,7 @@ Parts parts_of_mesh(const MeshStars& stars, Label exterior) {
     return MeshStars::repeats_vertex(stars.mesh().tets[tet]);
   };
   DisjointSets sets(tets + 1);
-  visit_faces(stars, [&](const MeshFace& face) {
+  visit_whole_faces(stars, [&](const MeshFace& face) {
     for (std::size_t i = 1; i < face.sides.size(); ++i) {
       const std::uint32_t a = face.sides[i - 1].tet;
       const std::uint32_t b = face.sides[i].tet;
@@ -32,7 +32,7 @@ Parts parts_of_mesh(const MeshStars& stars, Label exterior) {
 
 BoxCells box_cells(const MeshStars& stars) {
   BoxCells out{std::vector<bool>(stars.vertex_count(), false), {}};
-  visit_faces(stars, [&](const MeshFace& face) {
+  visit_whole_faces(stars, [&](const MeshFace& face) {
     if (face.sides.size() != 1) return;
     const auto& v = face.vertices;
     for (const std::uint32_t vertex : v) out.vertices[vertex] = true;

@@ -15,11 +15,11 @@ namespace mw::audit {
   return label < exterior ? label : exterior + 1;
 }
 
-/// Parts of the tets by class.  Member tet_count is the exterior; tets that name a vertex twice are
-/// counted to it.  Cost: one sort of the triangles at each vertex.
+/// Parts of a tile's tets by class.  Member tet_count is the exterior; tets that name a vertex
+/// twice are counted to it.  Cost: one sort of the triangles at each vertex.
 [[nodiscard]] Parts parts_of_mesh(const MeshStars& stars, Label exterior);
 
-/// Vertices and edges on the exterior: those of triangles with one tet.
+/// Vertices and edges on the exterior: those of triangles with one tet, and an owned vertex.
 struct BoxCells {
   std::vector<bool> vertices;
   std::vector<std::uint64_t> edges;  ///< ascending, smaller vertex in the high half

@@ -55,7 +55,8 @@ bool MeshStars::repeats_vertex(const TetRow& t) {
          t[2] == t[3];
 }
 
-MeshStars::MeshStars(const AuditMesh& mesh) : mesh_(mesh) {
+MeshStars::MeshStars(const MeshTile& tile) : tile_(tile) {
+  const AuditMesh& mesh = tile.mesh;
   require_sound(mesh);
   begin_.assign(mesh.vertices.size() + 1, 0);
   for (const TetRow& tet : mesh.tets) {
@@ -74,7 +75,7 @@ MeshStars::MeshStars(const AuditMesh& mesh) : mesh_(mesh) {
 void MeshStars::collect_sides(std::uint32_t vertex, std::vector<FaceSide>& sides) const {
   sides.clear();
   for (const std::uint32_t id : star(vertex)) {
-    const TetRow& tet = mesh_.tets[id];
+    const TetRow& tet = mesh().tets[id];
     std::array<unsigned, 3> larger{};
     unsigned count = 0;
     unsigned at = 0;

@@ -28,15 +28,18 @@ struct MeshFace {
   std::span<const FaceSide> sides;
 };
 
-/// The tets at every vertex.  Tets that name a vertex twice are left out.
+/// The tets at every vertex of a tile.  Tets that name a vertex twice are left out.
 /// Memory: 16 bytes a tet and 8 a vertex.  Reads the mesh as long as it lives.
 class MeshStars {
  public:
   /// Errors: kInput when labels and tets differ in number or a vertex row is out of range,
   /// kResource above 2^31 tets or 2^32 - 1 vertices.
-  explicit MeshStars(const AuditMesh& mesh);
+  explicit MeshStars(const MeshTile& tile);
+  explicit MeshStars(const AuditMesh& mesh) : MeshStars(MeshTile{.mesh = mesh}) {}
 
-  [[nodiscard]] const AuditMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const MeshTile& tile() const { return tile_; }
+  [[nodiscard]] const AuditMesh& mesh() const { return tile_.mesh; }
+  [[nodiscard]] bool owns(std::uint64_t vertex) const { return tile_.owns(vertex); }
   [[nodiscard]] std::uint32_t vertex_count() const {
     return static_cast<std::uint32_t>(begin_.size() - 1);
   }
@@ -51,7 +54,7 @@ class MeshStars {
   [[nodiscard]] static bool repeats_vertex(const TetRow& tet);
 
  private:
-  AuditMesh mesh_;
+  MeshTile tile_;
   std::vector<std::uint64_t> begin_;
   std::vector<std::uint32_t> tets_;
 };
@@ -72,12 +75,24 @@ void visit_faces_at(const MeshStars& stars, std::uint32_t vertex, std::vector<Fa
   }
 }
 
-/// Calls visit(MeshFace) for every triangle of the mesh, in ascending order of its vertices.
+/// Calls visit(MeshFace) for every triangle that the tile owns, in ascending order of its vertices.
 template <class Visit>
 void visit_faces(const MeshStars& stars, Visit&& visit) {
   std::vector<FaceSide> scratch;
   for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
-    visit_faces_at(stars, v, scratch, visit);
+    if (stars.owns(v)) visit_faces_at(stars, v, scratch, visit);
+  }
+}
+
+/// The same for every triangle with a vertex that the tile owns: all tets on it are there.
+template <class Visit>
+void visit_whole_faces(const MeshStars& stars, Visit&& visit) {
+  std::vector<FaceSide> scratch;
+  for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
+    visit_faces_at(stars, v, scratch, [&](const MeshFace& face) {
+      const auto& [a, b, c] = face.vertices;
+      if (stars.owns(a) || stars.owns(b) || stars.owns(c)) visit(face);
+    });
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <span>
 
 #include "kernels/audit/orientation.h"
 
@@ -18,38 +18,28 @@ constexpr double kAtY = 0.7320508075688772;
 /// Voxels; crossings that are nearer may be in the wrong order by rounding.
 constexpr double kNear = 1e-6;
 
-struct Crossing {
-  std::uint64_t column = 0;
-  double z = 0;
-  int enters = 0;  ///< tets that begin there, less those that end
-};
+/// Whether the line is in one tet at most, and in none at its end.
+bool is_sound(std::span<const LineCrossing> line) {
+  int inside = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    inside += line[i].enters;
+    const bool is_last = i + 1 == line.size();
+    if (!is_last && line[i + 1].z - line[i].z < kNear) continue;
+    if (inside < 0 || inside > 1) return false;
+  }
+  return inside == 0;
+}
 
-class OverlapAudit {
+class LineFinder {
  public:
-  OverlapAudit(const MeshStars& stars, const Frame& frame, Index3 shape)
+  LineFinder(const MeshStars& stars, const Frame& frame, Index3 shape)
       : stars_(stars), frame_(frame), shape_(shape) {}
 
-  Check run() {
+  std::vector<LineCrossing> run() {
     visit_faces(stars_, [&](const MeshFace& face) {
       if (face.sides.size() == 1) cross_lines(face);
     });
-    std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
-      return std::tie(a.column, a.z) < std::tie(b.column, b.z);
-    });
-    Offenders crowded("lines along z through two tets at once");
-    std::uint64_t lines = 0;
-    for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end, ++lines) {
-      const std::uint64_t column = crossings_[begin].column;
-      while (end < crossings_.size() && crossings_[end].column == column) ++end;
-      if (is_sound(begin, end)) continue;
-      const auto width = static_cast<std::uint64_t>(shape_.x);
-      crowded.add([&] {
-        return "voxel column " + std::to_string(column % width) + "," +
-               std::to_string(column / width);
-      });
-    }
-    return {"P2 overlap", crowded.count() == 0,
-            std::to_string(lines) + " lines through the mesh; " + crowded.text()};
+    return std::move(crossings_);
   }
 
  private:
@@ -113,27 +103,49 @@ class OverlapAudit {
     crossings_.push_back({static_cast<std::uint64_t>(y * shape_.x + x), z, enters});
   }
 
-  [[nodiscard]] bool is_sound(std::size_t begin, std::size_t end) const {
-    int inside = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      inside += crossings_[i].enters;
-      const bool is_last = i + 1 == end;
-      if (!is_last && crossings_[i + 1].z - crossings_[i].z < kNear) continue;
-      if (inside < 0 || inside > 1) return false;
-    }
-    return inside == 0;
-  }
-
   const MeshStars& stars_;
   Frame frame_;
   Index3 shape_;
-  std::vector<Crossing> crossings_;
+  std::vector<LineCrossing> crossings_;
 };
 
 }  // namespace
 
+std::vector<LineCrossing> line_crossings(const MeshStars& stars, const Frame& frame, Index3 shape) {
+  return LineFinder(stars, frame, shape).run();
+}
+
+void OverlapCheck::add(const LineCrossing& crossing) {
+  if (!line_.empty() && line_.front().column != crossing.column) end_line();
+  line_.push_back(crossing);
+}
+
+void OverlapCheck::end_line() {
+  if (line_.empty()) return;
+  ++lines_;
+  const std::uint64_t column = line_.front().column;
+  const auto width = static_cast<std::uint64_t>(shape_.x);
+  if (!is_sound(line_)) {
+    crowded_.add([&] {
+      return "voxel column " + std::to_string(column % width) + "," +
+             std::to_string(column / width);
+    });
+  }
+  line_.clear();
+}
+
+Check OverlapCheck::verdict() {
+  end_line();
+  return {"P2 overlap", crowded_.count() == 0,
+          std::to_string(lines_) + " lines through the mesh; " + crowded_.text()};
+}
+
 Check check_overlap(const MeshStars& stars, const Frame& frame, Index3 shape) {
-  return OverlapAudit(stars, frame, shape).run();
+  std::vector<LineCrossing> crossings = line_crossings(stars, frame, shape);
+  std::sort(crossings.begin(), crossings.end());
+  OverlapCheck check(shape);
+  for (const LineCrossing& crossing : crossings) check.add(crossing);
+  return check.verdict();
 }
 
 }  // namespace mw::audit

@@ -51,6 +51,19 @@ void EulerSums::add(std::int64_t sign, std::span<const Label> classes) {
   if (classes.size() == 1) only[classes[0]] += sign;
 }
 
+void EulerSums::add(const ClassCells& cells) {
+  closed[cells.label] += cells.closed;
+  only[cells.label] += cells.only;
+}
+
+std::vector<ClassCells> EulerSums::cells() const {
+  std::vector<ClassCells> out;
+  for (Label c = 0; c < closed.size(); ++c) {
+    if (closed[c] != 0 || only[c] != 0) out.push_back({c, closed[c], only[c]});
+  }
+  return out;
+}
+
 std::vector<std::int64_t> components_within(std::span<const Label> part_class,
                                             std::span<const PartPair> pairs,
                                             std::size_t class_count) {
@@ -65,11 +78,12 @@ std::vector<std::int64_t> components_within(std::span<const Label> part_class,
   return components;
 }
 
-std::vector<RegionBetti> betti_of_parts(std::span<const Label> part_class, PartGraph& graph,
+std::vector<RegionBetti> betti_of_parts(std::span<const Label> part_class,
+                                        std::span<const PartPair> face_pairs,
+                                        std::span<const PartPair> vertex_pairs,
                                         const EulerSums& euler) {
   const std::size_t class_count = euler.closed.size();
-  const auto rest_by_face = components_without(part_class, graph.take_face_pairs(), class_count);
-  const auto vertex_pairs = graph.take_vertex_pairs();
+  const auto rest_by_face = components_without(part_class, face_pairs, class_count);
   const auto own_by_vertex = components_within(part_class, vertex_pairs, class_count);
   const auto rest_by_vertex = components_without(part_class, vertex_pairs, class_count);
   const auto own_by_face = components_within(part_class, {}, class_count);

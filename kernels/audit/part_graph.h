@@ -58,12 +58,31 @@ class PartGraph {
   PairSet by_vertex_;
 };
 
+/// Cells in the closure of a class, as EulerSums count them.
+struct ClassCells {
+  Label label = 0;
+  std::int64_t closed = 0;
+  std::int64_t only = 0;
+};
+
+/// What one tile tells of the parts of all labels, its parts numbered from 0.
+struct PartsPiece {
+  std::vector<Label> part_class;  ///< ascending
+  std::vector<PartPair> face_pairs;
+  std::vector<PartPair> vertex_pairs;
+  std::vector<ClassCells> cells;  ///< ascending
+  std::int64_t total = 0;         ///< see EulerSums
+};
+
 /// Euler characteristics of all labels, as sums over the cells of the 3-sphere.
 struct EulerSums {
   explicit EulerSums(std::size_t class_count) : closed(class_count), only(class_count) {}
 
   /// One cell, sign (-1)^dimension, with the distinct classes of the 3-cells around it.
   void add(std::int64_t sign, std::span<const Label> classes);
+  void add(const ClassCells& cells);
+  /// Classes with a cell, ascending.
+  [[nodiscard]] std::vector<ClassCells> cells() const;
 
   std::vector<std::int64_t> closed;  ///< cells in the closure of the class
   std::vector<std::int64_t> only;    ///< cells in the closure of nothing else
@@ -99,6 +118,8 @@ struct GroupedPair {
 ///   open:   b0 = its parts, b2 = b0(C) - 1, b1 = b1(C) where b2(C) = b0(open) - 1;
 /// and the missing b1 follows from the Euler characteristic (chi(C) = total - only).
 [[nodiscard]] std::vector<RegionBetti> betti_of_parts(std::span<const Label> part_class,
-                                                      PartGraph& graph, const EulerSums& euler);
+                                                      std::span<const PartPair> face_pairs,
+                                                      std::span<const PartPair> vertex_pairs,
+                                                      const EulerSums& euler);
 
 }  // namespace mw::audit

@@ -85,12 +85,35 @@ double radius_ratio(const Position& a, const Position& b, const Position& c, con
 }
 
 void QualityMeter::add(const Position& a, const Position& b, const Position& c, const Position& d) {
-  const TetShape tet(a, b, c, d);
+  add(tets_, {a, b, c, d});
+}
+
+void QualityMeter::take_worst(std::uint64_t tet, double ratio) {
+  const bool is_tie = ratio == report_.radius_ratio_min && tet < report_.worst_tet;
+  if (tets_ > 0 && ratio >= report_.radius_ratio_min && !is_tie) return;
+  report_.radius_ratio_min = ratio;
+  report_.worst_tet = tet;
+}
+
+void QualityMeter::add(const QualityMeter& other) {
+  if (other.tets_ == 0) return;
+  take_worst(other.report_.worst_tet, other.report_.radius_ratio_min);
+  tets_ += other.tets_;
+  slivers_ += other.slivers_;
+  sum_.add(other.sum_);
+  largest_cosine_ = std::max(largest_cosine_, other.largest_cosine_);
+  smallest_cosine_ = std::min(smallest_cosine_, other.smallest_cosine_);
+  const auto add_bins = [](const auto& from, auto& to) {
+    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
+  };
+  add_bins(other.report_.radius_ratio_histogram, report_.radius_ratio_histogram);
+  add_bins(other.report_.dihedral_histogram, report_.dihedral_histogram);
+}
+
+void QualityMeter::add(std::uint64_t number, const std::array<Position, 4>& corners) {
+  const TetShape tet(corners[0], corners[1], corners[2], corners[3]);
   const double ratio = tet.radius_ratio();
-  if (tets_ == 0 || ratio < report_.radius_ratio_min) {
-    report_.radius_ratio_min = ratio;
-    report_.worst_tet = tets_;
-  }
+  take_worst(number, ratio);
   ++tets_;
   sum_.add(ratio);
   if (ratio < kSliverRadiusRatio) ++slivers_;
@@ -121,12 +144,19 @@ QualityReport QualityMeter::report() const {
   return report;
 }
 
-QualityReport measure_quality(const AuditMesh& mesh) {
+QualityMeter tally_quality(const MeshTile& tile) {
   QualityMeter meter;
-  for (const auto& [a, b, c, d] : mesh.tets) {
-    meter.add(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]);
+  const auto& at = tile.mesh.vertices;
+  for (std::size_t t = 0; t < tile.mesh.tets.size(); ++t) {
+    if (!tile.owns_tet(t)) continue;
+    const auto& [a, b, c, d] = tile.mesh.tets[t];
+    meter.add(tile.tet_id(t), {at[a], at[b], at[c], at[d]});
   }
-  return meter.report();
+  return meter;
+}
+
+QualityReport measure_quality(const AuditMesh& mesh) {
+  return tally_quality({.mesh = mesh}).report();
 }
 
 }  // namespace mw::audit

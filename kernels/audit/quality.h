@@ -36,10 +36,16 @@ class QualityMeter {
  public:
   /// REQUIRES: finite coordinates.
   void add(const Position& a, const Position& b, const Position& c, const Position& d);
+  /// The same of a tet that has another number than that of the tets before it.
+  void add(std::uint64_t tet, const std::array<Position, 4>& corners);
+  /// Adds what another one has taken, whose tets have numbers of their own.
+  void add(const QualityMeter& other);
   /// Of all tets so far.
   [[nodiscard]] QualityReport report() const;
 
  private:
+  void take_worst(std::uint64_t tet, double ratio);
+
   QualityReport report_;  ///< without the figures that need the number of tets
   std::uint64_t tets_ = 0;
   std::uint64_t slivers_ = 0;
@@ -47,6 +53,9 @@ class QualityMeter {
   double largest_cosine_ = -2;  ///< of the sharpest dihedral angle
   double smallest_cosine_ = 2;  ///< of the bluntest
 };
+
+/// The same of the tets that a tile owns, by their numbers in the whole mesh.
+[[nodiscard]] QualityMeter tally_quality(const MeshTile& tile);
 
 /// P3.  An empty mesh gives zeros.  Flat tets count as radius ratio 0; faces without area are left
 /// out of the dihedral angles.

@@ -49,10 +49,10 @@ struct EdgeSide {
 
 class ShapeAudit {
  public:
-  explicit ShapeAudit(const AuditMesh& mesh) : mesh_(mesh) {}
+  explicit ShapeAudit(const MeshStars& stars) : stars_(stars), mesh_(stars.mesh()) {}
 
-  ShapeReport run() {
-    visit_faces(MeshStars(mesh_), [&](const MeshFace& face) {
+  ShapeMeter run() {
+    visit_whole_faces(stars_, [&](const MeshFace& face) {
       if (face.sides.size() == 2 && label(face, 0) != label(face, 1)) add_triangle(face);
     });
     std::sort(sides_.begin(), sides_.end(), [](const EdgeSide& a, const EdgeSide& b) {
@@ -62,7 +62,7 @@ class ShapeAudit {
       while (end < sides_.size() && sides_[end].same_edge(sides_[begin])) ++end;
       if (end - begin == 2) add_edge(sides_[begin], sides_[begin + 1]);
     }
-    return meter_.report();
+    return std::move(meter_);
   }
 
  private:
@@ -85,10 +85,14 @@ class ShapeAudit {
     const auto& [a, b, c] = face.vertices;
     const LabelPair labels = label_pair(label(face, 0), label(face, 1));
     const bool out = points_out(face, label(face, 0) == labels.low ? 0 : 1);
-    meter_.add_triangle(at(a), at(b), at(c));
-    sides_.push_back({a, b, c, labels, !out});
-    sides_.push_back({b, c, a, labels, !out});
-    sides_.push_back({a, c, b, labels, out});
+    if (stars_.owns(a)) meter_.add_triangle(at(a), at(b), at(c));
+    add_side({a, b, c, labels, !out});
+    add_side({b, c, a, labels, !out});
+    add_side({a, c, b, labels, out});
+  }
+
+  void add_side(const EdgeSide& side) {
+    if (stars_.owns(side.p)) sides_.push_back(side);
   }
 
   void add_edge(const EdgeSide& one, const EdgeSide& other) {
@@ -97,6 +101,7 @@ class ShapeAudit {
                     {at(other.apex), other.turned});
   }
 
+  const MeshStars& stars_;
   const AuditMesh& mesh_;
   ShapeMeter meter_;
   std::vector<EdgeSide> sides_;
@@ -125,6 +130,15 @@ void ShapeMeter::add_edge(const Position& p, const Position& q, const Wing& one,
   largest_ = std::max(largest_, degrees);
 }
 
+void ShapeMeter::add(const ShapeMeter& other) {
+  triangles_ += other.triangles_;
+  area_.add(other.area_);
+  for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i].add(other.bins_[i]);
+  length_.add(other.length_);
+  sharp_length_.add(other.sharp_length_);
+  largest_ = std::max(largest_, other.largest_);
+}
+
 /// The middle of the first bin up to which the wanted share of the length lies.
 double ShapeMeter::percentile(double share, double total) const {
   CompensatedSum below;
@@ -151,8 +165,12 @@ ShapeReport ShapeMeter::report() const {
   return out;
 }
 
+ShapeMeter measure_shape(const MeshStars& stars) {
+  return ShapeAudit(stars).run();
+}
+
 ShapeReport measure_shape(const AuditMesh& mesh) {
-  return ShapeAudit(mesh).run();
+  return measure_shape(MeshStars(mesh)).report();
 }
 
 }  // namespace mw::audit

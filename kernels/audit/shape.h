@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/audit/compensated_sum.h"
+#include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/subject.h"
 
 namespace mw::audit {
@@ -47,6 +48,8 @@ class ShapeMeter {
   void add_triangle(const Position& a, const Position& b, const Position& c);
   /// An edge with its two triangles.
   void add_edge(const Position& p, const Position& q, const Wing& one, const Wing& other);
+  /// Adds what another one has taken.
+  void add(const ShapeMeter& other);
   /// Of everything so far.
   [[nodiscard]] ShapeReport report() const;
 
@@ -68,5 +71,8 @@ class ShapeMeter {
 /// REQUIRES: as MeshStars, and finite vertices.  Errors: as MeshStars.
 /// Memory: 16 bytes a tet, 72 an interface triangle.  Deterministic.
 [[nodiscard]] ShapeReport measure_shape(const AuditMesh& mesh);
+
+/// The same of the triangles and edges that a tile owns.
+[[nodiscard]] ShapeMeter measure_shape(const MeshStars& stars);
 
 }  // namespace mw::audit

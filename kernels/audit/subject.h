@@ -3,6 +3,7 @@
 // What an audit looks at: a volume, a finished mesh of any tool, and where the box lies.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -45,6 +46,45 @@ struct AuditMesh {
   std::span<const TetRow> tets;
   std::span<const Label> labels;
 };
+
+/// A part of a mesh, as large as one step of an audit can hold: every tet with a vertex that the
+/// tile owns.  Each vertex of the whole mesh is owned by one tile, where its star is complete.
+/// What is counted once (an edge, a triangle, a tet) is counted where its first vertex is owned.
+struct MeshTile {
+  AuditMesh mesh;                             ///< rows of its own, in the order of the whole
+  std::span<const std::uint64_t> vertex_ids;  ///< by row, ascending; empty: the rows
+  std::span<const std::uint64_t> tet_ids;     ///< by row, ascending; empty: the rows
+  std::span<const std::uint8_t> owned;        ///< by row of vertex; empty: all are
+
+  [[nodiscard]] bool owns(std::uint64_t vertex) const {
+    return owned.empty() || owned[vertex] != 0;
+  }
+  /// REQUIRES: rows in range.
+  [[nodiscard]] bool owns_tet(std::size_t tet) const {
+    return owned.empty() || owns(*std::min_element(mesh.tets[tet].begin(), mesh.tets[tet].end()));
+  }
+  [[nodiscard]] std::uint64_t vertex_id(std::uint64_t vertex) const {
+    return vertex_ids.empty() ? vertex : vertex_ids[vertex];
+  }
+  [[nodiscard]] std::uint64_t tet_id(std::size_t tet) const {
+    return tet_ids.empty() ? tet : tet_ids[tet];
+  }
+};
+
+/// A box of a volume's voxels, and the lattice vertices that are counted with it.  Each vertex is
+/// owned by one tile, which has all voxels around it, but for those outside of the volume.
+struct VoxelTile {
+  VoxelLabels voxels;  ///< of `loaded`
+  Index3 shape;        ///< of the whole volume
+  Box3 loaded;
+  Box3 owned;  ///< of vertices, from 0 to shape
+};
+
+/// All of a volume.
+[[nodiscard]] inline VoxelTile whole(const VoxelLabels& volume) {
+  const Index3 s = volume.shape;
+  return {volume, s, {{0, 0, 0}, s}, {{0, 0, 0}, s + Index3{1, 1, 1}}};
+}
 
 /// Where the volume lies, physical units: the box is [origin, origin + shape * spacing].
 struct Frame {

@@ -9,8 +9,6 @@
 #include <string>
 
 #include "kernels/audit/box_planes.h"
-#include "kernels/audit/compensated_sum.h"
-#include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/orientation.h"
 #include "kernels/audit/overlap.h"
 #include "kernels/core/error.h"
@@ -20,157 +18,107 @@ namespace {
 
 constexpr double kVolumeTolerance = 1e-9;
 
-std::string face_name(const std::array<std::uint32_t, 3>& v) {
-  return std::to_string(v[0]) + "-" + std::to_string(v[1]) + "-" + std::to_string(v[2]);
-}
-
-class ValidityAudit {
+class TileAudit {
  public:
-  ValidityAudit(const AuditMesh& mesh, const VoxelLabels& volume, const Frame& frame,
-                std::size_t label_count, const KeptLabels& kept)
-      : mesh_(mesh),
-        volume_(volume),
-        frame_(frame),
-        box_(frame, volume.shape),
-        label_count_(label_count),
-        kept_(kept) {}
+  TileAudit(const MeshStars& stars, const ValidityTask& task)
+      : stars_(stars), task_(task), box_(task.frame, task.shape) {
+    tally_.label_volumes.resize(task.wanted.size() + 1);
+    tally_.in_mesh.resize(task.wanted.size() + 1);
+  }
 
-  ValidityReport run() {
-    const std::optional<MeshStars> stars = check_input();
-    if (!stars) return std::move(report_);
-    check_orientation();
-    check_vertices(*stars);
-    check_tets(*stars);
-    check_faces(*stars);
+  ValidityTally run() {
+    take_orientations();
+    check_vertices();
+    check_tets();
+    check_faces();
     check_box();
-    check_volume();
-    check_labels();
-    if (has_gaps()) report_.checks.push_back(check_overlap(*stars, frame_, volume_.shape));
-    return std::move(report_);
+    measure_labels();
+    return std::move(tally_);
   }
 
  private:
-  /// Whether labels were left out.
-  [[nodiscard]] bool has_gaps() const { return !kept_.empty(); }
-
-  void conclude(std::string name, bool passed, std::string detail) {
-    report_.checks.push_back({"P2 " + std::move(name), passed, std::move(detail)});
+  [[nodiscard]] const AuditMesh& mesh() const { return stars_.mesh(); }
+  [[nodiscard]] const MeshTile& tile() const { return stars_.tile(); }
+  [[nodiscard]] std::string tet_name(std::size_t tet) const {
+    return std::to_string(tile().tet_id(tet));
   }
-
-  std::optional<MeshStars> check_input() {
-    std::optional<MeshStars> stars;
-    try {
-      stars.emplace(mesh_);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::kInput) throw;
-      conclude("input", false, error.what());
-      return std::nullopt;
-    }
-    Offenders endless("vertices that are not finite");
-    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
-      const Position& p = mesh_.vertices[v];
-      if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
-      endless.add([v] { return std::to_string(v); });
-    }
-    const bool sound = endless.count() == 0 && !mesh_.tets.empty();
-    conclude("input", sound,
-             std::to_string(mesh_.vertices.size()) + " vertices, " +
-                 std::to_string(mesh_.tets.size()) + " tets; " + endless.text());
-    return sound ? std::move(stars) : std::nullopt;
+  [[nodiscard]] std::string vertex_name(std::uint64_t vertex) const {
+    return std::to_string(tile().vertex_id(vertex));
   }
 
   /// Fills sign_ with the exact orientation of every tet.
-  void check_orientation() {
-    sign_.reserve(mesh_.tets.size());
-    for (const TetRow& t : mesh_.tets) {
-      const auto corner = [&](std::size_t i) -> const Position& { return mesh_.vertices[t[i]]; };
+  void take_orientations() {
+    sign_.reserve(mesh().tets.size());
+    for (std::size_t t = 0; t < mesh().tets.size(); ++t) {
+      const TetRow& row = mesh().tets[t];
+      const auto corner = [&](std::size_t i) -> const Position& { return mesh().vertices[row[i]]; };
       std::optional<int> sign = filtered_orientation(corner(0), corner(1), corner(2), corner(3));
-      if (!sign) {
-        ++report_.exact_decisions;
-        sign = exact_orientation(corner(0), corner(1), corner(2), corner(3));
-      }
+      const bool is_exact = !sign;
+      if (is_exact) sign = exact_orientation(corner(0), corner(1), corner(2), corner(3));
       sign_.push_back(static_cast<std::int8_t>(*sign));
-      ++tally(*sign);
+      if (!tile().owns_tet(t)) continue;
+      if (is_exact) ++tally_.exact_decisions;
+      ++count_of(*sign);
+      if (*sign != 1) tally_.turned.add([&] { return tet_name(t); });
     }
-    conclude_orientation();
   }
 
-  std::uint64_t& tally(int sign) {
-    if (sign == 0) return report_.flat_tets;
-    return sign > 0 ? report_.positive_tets : report_.negative_tets;
+  std::uint64_t& count_of(int sign) {
+    if (sign == 0) return tally_.flat_tets;
+    return sign > 0 ? tally_.positive_tets : tally_.negative_tets;
   }
 
-  void conclude_orientation() {
-    Offenders wrong("tets that are flat or turned over");
-    for (std::size_t t = 0; t < sign_.size(); ++t) {
-      if (sign_[t] != 1) wrong.add([t] { return std::to_string(t); });
-    }
-    if (wrong.count() == 0) report_.orientation = 1;
-    if (report_.negative_tets == sign_.size() && !sign_.empty()) report_.orientation = -1;
-    conclude("orientation", wrong.count() == 0,
-             std::to_string(report_.positive_tets) + " positive, " +
-                 std::to_string(report_.negative_tets) + " negative, " +
-                 std::to_string(report_.flat_tets) + " flat; " + wrong.text());
-  }
-
-  void check_vertices(const MeshStars& stars) {
+  /// Vertices at one position are owned by one tile.
+  void check_vertices() {
     struct Placed {
       Position at;
       std::uint32_t vertex;
       auto operator<=>(const Placed&) const = default;
     };
-    Offenders unused("vertices in no tet");
-    std::vector<Placed> placed(mesh_.vertices.size());
-    for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
-      placed[v] = {mesh_.vertices[v], v};
-      if (stars.star(v).empty()) unused.add([v] { return std::to_string(v); });
+    std::vector<Placed> placed;
+    for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (!stars_.owns(v)) continue;
+      placed.push_back({mesh().vertices[v], v});
+      if (stars_.star(v).empty()) tally_.unused.add([&] { return vertex_name(v); });
     }
-    report_.unused_vertices = unused.count();
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a < b; });
-    Offenders same("vertices where another one is");
     for (std::size_t i = 1; i < placed.size(); ++i) {
       if (placed[i].at != placed[i - 1].at) continue;
-      same.add([&] { return std::to_string(placed[i].vertex); });
+      tally_.same.add([&] { return vertex_name(placed[i].vertex); });
     }
-    conclude("vertices", same.count() == 0 && unused.count() == 0,
-             same.text() + "; " + unused.text());
   }
 
-  void check_tets(const MeshStars& stars) {
+  void check_tets() {
     std::vector<std::pair<TetRow, std::uint32_t>> at_smallest;
-    Offenders twice("tets that are there twice");
-    for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
+    for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (!stars_.owns(v)) continue;
       at_smallest.clear();
-      for (const std::uint32_t id : stars.star(v)) {
-        TetRow tet = mesh_.tets[id];
+      for (const std::uint32_t id : stars_.star(v)) {
+        TetRow tet = mesh().tets[id];
         std::sort(tet.begin(), tet.end());
         if (tet[0] == v) at_smallest.emplace_back(tet, id);
       }
       std::sort(at_smallest.begin(), at_smallest.end());
       for (std::size_t i = 1; i < at_smallest.size(); ++i) {
         if (at_smallest[i].first != at_smallest[i - 1].first) continue;
-        twice.add([&] { return std::to_string(at_smallest[i].second); });
+        tally_.twice.add([&] { return tet_name(at_smallest[i].second); });
       }
     }
-    conclude("tets", twice.count() == 0, twice.text());
   }
 
-  void check_faces(const MeshStars& stars) {
-    Offenders open("triangles of one tet that are not on the box");
-    Offenders crowded("triangles of three or more tets");
-    Offenders folded("triangles with both tets on one side");
-    visit_faces(stars, [&](const MeshFace& face) {
-      ++report_.faces;
-      const auto name = [&] { return face_name(face.vertices); };
-      if (face.sides.size() > 2) crowded.add(name);
-      if (face.sides.size() == 2 && !on_opposite_sides(face)) folded.add(name);
+  void check_faces() {
+    visit_faces(stars_, [&](const MeshFace& face) {
+      ++tally_.faces;
+      const auto name = [&] {
+        return vertex_name(face.vertices[0]) + "-" + vertex_name(face.vertices[1]) + "-" +
+               vertex_name(face.vertices[2]);
+      };
+      if (face.sides.size() > 2) tally_.crowded.add(name);
+      if (face.sides.size() == 2 && !on_opposite_sides(face)) tally_.folded.add(name);
       if (face.sides.size() != 1) return;
-      ++report_.box_faces;
-      if (!has_gaps() && !on_box(face)) open.add(name);
+      ++tally_.box_faces;
+      if (!task_.has_gaps && !on_box(face)) tally_.open.add(name);
     });
-    conclude("faces", open.count() + crowded.count() + folded.count() == 0,
-             std::to_string(report_.faces) + " triangles, " + std::to_string(report_.box_faces) +
-                 " of one tet; " + open.text() + ", " + crowded.text() + ", " + folded.text());
   }
 
   /// Where a tet lies is its orientation times the parity with which it names the triangle.  Flat
@@ -182,44 +130,37 @@ class ValidityAudit {
   }
 
   [[nodiscard]] bool on_box(const MeshFace& face) const {
-    return box_.share_plane({&mesh_.vertices[face.vertices[0]], &mesh_.vertices[face.vertices[1]],
-                             &mesh_.vertices[face.vertices[2]]});
+    const auto& at = mesh().vertices;
+    return box_.share_plane({&at[face.vertices[0]], &at[face.vertices[1]], &at[face.vertices[2]]});
   }
 
   void check_box() {
-    Offenders outside("vertices outside the box");
-    std::array<bool, 8> found{};
-    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
-      if (!box_.contains(mesh_.vertices[v])) outside.add([v] { return std::to_string(v); });
-      if (const auto corner = box_.corner_at(mesh_.vertices[v])) found[*corner] = true;
+    for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (!stars_.owns(v)) continue;
+      const Position& p = mesh().vertices[v];
+      if (!box_.contains(p)) tally_.outside.add([&] { return vertex_name(v); });
+      if (const auto corner = box_.corner_at(p)) tally_.corners[*corner] = true;
     }
-    const auto corners = std::count(found.begin(), found.end(), true);
-    conclude("box", outside.count() == 0 && (corners == 8 || has_gaps()),
-             outside.text() + "; " + std::to_string(corners) + " of 8 corners");
   }
 
-  void check_volume() {
-    std::vector<CompensatedSum> sums(label_count_ + 1);
-    CompensatedSum all;
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-      const double volume = std::abs(volume_of(mesh_.tets[t]));
-      sums[std::min<std::size_t>(mesh_.labels[t], label_count_)].add(volume);
-      all.add(volume);
+  void measure_labels() {
+    const std::size_t unknown = task_.wanted.size();
+    for (std::size_t t = 0; t < mesh().tets.size(); ++t) {
+      if (!tile().owns_tet(t)) continue;
+      const double volume = std::abs(volume_of(mesh().tets[t]));
+      const std::size_t label = std::min<std::size_t>(mesh().labels[t], unknown);
+      tally_.volume.add(volume);
+      tally_.label_volumes[label].add(volume);
+      tally_.in_mesh[label] = true;
+      if (label == unknown || !task_.wanted[label]) tally_.strange.add([&] { return tet_name(t); });
     }
-    for (const CompensatedSum& sum : sums) report_.label_volumes.push_back(sum.value());
-    report_.volume = all.value();
-    report_.box_volume = box_.volume();
-    const double excess = report_.volume - report_.box_volume;
-    const double error = has_gaps() ? excess : std::abs(excess);
-    conclude("volume", error <= kVolumeTolerance * report_.box_volume + box_.volume_rounding(),
-             "tets " + number(report_.volume) + ", box " + number(report_.box_volume));
   }
 
   [[nodiscard]] double volume_of(const TetRow& t) const {
-    const Position& a = mesh_.vertices[t[0]];
+    const Position& a = mesh().vertices[t[0]];
     std::array<Position, 3> r{};
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) r[i][k] = mesh_.vertices[t[i + 1]][k] - a[k];
+      for (std::size_t k = 0; k < 3; ++k) r[i][k] = mesh().vertices[t[i + 1]][k] - a[k];
     }
     return (r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) +
             r[0][1] * (r[1][2] * r[2][0] - r[1][0] * r[2][2]) +
@@ -227,40 +168,174 @@ class ValidityAudit {
            6;
   }
 
-  void check_labels() {
-    std::vector<bool> in_volume(label_count_ + 1, false);
-    std::vector<bool> in_mesh(label_count_ + 1, false);
-    for (const Label l : volume_.labels) {
-      if (keeps(kept_, l)) in_volume[std::min<std::size_t>(l, label_count_)] = true;
-    }
-    Offenders strange(has_gaps() ? "tets whose label is not one of those kept"
-                                 : "tets whose label is not in the volume");
-    for (std::size_t t = 0; t < mesh_.labels.size(); ++t) {
-      const auto label = std::min<std::size_t>(mesh_.labels[t], label_count_);
-      in_mesh[label] = true;
-      if (label == label_count_ || !in_volume[label]) {
-        strange.add([t] { return std::to_string(t); });
-      }
-    }
-    Offenders lost(has_gaps() ? "labels that are kept and not in the mesh"
-                              : "labels of the volume that are not in the mesh");
-    for (std::size_t l = 0; l < label_count_; ++l) {
-      if (in_volume[l] && !in_mesh[l]) lost.add([l] { return "dense " + std::to_string(l); });
-    }
-    conclude("labels", strange.count() + lost.count() == 0, strange.text() + ", " + lost.text());
-  }
-
-  const AuditMesh& mesh_;
-  const VoxelLabels& volume_;
-  Frame frame_;
+  const MeshStars& stars_;
+  const ValidityTask& task_;
   BoxPlanes box_;
-  std::size_t label_count_;
-  const KeptLabels& kept_;
-  ValidityReport report_;
+  ValidityTally tally_;
   std::vector<std::int8_t> sign_;
 };
 
+/// Puts the verdict into words.
+class Judgement {
+ public:
+  Judgement(const ValidityTally& tally, const ValidityTask& task)
+      : tally_(tally), task_(task), box_(task.frame, task.shape) {}
+
+  ValidityReport run() {
+    take_numbers();
+    judge_orientation();
+    conclude("vertices", {&tally_.same, &tally_.unused}, "", "; ");
+    conclude("tets", {&tally_.twice}, "", "");
+    conclude("faces", {&tally_.open, &tally_.crowded, &tally_.folded},
+             std::to_string(tally_.faces) + " triangles, " + std::to_string(tally_.box_faces) +
+                 " of one tet; ",
+             ", ");
+    judge_box();
+    judge_volume();
+    judge_labels();
+    return std::move(report_);
+  }
+
+ private:
+  void add(const char* name, bool passed, std::string detail) {
+    report_.checks.push_back({std::string("P2 ") + name, passed, std::move(detail)});
+  }
+
+  void conclude(const char* name, std::initializer_list<const Offenders*> offenders,
+                std::string detail, const char* separator) {
+    bool passed = true;
+    for (const Offenders* o : offenders) {
+      passed = passed && o->count() == 0;
+      detail += (o == *offenders.begin() ? "" : separator) + o->text();
+    }
+    add(name, passed, std::move(detail));
+  }
+
+  void take_numbers() {
+    report_.positive_tets = tally_.positive_tets;
+    report_.negative_tets = tally_.negative_tets;
+    report_.flat_tets = tally_.flat_tets;
+    report_.exact_decisions = tally_.exact_decisions;
+    report_.unused_vertices = tally_.unused.count();
+    report_.faces = tally_.faces;
+    report_.box_faces = tally_.box_faces;
+    report_.volume = tally_.volume.value();
+    report_.box_volume = box_.volume();
+    for (const CompensatedSum& sum : tally_.label_volumes) {
+      report_.label_volumes.push_back(sum.value());
+    }
+  }
+
+  void judge_orientation() {
+    const std::uint64_t tets = tally_.positive_tets + tally_.negative_tets + tally_.flat_tets;
+    if (tally_.positive_tets == tets && tets > 0) report_.orientation = 1;
+    if (tally_.negative_tets == tets && tets > 0) report_.orientation = -1;
+    conclude("orientation", {&tally_.turned},
+             std::to_string(tally_.positive_tets) + " positive, " +
+                 std::to_string(tally_.negative_tets) + " negative, " +
+                 std::to_string(tally_.flat_tets) + " flat; ",
+             "");
+  }
+
+  void judge_box() {
+    const auto corners = std::count(tally_.corners.begin(), tally_.corners.end(), true);
+    add("box", tally_.outside.count() == 0 && (corners == 8 || task_.has_gaps),
+        tally_.outside.text() + "; " + std::to_string(corners) + " of 8 corners");
+  }
+
+  void judge_volume() {
+    const double excess = report_.volume - report_.box_volume;
+    const double error = task_.has_gaps ? excess : std::abs(excess);
+    add("volume", error <= kVolumeTolerance * report_.box_volume + box_.volume_rounding(),
+        "tets " + number(report_.volume) + ", box " + number(report_.box_volume));
+  }
+
+  void judge_labels() {
+    Offenders strange(task_.has_gaps ? "tets whose label is not one of those kept"
+                                     : "tets whose label is not in the volume");
+    strange.add(tally_.strange);
+    Offenders lost(task_.has_gaps ? "labels that are kept and not in the mesh"
+                                  : "labels of the volume that are not in the mesh");
+    for (std::size_t l = 0; l < task_.wanted.size(); ++l) {
+      if (task_.wanted[l] && !tally_.in_mesh[l]) {
+        lost.add([l] { return "dense " + std::to_string(l); });
+      }
+    }
+    conclude("labels", {&strange, &lost}, "", ", ");
+  }
+
+  const ValidityTally& tally_;
+  const ValidityTask& task_;
+  BoxPlanes box_;
+  ValidityReport report_;
+};
+
+/// Empty when the input is no mesh; the check tells.
+std::optional<MeshStars> check_input(const AuditMesh& mesh, Check& check) {
+  check.name = "P2 input";
+  std::optional<MeshStars> stars;
+  try {
+    stars.emplace(mesh);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    check.detail = error.what();
+    return std::nullopt;
+  }
+  Offenders endless("vertices that are not finite");
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Position& p = mesh.vertices[v];
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
+    endless.add([v] { return std::to_string(v); });
+  }
+  check = input_check(mesh.vertices.size(), mesh.tets.size(), endless);
+  return check.passed ? std::move(stars) : std::nullopt;
+}
+
+ValidityTask task_of(const VoxelLabels& volume, const Frame& frame, std::size_t label_count,
+                     const KeptLabels& kept) {
+  ValidityTask task{frame, volume.shape, std::vector<bool>(label_count), !kept.empty()};
+  for (const Label l : volume.labels) {
+    if (l < label_count && keeps(kept, l)) task.wanted[l] = true;
+  }
+  return task;
+}
+
 }  // namespace
+
+void ValidityTally::add(const ValidityTally& other, std::span<const Label> labels) {
+  const std::pair<Offenders&, const Offenders&> offenders[] = {
+      {turned, other.turned}, {unused, other.unused},   {same, other.same},
+      {twice, other.twice},   {open, other.open},       {crowded, other.crowded},
+      {folded, other.folded}, {outside, other.outside}, {strange, other.strange}};
+  for (const auto& [mine, its] : offenders) mine.add(its);
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = corners[i] || other.corners[i];
+  positive_tets += other.positive_tets;
+  negative_tets += other.negative_tets;
+  flat_tets += other.flat_tets;
+  exact_decisions += other.exact_decisions;
+  faces += other.faces;
+  box_faces += other.box_faces;
+  volume.add(other.volume);
+  for (std::size_t l = 0; l < other.in_mesh.size(); ++l) {
+    const std::size_t row = l < labels.size() ? labels[l] : in_mesh.size() - 1;
+    label_volumes[row].add(other.label_volumes[l]);
+    in_mesh[row] = in_mesh[row] || other.in_mesh[l];
+  }
+}
+
+ValidityTally tally_validity(const MeshStars& stars, const ValidityTask& task) {
+  return TileAudit(stars, task).run();
+}
+
+ValidityReport judge_validity(const ValidityTally& tally, const ValidityTask& task) {
+  return Judgement(tally, task).run();
+}
+
+Check input_check(std::uint64_t vertices, std::uint64_t tets, const Offenders& endless) {
+  return {
+      "P2 input", endless.count() == 0 && tets > 0,
+      std::to_string(vertices) + " vertices, " + std::to_string(tets) + " tets; " + endless.text()};
+}
 
 bool ValidityReport::passed() const {
   return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed; });
@@ -268,7 +343,16 @@ bool ValidityReport::passed() const {
 
 ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume, const Frame& frame,
                               std::size_t label_count, const KeptLabels& kept) {
-  return ValidityAudit(mesh, volume, frame, label_count, kept).run();
+  Check input;
+  const std::optional<MeshStars> stars = check_input(mesh, input);
+  ValidityReport report;
+  if (stars) {
+    const ValidityTask task = task_of(volume, frame, label_count, kept);
+    report = judge_validity(tally_validity(*stars, task), task);
+    if (task.has_gaps) report.checks.push_back(check_overlap(*stars, frame, volume.shape));
+  }
+  report.checks.insert(report.checks.begin(), std::move(input));
+  return report;
 }
 
 }  // namespace mw::audit

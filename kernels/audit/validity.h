@@ -3,11 +3,15 @@
 // Is a mesh a conforming partition of the box into labelled tets (promise P2)?
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernels/audit/check.h"
+#include "kernels/audit/compensated_sum.h"
+#include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/subject.h"
 
 namespace mw::audit {
@@ -31,6 +35,52 @@ struct ValidityReport {
 
   [[nodiscard]] bool passed() const;
 };
+
+/// What one tile finds, or all tiles together.  Labels are those of the tile.
+struct ValidityTally {
+  Offenders turned{"tets that are flat or turned over"};
+  Offenders unused{"vertices in no tet"};
+  Offenders same{"vertices where another one is"};
+  Offenders twice{"tets that are there twice"};
+  Offenders open{"triangles of one tet that are not on the box"};
+  Offenders crowded{"triangles of three or more tets"};
+  Offenders folded{"triangles with both tets on one side"};
+  Offenders outside{"vertices outside the box"};
+  std::array<bool, 8> corners{};  ///< of the box: a vertex is there
+  std::uint64_t positive_tets = 0;
+  std::uint64_t negative_tets = 0;
+  std::uint64_t flat_tets = 0;
+  std::uint64_t exact_decisions = 0;
+  std::uint64_t faces = 0;
+  std::uint64_t box_faces = 0;
+  CompensatedSum volume;
+  Offenders strange{"tets whose label is not wanted"};
+  std::vector<CompensatedSum> label_volumes;  ///< by label, then all tets of unknown label
+  std::vector<bool> in_mesh;                  ///< the same: there is such a tet
+
+  /// labels: of the other's labels, here; the unknown ones are the last of both.
+  void add(const ValidityTally& other, std::span<const Label> labels);
+};
+
+/// What is asked of a mesh.
+struct ValidityTask {
+  Frame frame;
+  Index3 shape;
+  /// By label: tets may have it, and some do.
+  std::vector<bool> wanted;
+  bool has_gaps = false;  ///< labels were left out
+};
+
+/// All checks of a tile's own vertices, triangles and tets.  REQUIRES: finite vertices; wanted by
+/// the tile's labels.  Memory: 17 bytes a tet, 50 a vertex.  Deterministic.
+[[nodiscard]] ValidityTally tally_validity(const MeshStars& stars, const ValidityTask& task);
+
+/// "P2 input".
+[[nodiscard]] Check input_check(std::uint64_t vertices, std::uint64_t tets,
+                                const Offenders& endless);
+
+/// The verdict on all tiles; "P2 input" comes before, "P2 overlap" after.
+[[nodiscard]] ValidityReport judge_validity(const ValidityTally& tally, const ValidityTask& task);
 
 /// P2.  The checks, in order: "P2 input" (rows in range, finite numbers; if it fails, nothing else
 /// is looked at), "P2 orientation" (all strictly positive, exactly), "P2 vertices" (no two at one

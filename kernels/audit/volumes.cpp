@@ -77,41 +77,6 @@ std::vector<std::uint64_t> voxels_of(const VoxelLabels& volume, std::size_t labe
   return out;
 }
 
-/// Calls add(label, tet) for the tets whose label is one of the volume.
-template <typename Add>
-void each_known_tet(const AuditMesh& mesh, std::size_t label_count, Add add) {
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (mesh.labels[t] < label_count) add(mesh.labels[t], mesh.tets[t]);
-  }
-}
-
-std::vector<VolumeRow> exact_rows(const std::vector<std::uint64_t>& voxels, const AuditMesh& mesh,
-                                  const std::vector<LatticePoint>& points, std::int64_t parts) {
-  std::vector<Int128> sums(voxels.size());
-  each_known_tet(mesh, voxels.size(),
-                 [&](Label label, const TetRow& t) { sums[label] += volume6<Int128>(points, t); });
-  std::vector<VolumeRow> rows;
-  for (Label l = 0; l < voxels.size(); ++l) {
-    if (voxels[l] > 0) rows.push_back(volume_row(l, voxels[l], sums[l], parts));
-  }
-  return rows;
-}
-
-std::vector<VolumeRow> rounded_rows(const std::vector<std::uint64_t>& voxels, const AuditMesh& mesh,
-                                    const std::vector<Position>& points) {
-  std::vector<CompensatedSum> sums(voxels.size());
-  each_known_tet(mesh, voxels.size(), [&](Label label, const TetRow& t) {
-    sums[label].add(volume6<double>(points, t) / 6);
-  });
-  std::vector<VolumeRow> rows;
-  for (Label l = 0; l < voxels.size(); ++l) {
-    const auto whole = static_cast<double>(voxels[l]);
-    const double found = sums[l].value();
-    if (voxels[l] > 0) rows.push_back({l, voxels[l], found, (found - whole) / whole});
-  }
-  return rows;
-}
-
 }  // namespace
 
 VolumeRow volume_row(Label label, std::uint64_t voxels, Int128 volume6, std::int64_t parts) {
@@ -141,18 +106,51 @@ VolumeSummary VolumeMeter::summary() const {
   return out;
 }
 
-VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,
-                             const AuditMesh& mesh, const Frame& frame, Index3 layers) {
-  const std::vector<std::uint64_t> voxels = voxels_of(volume, label_count);
-  const auto points = lattice_points(mesh, layered_frame(frame, layers));
-  VolumeReport report{.summary = {},
-                      .per_label = points ? exact_rows(voxels, mesh, *points, layers.product())
-                                          : rounded_rows(voxels, mesh, in_voxels(mesh, frame)),
-                      .exact = points.has_value()};
+void VolumeTally::add(const VolumeTally& other, std::span<const Label> labels) {
+  for (std::size_t l = 0; l < other.exact.size(); ++l) {
+    exact[labels[l]] += other.exact[l];
+    rounded[labels[l]].add(other.rounded[l]);
+  }
+  is_exact = is_exact && other.is_exact;
+}
+
+VolumeTally tally_volumes(const MeshTile& tile, std::size_t label_count, const Frame& frame) {
+  VolumeTally out{std::vector<Int128>(label_count), std::vector<CompensatedSum>(label_count)};
+  const AuditMesh& mesh = tile.mesh;
+  const auto exact = lattice_points(mesh, frame);
+  const std::vector<Position> rounded = in_voxels(mesh, frame);
+  out.is_exact = exact.has_value();
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const Label label = mesh.labels[t];
+    if (label >= label_count || !tile.owns_tet(t)) continue;
+    if (exact) out.exact[label] += volume6<Int128>(*exact, mesh.tets[t]);
+    out.rounded[label].add(volume6<double>(rounded, mesh.tets[t]) / 6);
+  }
+  return out;
+}
+
+VolumeReport compare_volumes(std::span<const std::uint64_t> voxels, const VolumeTally& mesh,
+                             std::int64_t parts) {
+  VolumeReport report{.summary = {}, .per_label = {}, .exact = mesh.is_exact};
   VolumeMeter meter;
-  for (const VolumeRow& row : report.per_label) meter.add(row);
+  for (Label l = 0; l < voxels.size(); ++l) {
+    if (voxels[l] == 0) continue;
+    const auto input = static_cast<double>(voxels[l]);
+    const double found = mesh.rounded[l].value() / static_cast<double>(parts);
+    report.per_label.push_back(mesh.is_exact
+                                   ? volume_row(l, voxels[l], mesh.exact[l], parts)
+                                   : VolumeRow{l, voxels[l], found, (found - input) / input});
+    meter.add(report.per_label.back());
+  }
   report.summary = meter.summary();
   return report;
+}
+
+VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,
+                             const AuditMesh& mesh, const Frame& frame, Index3 layers) {
+  return compare_volumes(voxels_of(volume, label_count),
+                         tally_volumes({.mesh = mesh}, label_count, layered_frame(frame, layers)),
+                         layers.product());
 }
 
 }  // namespace mw::audit

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kernels/audit/compensated_sum.h"
@@ -53,6 +54,24 @@ struct VolumeReport {
   std::vector<VolumeRow> per_label;  ///< labels of the volume, ascending
   bool exact = false;                ///< summed in whole numbers
 };
+
+/// Volumes of a mesh's labels, in both ways.
+struct VolumeTally {
+  std::vector<Int128> exact;            ///< see volume_row(); by label
+  std::vector<CompensatedSum> rounded;  ///< voxels; by label
+  bool is_exact = true;
+
+  /// labels: of the other's labels, here.
+  void add(const VolumeTally& other, std::span<const Label> labels);
+};
+
+/// Of the tets that a tile owns.  REQUIRES: as measure_volumes; frame: that of the layers.
+[[nodiscard]] VolumeTally tally_volumes(const MeshTile& tile, std::size_t label_count,
+                                        const Frame& frame);
+
+/// voxels: of each label; parts: layers in a voxel.
+[[nodiscard]] VolumeReport compare_volumes(std::span<const std::uint64_t> voxels,
+                                           const VolumeTally& mesh, std::int64_t parts);
 
 /// P8.  A tet counts with its absolute volume, and to no label when its own is none of the volume.
 /// Exact when every vertex lies on the 1/1024-voxel lattice of the frame, its voxels cut into

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Betti numbers of a volume: one sweep over the places where a run of voxels begins or ends.
+// Parts and cells of a volume: one sweep over the places where a run of voxels begins or ends.
 #include <algorithm>
 #include <array>
 
-#include "kernels/audit/part_graph.h"
+#include "kernels/audit/parts_union.h"
 #include "kernels/audit/voxel_runs.h"
 
 namespace mw::audit {
@@ -78,21 +78,23 @@ class RowCursor {
 /// nothing touches that did not touch at the last change: only changes need a look.
 class VoxelSweep {
  public:
-  VoxelSweep(const VoxelRuns& runs, std::size_t label_count)
-      : runs_(runs), euler_(label_count + 1), exterior_(label_count) {}
+  /// owned: vertices, from the first voxel of the runs.
+  VoxelSweep(const VoxelRuns& runs, const Box3& owned, std::size_t label_count)
+      : runs_(runs), owned_(owned), euler_(label_count + 1) {}
 
-  std::vector<RegionBetti> run() {
-    for (std::int64_t z = 0; z <= runs_.shape().z; ++z) {
-      for (std::int64_t y = 0; y <= runs_.shape().y; ++y) sweep_line(y, z);
+  PartsPiece run() {
+    for (std::int64_t z = owned_.lo.z; z < owned_.hi.z; ++z) {
+      for (std::int64_t y = owned_.lo.y; y < owned_.hi.y; ++y) sweep_line(y, z);
     }
-    // The exterior is an open ball, hence one 3-cell; its closure adds the box's surface, chi 2.
-    euler_.closed[exterior_] = 1;
-    euler_.only[exterior_] = -1;
-    return betti_of_parts(runs_.part_class(), graph_, euler_);
+    const std::span<const Label> part_class = runs_.part_class();
+    return {{part_class.begin(), part_class.end()},
+            graph_.take_face_pairs(),
+            graph_.take_vertex_pairs(),
+            euler_.cells()};
   }
 
  private:
-  /// Vertices (0 .. nx, y, z).
+  /// Vertices (.., y, z); those that are not owned only move the cursors.
   void sweep_line(std::int64_t y, std::int64_t z) {
     const auto cursor = [&](std::int64_t dy, std::int64_t dz) {
       return RowCursor(runs_.row(y + dy, z + dz), runs_.exterior_part(),
@@ -109,7 +111,7 @@ class VoxelSweep {
         around[2 * r] = rows[r].before();
         around[2 * r + 1] = rows[r].after();
       }
-      look_at(around);
+      if (x >= owned_.lo.x && x < owned_.hi.x) look_at(around);
     }
   }
 
@@ -152,16 +154,68 @@ class VoxelSweep {
   }
 
   const VoxelRuns& runs_;
+  Box3 owned_;
   PartGraph graph_;
   EulerSums euler_;
-  std::size_t exterior_;
+};
+
+/// Calls visit(SharedRun) for the voxels of a row (y, z, from the first voxel loaded) that other
+/// tiles load too: those of the tile's outer layers, but for the volume's.
+class SharedRow {
+ public:
+  SharedRow(const VoxelTile& tile, const VoxelRuns& runs)
+      : runs_(runs), lo_(tile.loaded.lo), shape_(tile.loaded.shape()), volume_{{}, tile.shape} {
+    const auto is_shared = [](std::int64_t lo, std::int64_t hi, std::int64_t end) {
+      return std::array<bool, 2>{lo > 0, hi < end};
+    };
+    shared_ = {is_shared(tile.loaded.lo.x, tile.loaded.hi.x, tile.shape.x),
+               is_shared(tile.loaded.lo.y, tile.loaded.hi.y, tile.shape.y),
+               is_shared(tile.loaded.lo.z, tile.loaded.hi.z, tile.shape.z)};
+  }
+
+  void add(std::int64_t y, std::int64_t z, std::vector<SharedRun>& out) const {
+    const RunRow row = runs_.row(y, z);
+    const bool all = is_outer(1, y, shape_.y) || is_outer(2, z, shape_.z);
+    const auto first = static_cast<std::uint64_t>(volume_.offset(lo_ + Index3{0, y, z}));
+    const auto length = static_cast<std::uint32_t>(shape_.x);
+    for (std::size_t i = 0; all && i < row.starts.size(); ++i) {
+      const std::uint32_t end = i + 1 < row.starts.size() ? row.starts[i + 1] : length;
+      out.push_back({first + row.starts[i], end - row.starts[i], row.parts[i]});
+    }
+    if (all) return;
+    if (shared_[0][0]) out.push_back({first, 1, row.parts.front()});
+    if (shared_[0][1]) out.push_back({first + length - 1, 1, row.parts.back()});
+  }
+
+ private:
+  [[nodiscard]] bool is_outer(std::size_t axis, std::int64_t at, std::int64_t length) const {
+    return (shared_[axis][0] && at == 0) || (shared_[axis][1] && at + 1 == length);
+  }
+
+  const VoxelRuns& runs_;
+  Index3 lo_;
+  Index3 shape_;
+  Box3 volume_;
+  std::array<std::array<bool, 2>, 3> shared_{};
 };
 
 }  // namespace
 
+VoxelParts voxel_parts(const VoxelTile& tile, std::size_t label_count) {
+  const VoxelRuns runs(tile.voxels, label_count);
+  const Box3 owned{tile.owned.lo - tile.loaded.lo, tile.owned.hi - tile.loaded.lo};
+  VoxelParts out{VoxelSweep(runs, owned, label_count).run(), {}};
+  const SharedRow shared(tile, runs);
+  for (std::int64_t z = 0; z < runs.shape().z; ++z) {
+    for (std::int64_t y = 0; y < runs.shape().y; ++y) shared.add(y, z, out.shared);
+  }
+  return out;
+}
+
 std::vector<RegionBetti> voxel_betti(const VoxelLabels& volume, std::size_t label_count) {
-  const VoxelRuns runs(volume, label_count);
-  return VoxelSweep(runs, label_count).run();
+  PartsUnion parts(label_count);
+  parts.add(voxel_parts(whole(volume), label_count).piece);
+  return parts.betti_of_volume();
 }
 
 }  // namespace mw::audit
