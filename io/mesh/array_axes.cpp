@@ -38,13 +38,17 @@ Vector3 nearest_lattice_point(const Vector3& corner, Index3 layers) {
 
 }  // namespace
 
+Position array_position(const VolumeSpace& space, const Position& p, Index3 layers) {
+  const Vector3 corner = to_corner(space, p);
+  const Vector3 point = nearest_lattice_point(corner, layers);
+  const Vector3& found = is_place_of(space, point, p) ? point : corner;
+  Position out{};
+  for (std::size_t i = 0; i < 3; ++i) out[i] = space.spacing[i] * found[i];
+  return out;
+}
+
 void turn_to_array(MeshData& mesh, const VolumeSpace& space, Index3 layers) {
-  for (Position& p : mesh.vertices) {
-    const Vector3 corner = to_corner(space, p);
-    const Vector3 point = nearest_lattice_point(corner, layers);
-    const Vector3& found = is_place_of(space, point, p) ? point : corner;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = space.spacing[i] * found[i];
-  }
+  for (Position& p : mesh.vertices) p = array_position(space, p, layers);
   if (!is_mirrored(space)) return;
   for (TetRows& tet : mesh.tets) std::swap(tet[2], tet[3]);
 }

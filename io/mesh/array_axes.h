@@ -8,6 +8,9 @@
 
 namespace mw::io {
 
+/// One vertex of such a mesh; see turn_to_array().
+[[nodiscard]] Position array_position(const VolumeSpace& space, const Position& p, Index3 layers);
+
 /// Undoes the space of a volume: vertices become spacing * corner, tets that the world sees in a
 /// mirror are turned as well, so that positive ones stay positive.
 /// A vertex that was written from a point of the lattice (1/1024 of a voxel that is cut into

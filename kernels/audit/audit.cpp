@@ -27,16 +27,11 @@ std::string label_text(Label label) {
   return label == kUnknown ? "unknown" : "dense " + std::to_string(label);
 }
 
-/// Counts the mesh; of labels that are not kept, and then of the exterior, nothing is known.
-void count_topology(std::size_t label_count, const AuditMesh& mesh, const KeptLabels& kept,
-                    AuditReport& report) {
-  if (kept.empty()) {
-    report.mesh = mesh_betti(mesh, label_count);
-    return;
-  }
-  report.mesh = region_betti(mesh, label_count);
-  report.mesh.push_back({});
-  for (Label row = 0; row <= label_count; ++row) {
+/// Of labels that are not kept, and then of the exterior, nothing is known.
+void forget_left_out(const KeptLabels& kept, AuditReport& report) {
+  if (kept.empty()) return;
+  report.mesh.resize(report.voxels.size());
+  for (Label row = 0; row < report.voxels.size(); ++row) {
     if (keeps(kept, row)) continue;
     report.voxels[row] = report.mesh[row] = {};
   }
@@ -87,14 +82,8 @@ Check judge_places(const std::string& noun, const std::vector<PlaceChange>& chan
   return {"P1 " + noun, changed.empty(), detail};
 }
 
-void compare_places(const VoxelLabels& volume, std::size_t label_count, const AuditMesh& mesh,
-                    AuditReport& report) {
-  const Places before = voxel_places(volume, label_count);
-  const Places after = mesh_places(mesh, label_count);
-  report.places = {.interfaces = before.interfaces.size(),
-                   .meetings = before.meetings.size(),
-                   .interfaces_changed = changes(before.interfaces, after.interfaces),
-                   .meetings_changed = changes(before.meetings, after.meetings)};
+void judge_places(AuditReport& report) {
+  if (!report.places) return;
   const PlacesReport& p = *report.places;
   report.checks.push_back(judge_places("interfaces", p.interfaces_changed, p.interfaces, report));
   report.checks.push_back(judge_places("meetings", p.meetings_changed, p.meetings, report));
@@ -189,38 +178,62 @@ bool AuditReport::passed() const {
   return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed; });
 }
 
-AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const AuditMesh& mesh,
-                  const Frame& frame, const AuditOptions& options) {
-  AuditReport report;
-  report.voxels = voxel_betti(volume, label_count);
-  report.validity = check_validity(mesh, volume, frame, label_count, options.kept);
-  report.checks = report.validity.checks;
-  report.topology_is_indicative = !report.validity.passed();
+PlacesReport compare_places(const Places& before, const Places& after) {
+  return {.interfaces = before.interfaces.size(),
+          .meetings = before.meetings.size(),
+          .interfaces_changed = changes(before.interfaces, after.interfaces),
+          .meetings_changed = changes(before.meetings, after.meetings)};
+}
+
+AuditReport judge(AuditFindings findings, const AuditOptions& options) {
+  AuditReport report{.checks = findings.validity.checks,
+                     .voxels = std::move(findings.voxels),
+                     .mesh = std::move(findings.mesh),
+                     .topology_is_indicative = !findings.validity.passed()};
+  report.validity = std::move(findings.validity);
   if (!report.checks.front().passed) {
     refuse_all(options, report.checks);
     return report;
   }
-  count_topology(label_count, mesh, options.kept, report);
+  forget_left_out(options.kept, report);
   const auto kept = std::count(options.kept.begin(), options.kept.end(), true);
   const std::size_t looked_at =
-      options.kept.empty() ? label_count + 1 : static_cast<std::size_t>(kept);
+      options.kept.empty() ? report.voxels.size() : static_cast<std::size_t>(kept);
   report.checks.push_back(compare_topology(report, looked_at));
-  if (options.count_places) compare_places(volume, label_count, mesh, report);
-  report.quality = measure_quality(mesh);
+  report.places = std::move(findings.places);
+  judge_places(report);
+  report.quality = findings.quality;
   report.checks.push_back(judge_quality(report.quality, options.radius_ratio_floor));
-  if (options.measure_distance || options.max_distance) {
-    report.distance = measure_in_lattice(volume, label_count, mesh, frame, options);
-    if (options.max_distance || !report.distance->is_finite()) {
-      report.checks.push_back(judge_distance(*report.distance, options.max_distance));
-    }
+  report.distance = std::move(findings.distance);
+  if (report.distance && (options.max_distance || !report.distance->is_finite())) {
+    report.checks.push_back(judge_distance(*report.distance, options.max_distance));
   }
-  report.volumes =
-      only_kept(measure_volumes(volume, label_count, mesh, frame, options.layers), options.kept);
+  report.volumes = only_kept(std::move(findings.volumes), options.kept);
   if (options.max_volume_error) {
     report.checks.push_back(judge_volumes(report.volumes.summary, *options.max_volume_error));
   }
-  report.shape = measure_shape(mesh);
+  report.shape = findings.shape;
   return report;
+}
+
+AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const AuditMesh& mesh,
+                  const Frame& frame, const AuditOptions& options) {
+  AuditFindings found{.voxels = voxel_betti(volume, label_count),
+                      .validity = check_validity(mesh, volume, frame, label_count, options.kept)};
+  if (!found.validity.checks.front().passed) return judge(std::move(found), options);
+  found.mesh =
+      options.kept.empty() ? mesh_betti(mesh, label_count) : region_betti(mesh, label_count);
+  if (options.count_places) {
+    found.places =
+        compare_places(voxel_places(volume, label_count), mesh_places(mesh, label_count));
+  }
+  found.quality = measure_quality(mesh);
+  if (options.measure_distance || options.max_distance) {
+    found.distance = measure_in_lattice(volume, label_count, mesh, frame, options);
+  }
+  found.volumes = measure_volumes(volume, label_count, mesh, frame, options.layers);
+  found.shape = measure_shape(mesh);
+  return judge(std::move(found), options);
 }
 
 }  // namespace mw::audit

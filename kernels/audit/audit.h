@@ -41,6 +41,8 @@ struct PlacesReport {
   std::vector<PlaceChange> meetings_changed;
 };
 
+[[nodiscard]] PlacesReport compare_places(const Places& before, const Places& after);
+
 /// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
 struct AuditReport {
   /// Those of validity, then "P1 topology", as AuditOptions ask "P1 interfaces" and
@@ -63,6 +65,21 @@ struct AuditReport {
 
   [[nodiscard]] bool passed() const;
 };
+
+/// What was found, before it is judged.  validity: with "P2 input" first.
+struct AuditFindings {
+  std::vector<RegionBetti> voxels;
+  std::vector<RegionBetti> mesh;  ///< with gaps, without the exterior
+  ValidityReport validity;
+  std::optional<PlacesReport> places;
+  QualityReport quality;
+  std::optional<DistanceReport> distance;
+  VolumeReport volumes;
+  ShapeReport shape;
+};
+
+/// The verdict.  Only voxels and validity are looked at when "P2 input" failed.
+[[nodiscard]] AuditReport judge(AuditFindings findings, const AuditOptions& options);
 
 /// Judges a mesh of any tool against its volume.  Shares no code with the mesher but kernels/core.
 /// label_count: size of the label table; the volume's labels are below it.

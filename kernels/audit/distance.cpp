@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "kernels/audit/check.h"
-#include "kernels/audit/distance_input.h"
 #include "kernels/audit/distance_tile.h"
 
 namespace mw::audit {
@@ -104,11 +103,7 @@ DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_cou
                                        .kept = kept,
                                        .samples = {{0, 0, 0}, volume.shape},
                                        .limit = limit});
-  DistanceReport report = conclude_distances(rows, limit, kEndless);
-  report.mesh_triangles = triangles.size();
-  visit_interface_faces(volume, {{0, 0, 0}, volume.shape},
-                        [&](const VoxelFace&, const LabelPair&) { ++report.voxel_faces; });
-  return report;
+  return conclude_distances(rows, limit, kEndless);
 }
 
 std::string sampling_text(const DistanceReport& report) {

@@ -49,8 +49,6 @@ struct DistanceReport {
   std::vector<PerLabel> per_label;  ///< labels with an interface on some side, ascending
   std::vector<Label> only_in_volume;
   std::vector<Label> only_in_mesh;
-  std::uint64_t voxel_faces = 0;
-  std::uint64_t mesh_triangles = 0;
   double limit = kDistanceLimit;
   /// Samples farther than what was looked at around them: they count as that far.
   std::uint64_t far_samples = 0;

@@ -21,21 +21,30 @@ bool is_finite(const Position& p) {
 
 }  // namespace
 
+Offenders changed_orientations(const MeshTile& turned, std::span<const Position> written,
+                               bool mirrored) {
+  Offenders wrong("tets");
+  if (!std::all_of(written.begin(), written.end(), is_finite)) return wrong;
+  // Tets of the turned mesh were mirrored with it: both see the same tet from the same side.
+  for (std::size_t t = 0; t < turned.mesh.tets.size(); ++t) {
+    if (!turned.owns_tet(t)) continue;
+    TetRow tet = turned.mesh.tets[t];
+    const int in_array = sign_of(turned.mesh.vertices, tet);
+    if (mirrored) std::swap(tet[2], tet[3]);
+    if (sign_of(written, tet) == in_array) continue;
+    wrong.add([&] { return std::to_string(turned.tet_id(t)); });
+  }
+  return wrong;
+}
+
+Check kept_orientation(const Offenders& changed) {
+  return {"P2 orientation in the world", changed.count() == 0,
+          changed.text() + " change their sign by the rounding of coordinates"};
+}
+
 Check check_kept_orientation(const AuditMesh& turned, std::span<const Position> written,
                              bool mirrored) {
-  Offenders wrong("tets");
-  if (std::all_of(written.begin(), written.end(), is_finite)) {
-    // Tets of the turned mesh were mirrored with it: both see the same tet from the same side.
-    for (std::size_t t = 0; t < turned.tets.size(); ++t) {
-      TetRow tet = turned.tets[t];
-      const int in_array = sign_of(turned.vertices, tet);
-      if (mirrored) std::swap(tet[2], tet[3]);
-      if (sign_of(written, tet) == in_array) continue;
-      wrong.add([&] { return std::to_string(t); });
-    }
-  }
-  return {"P2 orientation in the world", wrong.count() == 0,
-          wrong.text() + " change their sign by the rounding of coordinates"};
+  return kept_orientation(changed_orientations({.mesh = turned}, written, mirrored));
 }
 
 }  // namespace mw::audit

@@ -12,6 +12,11 @@ namespace mw::audit {
 /// the array's axes, exactly; so rounding turned none over and made none flat.
 /// written: positions as the file has them; mirrored: the world sees the array in a mirror.
 /// REQUIRES: the tets name vertices of both lists, as many in each.
+/// The same of the tets that a tile owns.
+[[nodiscard]] Offenders changed_orientations(const MeshTile& turned,
+                                             std::span<const Position> written, bool mirrored);
+[[nodiscard]] Check kept_orientation(const Offenders& changed);
+
 [[nodiscard]] Check check_kept_orientation(const AuditMesh& turned,
                                            std::span<const Position> written, bool mirrored);
 

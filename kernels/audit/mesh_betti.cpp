@@ -12,8 +12,8 @@ namespace {
 
 class MeshSweep {
  public:
-  MeshSweep(const MeshTile& tile, std::size_t label_count)
-      : stars_(tile),
+  MeshSweep(const MeshStars& stars, std::size_t label_count)
+      : stars_(stars),
         exterior_(static_cast<Label>(label_count)),
         euler_(label_count + 2),
         box_(box_cells(stars_)) {
@@ -109,7 +109,7 @@ class MeshSweep {
     euler_.add(sign, classes_);
   }
 
-  MeshStars stars_;
+  const MeshStars& stars_;
   Label exterior_;
   EulerSums euler_;
   PartGraph graph_;
@@ -126,13 +126,13 @@ class MeshSweep {
 
 }  // namespace
 
-MeshParts mesh_parts(const MeshTile& tile, std::size_t label_count) {
-  return MeshSweep(tile, label_count).run();
+MeshParts mesh_parts(const MeshStars& stars, std::size_t label_count) {
+  return MeshSweep(stars, label_count).run();
 }
 
 std::vector<RegionBetti> mesh_betti(const AuditMesh& mesh, std::size_t label_count) {
   PartsUnion parts(label_count);
-  parts.add(mesh_parts({.mesh = mesh}, label_count).piece);
+  parts.add(mesh_parts(MeshStars(mesh), label_count).piece);
   return parts.betti_of_mesh();
 }
 

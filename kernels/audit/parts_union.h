@@ -10,6 +10,7 @@
 
 #include "kernels/audit/betti.h"
 #include "kernels/audit/disjoint_sets.h"
+#include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/part_graph.h"
 
 namespace mw::audit {
@@ -23,7 +24,7 @@ struct MeshParts {
 /// Parts, their pairs and the cells of a tile.  A tet that another tile has as well, in which it is
 /// in another part, says that the two are one.
 /// REQUIRES, errors and cost: as mesh_betti.
-[[nodiscard]] MeshParts mesh_parts(const MeshTile& tile, std::size_t label_count);
+[[nodiscard]] MeshParts mesh_parts(const MeshStars& stars, std::size_t label_count);
 
 /// Voxels along x that several tiles have loaded, in one part.
 struct SharedRun {

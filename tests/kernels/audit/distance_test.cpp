@@ -246,8 +246,6 @@ void expect_same_as_plain(const SmallVolume& volume, const SmallMesh& mesh, cons
       measure_distance(volume.view(), volume.label_count, mesh.view(), frame, {}, 0);
   const auto faces = plain_faces(volume);
   const auto triangles = plain_triangles(mesh, frame);
-  EXPECT_EQ(report.voxel_faces, faces.size());
-  EXPECT_EQ(report.mesh_triangles, triangles.size());
   std::size_t row = 0;
   bool is_whole = true;
   PlainTally all;

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh verify` found, in words and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "engine/cli/resource_meter.h"
+#include "engine/cli/verify_request.h"
+#include "io/labels/prepared_input.h"
+#include "kernels/audit/audit.h"
+
+namespace mw::cli {
+
+struct Verdict {
+  std::optional<io::SpeckFacts> specks;
+  Bounds bounds;
+  audit::AuditReport audit;
+  io::LabelTable table;
+  io::LabelNames names;
+  Index3 layers;
+
+  /// The first check asks whether the file holds a mesh at all.
+  [[nodiscard]] bool looked_at() const { return audit.checks.front().passed; }
+};
+
+void print_verdict(const Verdict& verdict);
+
+/// What was checked and found, without settings and performance.
+[[nodiscard]] nlohmann::ordered_json verdict_json(const Verdict& verdict);
+
+/// The whole file.  settings: of the command.
+[[nodiscard]] nlohmann::ordered_json verify_report(const nlohmann::ordered_json& settings,
+                                                   const Verdict& verdict,
+                                                   const Resources& resources);
+
+}  // namespace mw::cli

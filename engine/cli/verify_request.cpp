@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The options of `mwmesh verify`.
+#include "engine/cli/verify_request.h"
+
+#include "engine/cli/machine_memory.h"
+#include "engine/cli/values.h"
+#include "io/mesh/open_mesh.h"
+#include "kernels/audit/audit.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+constexpr const char* kNone = "none";
+constexpr const char* kInterfaces = "interfaces";
+constexpr const char* kVoxel = "voxel";
+
+/// What is asked of a mesh whose file tells of no run.
+constexpr io::MeshPromises kOtherPromises{.max_distance = 1.5,
+                                          .quality_floor = audit::kSliverRadiusRatio};
+
+std::optional<double> parse_bound(const std::string& text) {
+  if (text == kNone) return std::nullopt;
+  const double bound = parse_number(text);
+  if (bound >= 0) return bound;
+  throw Error(ErrorKind::kUsage, "must not be negative; or none");
+}
+
+}  // namespace
+
+void add_verify_options(OptionSet& options, VerifyRequest& request) {
+  add_input_option(options, request.volume.path);
+  options.add({.name = "mesh",
+               .value = "MESH",
+               .help = "mesh to check: " + io::mesh_extensions(),
+               .flags = "MESH,--mesh",
+               .assign = [&](const std::string& text) { request.mesh = text; }});
+  add_volume_options(options, request.volume);
+  add_choice_options(options, request.choice);
+  options.add(
+      {.name = "topology",
+       .help = "what P1 looks at: labels, or interfaces and meetings of labels as well [what the "
+               "run kept, else labels]",
+       .choices = {"labels", kInterfaces},
+       .assign = [&](const std::string& text) { request.count_places = text == kInterfaces; }});
+  options.add({.name = "quality-floor",
+               .value = "R",
+               .help = "P3 fails for a tet below this radius ratio [the run's, else " +
+                       format_number(kOtherPromises.quality_floor) + "]",
+               .kind = ValueKind::kNumber,
+               .assign = [&](const std::string& text) { request.quality_floor = parse_number(text); }});
+  options.add(
+      {.name = "max-distance",
+       .value = "D",
+       .help = "P4 fails above this many voxels (see --surface) between label boundaries, or none "
+               "[the run's, else " +
+               format_number(*kOtherPromises.max_distance) + "]",
+       .kind = ValueKind::kNumberOrNone,
+       .assign = [&](const std::string& text) { request.max_distance = parse_bound(text); }});
+  options.add({.name = "surface",
+               .help = "how the mesh was made, hence what distances count in: smooth, voxels of "
+                       "the lattice where thick slices are cut into layers; voxel, the input's "
+                       "[the run's, else smooth]",
+               .choices = {"smooth", kVoxel},
+               .assign = [&](const std::string& text) { request.in_layers = text != kVoxel; }});
+  options.add(
+      {.name = "max-volume-error",
+       .value = "E",
+       .help = "P8 fails when a label of 1000 voxels or more is off by a larger share of its "
+               "volume, or none",
+       .kind = ValueKind::kNumberOrNone,
+       .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
+       .assign = [&](const std::string& text) { request.max_volume_error = parse_bound(text); }});
+  options.add({.name = "threads",
+               .value = "N",
+               .help = "worker threads; 0: all cores",
+               .kind = ValueKind::kInteger,
+               .fallback = "0",
+               .assign = [&](const std::string& text) { request.threads = parse_threads(text); }});
+  options.add({.name = "memory",
+               .value = "SIZE",
+               .help = "what its lists and buffers may take, e.g. 512M or 4GiB; more is taken only "
+                       "as the README says [half of the memory that is available]",
+               .kind = ValueKind::kSize,
+               .assign = [&](const std::string& text) {
+                 if (!text.empty()) request.memory = parse_size(text);
+               }});
+  options.add({.name = "report",
+               .value = "FILE.json",
+               .help = "writes the result as JSON",
+               .assign = [&](const std::string& text) { request.report = text; }});
+}
+
+void check_verify_request(VerifyRequest& request) {
+  require_path(request.mesh, "MESH");
+  check_choice(request.choice);
+  if (request.count_places.value_or(false) && (request.choice.labels || request.choice.background)) {
+    throw Error(ErrorKind::kUsage,
+                "--topology interfaces: is for meshes of all labels, without --labels and "
+                "--background");
+  }
+  if (!request.memory) request.memory = default_memory_budget();
+  request.volume.cache_bytes = cache_bytes(*request.memory);
+}
+
+Bounds bounds_of(const VerifyRequest& request, const io::MeshRecord& record) {
+  Bounds bounds{record.promises.value_or(kOtherPromises), record.promises.has_value()};
+  io::MeshPromises& asked = bounds.promises;
+  if (request.max_distance) asked.max_distance = *request.max_distance;
+  asked.quality_floor = request.quality_floor.value_or(asked.quality_floor);
+  asked.smooth = request.in_layers.value_or(asked.smooth);
+  const bool all_labels = !request.choice.labels && !request.choice.background;
+  asked.interfaces = request.count_places.value_or(asked.interfaces && all_labels);
+  return bounds;
+}
+
+}  // namespace mw::cli

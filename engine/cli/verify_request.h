@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh verify` is asked to do.
+#pragma once
+
+#include <optional>
+
+#include "engine/cli/label_choice.h"
+#include "engine/cli/volume_options.h"
+#include "io/mesh/mesh_record.h"
+
+namespace mw::cli {
+
+struct VerifyRequest {
+  VolumeRequest volume;
+  LabelChoice choice;
+  std::filesystem::path mesh;
+  std::filesystem::path report;
+  // What is not given is what the run promised that made the mesh.
+  std::optional<bool> count_places;
+  std::optional<double> quality_floor;
+  std::optional<std::optional<double>> max_distance;
+  std::optional<bool> in_layers;  ///< distances in voxels of the lattice of smooth surfaces
+  std::optional<double> max_volume_error;
+  int threads = 0;                      ///< 0: all cores
+  std::optional<std::uint64_t> memory;  ///< bytes; after check_verify_request() never empty
+};
+
+/// What the checks ask.
+struct Bounds {
+  io::MeshPromises promises;
+  bool of_run = false;  ///< the mesh's file told what its run promised
+};
+
+/// Every option of the subcommand.  REQUIRES: request outlives options.
+void add_verify_options(OptionSet& options, VerifyRequest& request);
+
+/// Fills in what follows from other values.
+/// ERRORS: mw::Error(kUsage) when something is missing, or values contradict each other.
+void check_verify_request(VerifyRequest& request);
+
+/// record: of the mesh's file.
+[[nodiscard]] Bounds bounds_of(const VerifyRequest& request, const io::MeshRecord& record);
+
+}  // namespace mw::cli

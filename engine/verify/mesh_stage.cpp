@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Each tile on its own, then what becomes of them together.
+#include "engine/verify/mesh_stage.h"
+
+#include <bit>
+
+#include "engine/verify/in_order.h"
+#include "engine/verify/part_links.h"
+#include "kernels/audit/kept_orientation.h"
+#include "kernels/audit/layered_labels.h"
+#include "kernels/audit/overlap.h"
+#include "kernels/audit/region_betti.h"
+#include "kernels/core/layers.h"
+
+namespace mw::engine {
+namespace {
+
+/// A tet that other tiles have too.
+struct SharedTet {
+  std::uint64_t id = 0;
+  std::uint32_t part = 0;
+};
+
+/// One tile.  Labels of pieces and triangles are those of the whole, of the others its own.
+struct TileFindings {
+  TileLabels names{{}, 0};
+  audit::ValidityTally validity;
+  audit::PartsPiece parts;
+  std::vector<SharedTet> shared;
+  audit::Offenders turned{"tets"};
+  audit::QualityMeter quality;
+  audit::ShapeMeter shape;
+  audit::VolumeTally volumes;
+  std::vector<audit::InterfaceTriangle> triangles;
+  std::vector<audit::LineCrossing> crossings;
+};
+
+/// Doubles in an order that words have too.
+std::uint64_t ordered_bits(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  return bits >> 63U != 0 ? ~bits : bits | std::uint64_t{1} << 63U;
+}
+double of_ordered_bits(std::uint64_t bits) {
+  return std::bit_cast<double>(bits >> 63U != 0 ? bits & ~(std::uint64_t{1} << 63U) : ~bits);
+}
+
+class MeshStage {
+ public:
+  MeshStage(const MeshTiles& mesh, std::size_t label_count, const audit::ValidityTask& validity,
+            const VerifyTask& task, PieceBuckets* pieces)
+      : mesh_(mesh),
+        label_count_(label_count),
+        validity_(validity),
+        task_(task),
+        pieces_(pieces),
+        lattice_(audit::layered_frame(validity.frame, task.options.layers)),
+        lattice_shape_(layered_shape(validity.shape, task.options.layers)),
+        parts_(label_count),
+        links_(task.folder, task.memory_bytes / 8),
+        crossings_(task.folder, task.memory_bytes / 8) {
+    found_.validity.label_volumes.resize(label_count + 1);
+    found_.validity.in_mesh.resize(label_count + 1);
+    found_.volumes = {std::vector<Int128>(label_count),
+                      std::vector<audit::CompensatedSum>(label_count)};
+  }
+
+  MeshFindings run() {
+    each_in_order<TileFindings>(
+        task_.threads, mesh_.grid().size(), [this](std::uint32_t tile) { return look_at(tile); },
+        [this](std::uint32_t tile, TileFindings&& found) { merge(tile, std::move(found)); });
+    found_.validity.unused.add(mesh_.unused());
+    if (validity_.has_gaps) {
+      judge_lines();
+    } else {
+      links_.unite(parts_);
+      found_.betti = parts_.betti_of_mesh();
+    }
+    if (validity_.has_gaps || task_.options.count_places) look_at_whole();
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] TileFindings look_at(std::uint32_t tile) const {
+    const LoadedMesh loaded = mesh_.load(tile);
+    const audit::MeshTile view = loaded.view();
+    const audit::MeshStars stars(view);
+    TileFindings out{.names = loaded.names};
+    audit::ValidityTask validity = validity_;
+    validity.wanted = loaded.names.own(validity_.wanted);
+    out.validity = audit::tally_validity(stars, validity);
+    if (!loaded.written.empty()) {
+      out.turned = audit::changed_orientations(view, loaded.written, mesh_.is_mirrored());
+    }
+    if (!validity_.has_gaps) take_parts(loaded, stars, out);
+    if (validity_.has_gaps)
+      out.crossings = audit::line_crossings(stars, validity_.frame, validity_.shape);
+    out.quality = audit::tally_quality(view);
+    out.shape = audit::measure_shape(stars);
+    out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
+    if (pieces_ != nullptr) take_triangles(stars, out);
+    return out;
+  }
+
+  static void take_parts(const LoadedMesh& loaded, const audit::MeshStars& stars,
+                         TileFindings& out) {
+    audit::MeshParts parts = audit::mesh_parts(stars, loaded.names.size());
+    out.parts = std::move(parts.piece);
+    loaded.names.to_whole(out.parts);
+    for (std::size_t t = 0; t < loaded.tets.size(); ++t) {
+      if (loaded.is_shared[t]) out.shared.push_back({loaded.tet_ids[t], parts.part_of_tet[t]});
+    }
+  }
+
+  void take_triangles(const audit::MeshStars& stars, TileFindings& out) const {
+    out.triangles = audit::interface_triangles(stars, out.names.size(), lattice_, lattice_shape_,
+                                               validity_.has_gaps);
+    for (audit::InterfaceTriangle& t : out.triangles) {
+      for (Label& label : t.labels) label = out.names.of_whole(label);
+    }
+  }
+
+  void merge(std::uint32_t tile, TileFindings&& found) {
+    found_.validity.add(found.validity, found.names.whole());
+    found_.turned.add(found.turned);
+    found_.quality.add(found.quality);
+    found_.shape.add(found.shape);
+    found_.volumes.add(found.volumes, found.names.whole());
+    const std::uint32_t first = parts_.add(std::move(found.parts));
+    for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
+    for (const audit::InterfaceTriangle& t : found.triangles) pieces_->add(tile, t);
+    for (const audit::LineCrossing& c : found.crossings) {
+      crossings_.add({c.column, ordered_bits(c.z), ordered_bits(c.enters)});
+    }
+    task_.between();
+  }
+
+  void judge_lines() {
+    audit::OverlapCheck check(validity_.shape);
+    crossings_.each([&](const std::array<std::uint64_t, 3>& c) {
+      check.add({c[0], of_ordered_bits(c[1]), static_cast<int>(of_ordered_bits(c[2]))});
+    });
+    found_.overlap = check.verdict();
+  }
+
+  /// What is not told by tiles one at a time.
+  void look_at_whole() {
+    const LoadedMesh loaded = mesh_.load_all();
+    const audit::AuditMesh mesh = loaded.view().mesh;
+    std::vector<Label> labels(mesh.labels.begin(), mesh.labels.end());
+    for (Label& label : labels) {
+      if (label != audit::kUnknown) label = loaded.names.of_whole(label);
+    }
+    const audit::AuditMesh whole{mesh.vertices, mesh.tets, labels};
+    if (validity_.has_gaps) found_.betti = audit::region_betti(whole, label_count_);
+    if (task_.options.count_places) found_.places = audit::mesh_places(whole, label_count_);
+  }
+
+  const MeshTiles& mesh_;
+  std::size_t label_count_;
+  const audit::ValidityTask& validity_;
+  const VerifyTask& task_;
+  PieceBuckets* pieces_;
+  audit::Frame lattice_;
+  Index3 lattice_shape_;
+  MeshFindings found_;
+  audit::PartsUnion parts_;
+  PartLinks links_;
+  io::ExternalSort<3> crossings_;
+};
+
+}  // namespace
+
+MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
+                          const audit::ValidityTask& validity, const VerifyTask& task,
+                          PieceBuckets* pieces) {
+  return MeshStage(mesh, label_count, validity, task, pieces).run();
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Vertices by place, tets by their vertices.
+#include "engine/verify/mesh_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/mesh/array_axes.h"
+#include "io/volume/volume_space.h"
+#include "kernels/audit/validity.h"
+#include "kernels/core/error.h"
+#include "kernels/core/layers.h"
+
+namespace mw::engine {
+
+MeshTiles::MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table, const Place& place)
+    : volume_(volume),
+      table_(table),
+      layers_(layers_of(volume.space.spacing)),
+      is_upright_(io::is_upright(volume.space)),
+      is_mirrored_(io::is_mirrored(volume.space)),
+      grid_(volume.shape, layers_),
+      memory_bytes_(place.memory_bytes),
+      positions_(place.folder),
+      tets_(place.folder, grid_.size(), place.memory_bytes) {}
+
+audit::Frame MeshTiles::frame() const {
+  if (!is_upright_) return {.spacing = volume_.space.spacing, .origin = {}};
+  return {.spacing = volume_.space.spacing, .origin = volume_.space.origin};
+}
+
+audit::Position MeshTiles::in_array(const io::Position& p) const {
+  return is_upright_ ? p : io::array_position(volume_.space, p, layers_);
+}
+
+void MeshTiles::write_vertices(std::span<const io::Position> positions) {
+  if (tile_of_vertex_.size() + positions.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorKind::kResource, "verify: 2^32 vertices or more; verify a --crop");
+  }
+  const audit::Frame at = frame();
+  for (const io::Position& written : positions) {
+    const std::uint64_t vertex = tile_of_vertex_.size();
+    const bool is_finite =
+        std::isfinite(written[0]) && std::isfinite(written[1]) && std::isfinite(written[2]);
+    if (!is_finite) endless_.add([&] { return std::to_string(vertex); });
+    std::array<double, 3> corner{};
+    const audit::Position p = in_array(written);
+    for (std::size_t k = 0; k < 3 && is_finite; ++k)
+      corner[k] = (p[k] - at.origin[k]) / at.spacing[k];
+    tile_of_vertex_.push_back(grid_.at(corner));
+    is_used_.push_back(false);
+  }
+  positions_.append(std::as_bytes(positions));
+}
+
+bool MeshTiles::in_range(const io::TetRows& tet) {
+  for (const std::uint64_t v : tet) {
+    if (v < tile_of_vertex_.size()) continue;
+    if (range_error_.empty()) {
+      range_error_ = "audit: tet " + std::to_string(tet_count_) + " names vertex " +
+                     std::to_string(v) + " of " + std::to_string(tile_of_vertex_.size());
+    }
+    return false;
+  }
+  return true;
+}
+
+void MeshTiles::write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) {
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    if (in_range(tets[i])) add(tets[i], labels[i]);
+    ++tet_count_;
+  }
+}
+
+void MeshTiles::add(const io::TetRows& tet, RawLabel label) {
+  std::array<std::uint32_t, 4> tiles{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    tiles[i] = tile_of_vertex_[tet[i]];
+    is_used_[tet[i]] = true;
+  }
+  std::sort(tiles.begin(), tiles.end());
+  const auto end = std::unique(tiles.begin(), tiles.end());
+  Tet record{.id = tet_count_, .vertices = tet};
+  if (is_mirrored_) std::swap(record.vertices[2], record.vertices[3]);
+  record.label = table_.contains(label) ? table_.dense(label) : audit::kUnknown;
+  record.is_shared = end - tiles.begin() > 1 ? 1 : 0;
+  for (auto tile = tiles.begin(); tile != end; ++tile) tets_.add(*tile, record);
+}
+
+void MeshTiles::finish() {
+  for (std::size_t v = 0; v < is_used_.size(); ++v) {
+    if (!is_used_[v]) unused_.add([v] { return std::to_string(v); });
+  }
+  is_used_ = {};
+}
+
+audit::Check MeshTiles::input_check() const {
+  if (!range_error_.empty()) return {"P2 input", false, range_error_};
+  return audit::input_check(tile_of_vertex_.size(), tet_count_, endless_);
+}
+
+/// Neighbours in the file are read at once.
+void MeshTiles::read_positions(std::span<const std::uint64_t> ids,
+                               std::vector<audit::Position>& out) const {
+  constexpr std::uint64_t kWorthReading = 64;
+  std::vector<audit::Position> block;
+  const std::lock_guard lock(mutex_);
+  for (std::size_t begin = 0, end = 0; begin < ids.size(); begin = end) {
+    for (end = begin + 1; end < ids.size() && ids[end] - ids[end - 1] <= kWorthReading;) ++end;
+    block.resize(ids[end - 1] - ids[begin] + 1);
+    positions_.read_at(ids[begin] * sizeof(audit::Position),
+                       std::as_writable_bytes(std::span(block)));
+    for (std::size_t i = begin; i < end; ++i) out.push_back(block[ids[i] - ids[begin]]);
+  }
+}
+
+LoadedMesh MeshTiles::make(const std::vector<Tet>& tets) const {
+  LoadedMesh out;
+  for (const Tet& tet : tets) {
+    out.tet_ids.push_back(tet.id);
+    out.labels.push_back(tet.label);
+    out.is_shared.push_back(tet.is_shared != 0);
+    out.vertex_ids.insert(out.vertex_ids.end(), tet.vertices.begin(), tet.vertices.end());
+  }
+  std::sort(out.vertex_ids.begin(), out.vertex_ids.end());
+  out.vertex_ids.erase(std::unique(out.vertex_ids.begin(), out.vertex_ids.end()),
+                       out.vertex_ids.end());
+  for (const Tet& tet : tets) {
+    audit::TetRow& row = out.tets.emplace_back();
+    for (std::size_t i = 0; i < 4; ++i) {
+      row[i] = static_cast<std::uint64_t>(
+          std::lower_bound(out.vertex_ids.begin(), out.vertex_ids.end(), tet.vertices[i]) -
+          out.vertex_ids.begin());
+    }
+  }
+  read_positions(out.vertex_ids, out.vertices);
+  if (!is_upright_) {
+    out.written = out.vertices;
+    for (audit::Position& p : out.vertices) p = in_array(p);
+  }
+  std::vector<Label> seen;
+  append_labels(out.labels, seen);
+  out.names = TileLabels(std::move(seen), table_.size());
+  out.names.make_own(out.labels);
+  return out;
+}
+
+LoadedMesh MeshTiles::load(std::uint32_t tile) const {
+  std::vector<Tet> tets;
+  tets_.load(tile, tets);
+  LoadedMesh out = make(tets);
+  for (const std::uint64_t id : out.vertex_ids) {
+    out.owned.push_back(tile_of_vertex_[id] == tile ? 1 : 0);
+  }
+  return out;
+}
+
+LoadedMesh MeshTiles::load_all() const {
+  std::vector<Tet> tets;
+  for (std::uint32_t tile = 0; tile < grid_.size(); ++tile) tets_.load(tile, tets);
+  std::sort(tets.begin(), tets.end(), [](const Tet& a, const Tet& b) { return a.id < b.id; });
+  const auto same = [](const Tet& a, const Tet& b) { return a.id == b.id; };
+  tets.erase(std::unique(tets.begin(), tets.end(), same), tets.end());
+  return make(tets);
+}
+
+}  // namespace mw::engine

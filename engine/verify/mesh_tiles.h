@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A mesh of any size, taken apart into tiles.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "engine/verify/tile_buckets.h"
+#include "engine/verify/tile_grid.h"
+#include "engine/verify/tile_labels.h"
+#include "io/labels/label_table.h"
+#include "io/mesh/mesh_sink.h"
+#include "kernels/audit/check.h"
+
+namespace mw::engine {
+
+/// One tile in memory, as audit::MeshTile wants it.
+struct LoadedMesh {
+  std::vector<audit::Position> vertices;  ///< in the array's axes
+  std::vector<audit::Position> written;   ///< as they came, where that is another direction
+  std::vector<audit::TetRow> tets;
+  std::vector<Label> labels;  ///< of the tile
+  std::vector<std::uint64_t> vertex_ids;
+  std::vector<std::uint64_t> tet_ids;
+  std::vector<std::uint8_t> owned;
+  std::vector<bool> is_shared;  ///< by tet: another tile has it too
+  TileLabels names{{}, 0};
+
+  [[nodiscard]] audit::MeshTile view() const {
+    return {{vertices, tets, labels}, vertex_ids, tet_ids, owned};
+  }
+};
+
+/// Takes a mesh in and gives it back in tiles: each vertex is owned by the tile that it lies in,
+/// and a tile has every tet with a vertex that it owns.  A mesh whose rows or numbers make no sense
+/// is taken note of, not kept. Memory: `memory_bytes` while it is taken in, and 4 bytes and a bit a
+/// vertex. Disk: 24 bytes a vertex, some 60 a tet.  ERRORS: see io::ScratchFile; kResource above
+/// 2^32 - 1 vertices.
+class MeshTiles : public io::MeshSink {
+ public:
+  struct Place {
+    std::filesystem::path folder;  ///< of temporary files
+    std::uint64_t memory_bytes = std::uint64_t{32} << 20U;
+  };
+
+  /// volume and table outlive this.
+  MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table, const Place& place);
+
+  void begin(const io::MeshHeader& header) override { header_ = header; }
+  void write_vertices(std::span<const io::Position> positions) override;
+  void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
+  void finish() override;
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return memory_bytes_; }
+
+  [[nodiscard]] const io::MeshHeader& header() const { return header_; }
+  [[nodiscard]] const TileGrid& grid() const { return grid_; }
+  /// "P2 input": only a mesh that passes has tiles.
+  [[nodiscard]] audit::Check input_check() const;
+  /// Vertices in no tet.
+  [[nodiscard]] const audit::Offenders& unused() const { return unused_; }
+  /// Whether the mesh lies in other axes than the array's, and whether in a mirror.
+  [[nodiscard]] bool is_turned() const { return !is_upright_; }
+  [[nodiscard]] bool is_mirrored() const { return is_mirrored_; }
+  /// Where the array's axes lie, for the audit.
+  [[nodiscard]] audit::Frame frame() const;
+
+  /// REQUIRES: finished, and input_check() passed.  Thread-safe.
+  [[nodiscard]] LoadedMesh load(std::uint32_t tile) const;
+  /// The whole mesh as one tile that owns all.
+  [[nodiscard]] LoadedMesh load_all() const;
+
+ private:
+  struct Tet {
+    std::uint64_t id = 0;
+    audit::TetRow vertices{};
+    Label label = 0;
+    std::uint32_t is_shared = 0;
+  };
+
+  /// Whether all vertices of these tets have been written; takes note of the first that is not.
+  [[nodiscard]] bool in_range(const io::TetRows& tet);
+  void add(const io::TetRows& tet, RawLabel label);
+  [[nodiscard]] audit::Position in_array(const io::Position& p) const;
+  [[nodiscard]] LoadedMesh make(const std::vector<Tet>& tets) const;
+  void read_positions(std::span<const std::uint64_t> ids, std::vector<audit::Position>& out) const;
+
+  const io::VolumeInfo& volume_;
+  const io::LabelTable& table_;
+  Index3 layers_;
+  bool is_upright_;
+  bool is_mirrored_;
+  TileGrid grid_;
+  std::uint64_t memory_bytes_;
+  io::MeshHeader header_;
+  mutable std::mutex mutex_;
+  mutable io::ScratchFile positions_;
+  std::vector<std::uint32_t> tile_of_vertex_;
+  std::vector<bool> is_used_;
+  TileBuckets<Tet> tets_;
+  std::uint64_t tet_count_ = 0;
+  std::string range_error_;
+  audit::Offenders endless_{"vertices that are not finite"};
+  audit::Offenders unused_{"vertices in no tet"};
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The mesh's interface in small pieces, by the tile that each lies in.
+#pragma once
+
+#include "engine/verify/tile_buckets.h"
+#include "engine/verify/tile_grid.h"
+#include "kernels/audit/distance_mesh.h"
+
+namespace mw::engine {
+
+/// Triangles come first, with dense labels of the whole, in voxels of the lattice; then pieces are
+/// made of all of them.
+class PieceBuckets {
+ public:
+  PieceBuckets(const std::filesystem::path& folder, const TileGrid& grid, Index3 layers,
+               std::uint64_t memory_bytes)
+      : grid_(grid),
+        layers_(layers),
+        triangles_(folder, grid.size(), memory_bytes / 2),
+        pieces_(folder, grid.size(), memory_bytes / 2) {}
+
+  void add(std::uint32_t tile, const audit::InterfaceTriangle& triangle) {
+    triangles_.add(tile, triangle);
+    audit::add_estimates(triangle.corners, estimates_);
+  }
+  /// REQUIRES: called once, after the last triangle.
+  void make_pieces();
+
+  /// Of the largest piece.
+  [[nodiscard]] double radius() const { return radius_; }
+  /// All pieces whose centroid lies in a tile that meets this box of voxels of the volume; those
+  /// outside of the volume lie in the nearest.  Thread-safe.
+  [[nodiscard]] std::vector<audit::InterfaceTriangle> near(const Box3& voxels) const;
+
+ private:
+  const TileGrid& grid_;
+  Index3 layers_;
+  TileBuckets<audit::InterfaceTriangle> triangles_;
+  TileBuckets<audit::InterfaceTriangle> pieces_;
+  audit::PieceEstimates estimates_{};
+  double radius_ = audit::kPieceRadius;
+};
+
+}  // namespace mw::engine

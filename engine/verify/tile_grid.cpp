@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Edges, and where a point lies.
+#include "engine/verify/tile_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mw::engine {
+namespace {
+
+std::int64_t parts(std::int64_t whole, std::int64_t part) {
+  return (whole + part - 1) / part;
+}
+
+Index3 counts(Index3 shape, Index3 edges) {
+  return {parts(shape.x, edges.x), parts(shape.y, edges.y), parts(shape.z, edges.z)};
+}
+
+}  // namespace
+
+TileGrid::TileGrid(Index3 shape, Index3 layers) : shape_(shape) {
+  const auto edge = [](std::int64_t n) { return std::max<std::int64_t>(kEdge / n, 1); };
+  edges_ = {edge(layers.x), edge(layers.y), edge(layers.z)};
+  while (counts(shape, edges_).product() > kMostTiles) edges_ = edges_ + edges_;
+  count_ = counts(shape, edges_);
+}
+
+Box3 TileGrid::box(std::uint32_t tile) const {
+  const std::int64_t x = tile % count_.x, y = tile / count_.x % count_.y,
+                     z = tile / count_.x / count_.y;
+  const Index3 lo{x * edges_.x, y * edges_.y, z * edges_.z};
+  return intersection({lo, lo + edges_}, {{0, 0, 0}, shape_});
+}
+
+std::uint32_t TileGrid::at(const std::array<double, 3>& point) const {
+  const auto along = [](double p, std::int64_t count, std::int64_t edge) {
+    const double voxel = std::clamp(std::floor(p), 0.0, static_cast<double>(count - 1));
+    return static_cast<std::int64_t>(voxel) / edge;
+  };
+  return number({along(point[0], shape_.x, edges_.x), along(point[1], shape_.y, edges_.y),
+                 along(point[2], shape_.z, edges_.z)});
+}
+
+Box3 TileGrid::meeting(const Box3& voxels) const {
+  const Box3 box = intersection(voxels, {{0, 0, 0}, shape_});
+  return {{box.lo.x / edges_.x, box.lo.y / edges_.y, box.lo.z / edges_.z}, counts(box.hi, edges_)};
+}
+
+}  // namespace mw::engine

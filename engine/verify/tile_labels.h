@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The few labels of a tile under numbers of their own.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "kernels/audit/part_graph.h"
+#include "kernels/audit/subject.h"
+
+namespace mw::engine {
+
+/// Dense labels of the whole that a tile has, ascending; the tile's own label is the rank.  What is
+/// kept by label in a tile then has the size of the tile, not of the volume's table.
+class TileLabels {
+ public:
+  /// label_count: labels of the whole; larger ones in `seen` are no labels.
+  TileLabels(std::vector<Label> seen, std::size_t label_count) : whole_(std::move(seen)) {
+    std::sort(whole_.begin(), whole_.end());
+    whole_.erase(std::unique(whole_.begin(), whole_.end()), whole_.end());
+    whole_.erase(std::lower_bound(whole_.begin(), whole_.end(), label_count), whole_.end());
+    exterior_ = static_cast<Label>(label_count);
+  }
+
+  [[nodiscard]] std::size_t size() const { return whole_.size(); }
+  [[nodiscard]] const std::vector<Label>& whole() const { return whole_; }
+
+  /// audit::kUnknown for what is no label.  REQUIRES: it was seen.
+  [[nodiscard]] Label own(Label label) const {
+    if (label >= exterior_) return audit::kUnknown;
+    return static_cast<Label>(std::lower_bound(whole_.begin(), whole_.end(), label) -
+                              whole_.begin());
+  }
+  /// In place; neighbours mostly have the same.
+  void make_own(std::span<Label> labels) const {
+    Label last = audit::kUnknown, rank = audit::kUnknown;
+    for (Label& label : labels) {
+      if (label != last) rank = own(last = label);
+      label = rank;
+    }
+  }
+  /// By own label, what there is by label of the whole; empty stays empty.
+  [[nodiscard]] std::vector<bool> own(const std::vector<bool>& by_label) const {
+    std::vector<bool> out;
+    for (const Label label : whole_) {
+      if (!by_label.empty()) out.push_back(by_label[label]);
+    }
+    return out;
+  }
+  /// The two behind the last label (the exterior, and what is no label) are so in both.
+  [[nodiscard]] Label of_whole(Label own) const {
+    return own < whole_.size() ? whole_[own] : exterior_ + (own - static_cast<Label>(size()));
+  }
+  void to_whole(audit::PartsPiece& piece) const {
+    for (Label& label : piece.part_class) label = of_whole(label);
+    for (audit::ClassCells& cells : piece.cells) cells.label = of_whole(cells.label);
+  }
+
+ private:
+  std::vector<Label> whole_;
+  Label exterior_ = 0;
+};
+
+/// Every label of a list once or more, but not once for each entry.
+inline void append_labels(std::span<const Label> labels, std::vector<Label>& seen) {
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (i == 0 || labels[i] != labels[i - 1]) seen.push_back(labels[i]);
+  }
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Promises P1 to P4 and P8 of a mesh of any size, on many threads (`mwmesh verify`).
+#pragma once
+
+#include "engine/verify/mesh_tiles.h"
+#include "engine/verify/verify_task.h"
+
+namespace mw::engine {
+
+/// As audit::audit(), tile by tile: a tile of the mesh, then a tile of the volume with what is near
+/// it, is all that a thread has in memory.  The whole mesh is in memory only where labels were left
+/// out (task.options.kept), mesh and volume where interfaces are counted (count_places).
+/// Memory: besides, 24 bytes a part of a label in a tile, and 8 for each other one that it touches.
+/// ENSURES: the report depends on mesh and volume only; sums are rounded in the order of the tiles.
+/// ERRORS: kResource when a temporary file cannot be written.
+/// REQUIRES: mesh is finished, and of that volume.
+[[nodiscard]] audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& mesh,
+                                             const VerifyTask& task);
+
+}  // namespace mw::engine

@@ -1,0 +1,304 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A tile's labels with those around them, read once.
+#include "engine/verify/volume_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/verify/in_order.h"
+#include "engine/verify/part_links.h"
+#include "engine/verify/tile_labels.h"
+#include "kernels/audit/distance_tile.h"
+#include "kernels/audit/layered_labels.h"
+#include "kernels/core/layers.h"
+
+namespace mw::engine {
+namespace {
+
+/// Distances of a tile, by label of the whole.
+struct TileDistances {
+  std::vector<Label> labels;
+  std::vector<audit::LabelDistances> rows;
+};
+
+struct TileFindings {
+  audit::PartsPiece parts;
+  std::vector<audit::SharedRun> shared;
+  std::vector<std::pair<Label, std::uint64_t>> voxels;
+  TileDistances distances;
+};
+
+/// Labels of a box of the volume.
+struct LoadedVoxels {
+  Box3 box;
+  std::vector<Label> labels;
+
+  [[nodiscard]] LoadedVoxels part(const Box3& of) const {
+    LoadedVoxels out{of, {}};
+    out.labels.reserve(static_cast<std::size_t>(of.voxels()));
+    for (std::int64_t z = of.lo.z; z < of.hi.z; ++z) {
+      for (std::int64_t y = of.lo.y; y < of.hi.y; ++y) {
+        const auto row = labels.begin() + box.offset({of.lo.x, y, z});
+        out.labels.insert(out.labels.end(), row, row + of.shape().x);
+      }
+    }
+    return out;
+  }
+};
+
+Box3 scaled(const Box3& box, Index3 by) {
+  return {layered_shape(box.lo, by), layered_shape(box.hi, by)};
+}
+
+class VolumeStage {
+ public:
+  VolumeStage(const io::DenseVolume& volume, const TileGrid& grid, const VerifyTask& task,
+              const PieceBuckets* pieces)
+      : volume_(volume),
+        grid_(grid),
+        task_(task),
+        pieces_(pieces),
+        label_count_(volume.table().size()),
+        layers_(task.options.layers),
+        limit_(audit::distance_limit(task.options.max_distance)),
+        parts_(label_count_),
+        links_(task.folder, task.memory_bytes / 8),
+        rows_(label_count_ + 2) {
+    found_.voxels.resize(label_count_);
+  }
+
+  VolumeFindings run() {
+    each_in_order<TileFindings>(
+        task_.threads, grid_.size(), [this](std::uint32_t tile) { return look_at(tile); },
+        [this](std::uint32_t tile, TileFindings&& found) { merge(tile, std::move(found)); });
+    links_.unite(parts_);
+    found_.betti = parts_.betti_of_volume();
+    if (pieces_ != nullptr) conclude_distances();
+    return std::move(found_);
+  }
+
+ private:
+  /// Looking farther than the bound says by how much it is broken.
+  [[nodiscard]] double first_reach() const {
+    constexpr double kLeast = 2, kBeyond = 0.5;
+    return std::max(kLeast, task_.options.max_distance.value_or(4 - kBeyond) + kBeyond);
+  }
+
+  /// The box, and what lies within so many voxels of the lattice.
+  [[nodiscard]] Box3 around(const Box3& box, double voxels) const {
+    const auto along = [&](std::int64_t layers) {
+      const double wide = std::ceil(voxels / static_cast<double>(layers)) + 1;
+      return static_cast<std::int64_t>(std::min(wide, 1e9));
+    };
+    const Index3 by{along(layers_.x), along(layers_.y), along(layers_.z)};
+    return intersection({box.lo - by, box.hi + by}, {{0, 0, 0}, grid_.shape()});
+  }
+
+  [[nodiscard]] LoadedVoxels load(const Box3& box) const {
+    LoadedVoxels out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()))};
+    volume_.read(box, out.labels);
+    return out;
+  }
+
+  [[nodiscard]] TileFindings look_at(std::uint32_t tile) const {
+    const Box3 box = grid_.box(tile);
+    const double reach = first_reach();
+    const double halo = pieces_ == nullptr ? 1 : reach + pieces_->radius();
+    LoadedVoxels loaded = load(around(box, halo));
+    TileFindings out;
+    take_parts(box, loaded, out);
+    if (pieces_ != nullptr) out.distances = measure(box, reach, std::move(loaded));
+    return out;
+  }
+
+  void take_parts(const Box3& box, const LoadedVoxels& loaded, TileFindings& out) const {
+    const Box3 all{{0, 0, 0}, grid_.shape()};
+    const Box3 needed = intersection({box.lo - Index3{1, 1, 1}, box.hi}, all);
+    LoadedVoxels voxels = loaded.part(needed);
+    std::vector<Label> seen;
+    append_labels(voxels.labels, seen);
+    const TileLabels names(std::move(seen), label_count_);
+    names.make_own(voxels.labels);
+    count_voxels(box, voxels, names, out);
+    // Vertices on the far sides of the volume are those of the last tiles.
+    const auto end = [](std::int64_t hi, std::int64_t last) { return hi == last ? hi + 1 : hi; };
+    const Box3 owned{box.lo,
+                     {end(box.hi.x, all.hi.x), end(box.hi.y, all.hi.y), end(box.hi.z, all.hi.z)}};
+    audit::VoxelParts parts = audit::voxel_parts(
+        {{needed.shape(), voxels.labels}, grid_.shape(), needed, owned}, names.size());
+    out.parts = std::move(parts.piece);
+    out.shared = std::move(parts.shared);
+    names.to_whole(out.parts);
+  }
+
+  static void count_voxels(const Box3& box, const LoadedVoxels& voxels, const TileLabels& names,
+                           TileFindings& out) {
+    for (const Label label : names.whole()) out.voxels.emplace_back(label, 0);
+    for (const Label label : voxels.part(box).labels) ++out.voxels[label].second;
+  }
+
+  /// Consumes what was loaded.
+  [[nodiscard]] TileDistances measure(const Box3& box, double reach, LoadedVoxels loaded) const {
+    std::vector<audit::InterfaceTriangle> pieces =
+        pieces_->near(around(box, reach + 2 * pieces_->radius()));
+    const Box3 lattice_box = scaled(box, layers_);
+    std::erase_if(pieces, [&](const auto& piece) { return is_beyond(piece, lattice_box, reach); });
+    const TileLabels names(seen_in(loaded, pieces), label_count_);
+    names.make_own(loaded.labels);
+    for (audit::InterfaceTriangle& piece : pieces) {
+      for (Label& label : piece.labels) label = own(names, label);
+    }
+    const Box3 lattice_loaded = scaled(loaded.box, layers_);
+    const bool is_all = loaded.box == Box3{{0, 0, 0}, grid_.shape()};
+    audit::LayeredLabels lattice{lattice_loaded.shape(), {}};
+    if (layers_ == Index3{1, 1, 1}) {
+      lattice.labels = std::move(loaded.labels);
+    } else {
+      lattice = audit::layered_labels({loaded.box.shape(), loaded.labels}, layers_);
+    }
+    audit::DistanceTask task{
+        .voxels = {lattice.view(), layered_shape(grid_.shape(), layers_), lattice_loaded, {}},
+        .pieces = pieces,
+        .piece_radius = pieces_->radius(),
+        .label_count = names.size(),
+        .kept = names.own(task_.options.kept),
+        .samples = lattice_box,
+        .limit = limit_};
+    if (!is_all) task.reach = reach;
+    return {whole_rows(names), audit::measure_distances(task)};
+  }
+
+  static std::vector<Label> seen_in(const LoadedVoxels& loaded,
+                                    const std::vector<audit::InterfaceTriangle>& pieces) {
+    std::vector<Label> seen;
+    append_labels(loaded.labels, seen);
+    for (const audit::InterfaceTriangle& piece : pieces) {
+      seen.insert(seen.end(), piece.labels.begin(), piece.labels.end());
+    }
+    return seen;
+  }
+
+  /// The two behind the last label are so in the tile as well.
+  [[nodiscard]] Label own(const TileLabels& names, Label label) const {
+    const auto count = static_cast<Label>(label_count_);
+    return label < count ? names.own(label) : static_cast<Label>(names.size()) + (label - count);
+  }
+
+  [[nodiscard]] std::vector<Label> whole_rows(const TileLabels& names) const {
+    std::vector<Label> out = names.whole();
+    out.push_back(static_cast<Label>(label_count_));
+    out.push_back(static_cast<Label>(label_count_ + 1));
+    return out;
+  }
+
+  [[nodiscard]] static bool is_beyond(const audit::InterfaceTriangle& piece, const Box3& box,
+                                      double reach) {
+    const audit::Extent extent = audit::extent_of(piece.corners);
+    const std::array<std::int64_t, 3> lo{box.lo.x, box.lo.y, box.lo.z};
+    const std::array<std::int64_t, 3> hi{box.hi.x, box.hi.y, box.hi.z};
+    // A voxel more on each side than what is measured: pieces outside of the volume are too.
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (extent.hi[k] < static_cast<double>(lo[k]) - reach - 1) return lo[k] > 0;
+      if (extent.lo[k] > static_cast<double>(hi[k]) + reach + 1) return true;
+    }
+    return false;
+  }
+
+  void merge(std::uint32_t tile, TileFindings&& found) {
+    const std::uint32_t first = parts_.add(std::move(found.parts));
+    for (const audit::SharedRun& run : found.shared) {
+      links_.add(run.first, run.count, first + run.part);
+    }
+    for (const auto& [label, count] : found.voxels) found_.voxels[label] += count;
+    if (has_far(found.distances)) {
+      far_.push_back(tile);
+      note_presence(found.distances);
+      far_distances_.push_back(std::move(found.distances));
+    } else {
+      add(found.distances);
+    }
+    task_.between();
+  }
+
+  static bool has_far(const TileDistances& distances) {
+    return std::any_of(
+        distances.rows.begin(), distances.rows.end(),
+        [](const audit::LabelDistances& row) { return row.to_input.far + row.to_mesh.far > 0; });
+  }
+
+  void note_presence(const TileDistances& distances) {
+    for (std::size_t i = 0; i < distances.rows.size(); ++i) {
+      audit::LabelDistances& row = rows_[distances.labels[i]];
+      row.in_volume = row.in_volume || distances.rows[i].in_volume;
+      row.in_mesh = row.in_mesh || distances.rows[i].in_mesh;
+    }
+  }
+
+  void add(const TileDistances& distances) {
+    for (std::size_t i = 0; i < distances.rows.size(); ++i) {
+      rows_[distances.labels[i]].add(distances.rows[i]);
+    }
+  }
+
+  /// Samples that found nothing of their label near look farther, if there is something at all.
+  void conclude_distances() {
+    double reach = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < far_.size(); ++i) {
+      reach = std::min(reach, look_farther(far_[i], far_distances_[i]));
+      add(far_distances_[i]);
+      task_.between();
+    }
+    found_.distance = audit::conclude_distances(rows_, limit_, reach);
+  }
+
+  [[nodiscard]] bool waits(const TileDistances& distances) const {
+    for (std::size_t i = 0; i < distances.rows.size(); ++i) {
+      const audit::LabelDistances& whole = rows_[distances.labels[i]];
+      const audit::LabelDistances& row = distances.rows[i];
+      const bool is_found = whole.in_volume && whole.in_mesh;
+      if (is_found && row.to_input.far + row.to_mesh.far > 0) return true;
+    }
+    return false;
+  }
+
+  /// Returns how far it has looked: as far as memory lets it.
+  double look_farther(std::uint32_t tile, TileDistances& distances) const {
+    constexpr double kStep = 4;
+    constexpr std::uint64_t kBytesAVoxel = 32;
+    const Box3 box = grid_.box(tile);
+    double reach = first_reach();
+    while (waits(distances)) {
+      const Box3 farther = around(box, kStep * reach + pieces_->radius());
+      const auto voxels = static_cast<std::uint64_t>(farther.voxels() * layers_.product());
+      if (voxels > task_.memory_bytes / kBytesAVoxel) return reach;
+      reach *= kStep;
+      distances = measure(box, reach, load(farther));
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+  const io::DenseVolume& volume_;
+  const TileGrid& grid_;
+  const VerifyTask& task_;
+  const PieceBuckets* pieces_;
+  std::size_t label_count_;
+  Index3 layers_;
+  double limit_;
+  VolumeFindings found_;
+  audit::PartsUnion parts_;
+  PartLinks links_;
+  std::vector<audit::LabelDistances> rows_;
+  std::vector<std::uint32_t> far_;
+  std::vector<TileDistances> far_distances_;
+};
+
+}  // namespace
+
+VolumeFindings look_at_volume(const io::DenseVolume& volume, const TileGrid& grid,
+                              const VerifyTask& task, const PieceBuckets* pieces) {
+  return VolumeStage(volume, grid, task, pieces).run();
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The second half of a verification: the volume, and how far the mesh is from it, tile by tile.
+#pragma once
+
+#include "engine/verify/piece_buckets.h"
+#include "engine/verify/verify_task.h"
+#include "io/labels/label_table.h"
+
+namespace mw::engine {
+
+/// What the volume's tiles told.
+struct VolumeFindings {
+  std::vector<audit::RegionBetti> betti;
+  std::vector<std::uint64_t> voxels;  ///< by dense label
+  std::optional<audit::DistanceReport> distance;
+};
+
+/// pieces: the mesh's interface; nullptr when no distances are asked for.
+[[nodiscard]] VolumeFindings look_at_volume(const io::DenseVolume& volume, const TileGrid& grid,
+                                            const VerifyTask& task, const PieceBuckets* pieces);
+
+}  // namespace mw::engine
