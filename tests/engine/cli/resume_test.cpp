@@ -56,6 +56,24 @@ TEST_F(ResumeProgramTest, WorksInTheFolderThatIsGiven) {
   EXPECT_FALSE(files().contains("here"));
 }
 
+/// What is meshed must be the same; where it goes, what is left out of it and how it is written
+/// may change, and so may what the work is done with.
+TEST_F(ResumeProgramTest, OutputMayChangeBeforeItGoesOn) {
+  make_noise();
+  const std::string other = " --labels 1 --element tet10 --names n.csv";
+  write("n.csv", "label,name\n1,one\n");
+  expect_done("mesh n.npy -o whole.vtu --window 8" + other);
+  interrupt("--threads 1", "n.vtu.work");
+  const std::string mesh = "mesh n.npy -o n.vtu --window 8 --resume";
+  expect_failure(2, mesh + " --merge 1=2", "label fingerprint was");
+  expect_failure(2, mesh + " --crop 0,0,0,29,30,30", "shape was 30,30,30 and is 29,30,30");
+  expect_failure(2, mesh + " --spacing 1,1,1.5", "spacing was 1,1,1 and is 1,1,1.5");
+  expect_done("mesh n.npy -o other.vtu --workdir n.vtu.work --window 8 --resume --threads 2" +
+              other + " --memory 900MiB --report r.json");
+  EXPECT_GT(json::parse(read("r.json"))["engine"]["windows_resumed"], 0);
+  EXPECT_EQ(read("other.vtu"), read("whole.vtu"));
+}
+
 TEST_F(ResumeProgramTest, StartsWhenThereIsNothingToResume) {
   make_volume();
   const ProgramRun result = run("mesh v.npy -o v.vtu --resume");
