@@ -18,9 +18,9 @@ std::string triple(const std::array<double, 3>& v) {
 std::string volume_text(const io::VolumeInfo& volume) {
   const Index3 shape = volume.shape;
   const io::VolumeSpace& space = volume.space;
-  return io::text("shape = ", shape.x, ",", shape.y, ",", shape.z, "\n",  //
-                  "type = ", io::name(volume.type), "\n",                 //
-                  "spacing = ", triple(space.spacing), "\n",              //
+  return io::text("shape = ", shape.x, ",", shape.y, ",", shape.z, "\n",                    //
+                  "type = ", io::name(volume.type), volume.scaled ? ", scaled" : "", "\n",  //
+                  "spacing = ", triple(space.spacing), "\n",                                //
                   "axes = ", triple(space.axes[0]), " ", triple(space.axes[1]), " ",
                   triple(space.axes[2]), "\n",  //
                   "origin = ", triple(space.origin), "\n");
