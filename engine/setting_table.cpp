@@ -98,10 +98,8 @@ bool are_sizes(std::vector<LabelSize> sizes) {
   return std::adjacent_find(sizes.begin(), sizes.end(), std::not_fn(by_label)) == sizes.end();
 }
 
-}  // namespace
-
-const std::vector<Setting>& setting_table() {
-  static const std::vector<Setting> kTable{
+std::vector<Setting> march_settings() {
+  return {
       {.name = "window",
        .value = "N",
        .help = "window edge in voxels of the lattice (see --surface), even",
@@ -127,6 +125,18 @@ const std::vector<Setting>& setting_table() {
        .choices = words(kOrders),
        .text = [](const Settings& s) { return name_of(kOrders, s.order); },
        .read = [](Settings& s, const Text& t) { s.order = value_of(kOrders, t); }},
+      {.name = "start",
+       .help = "start mesh: coarse (labels coarsened first, larger cells inside them), octree "
+               "(larger cells only), dense (the paper's)",
+       .kind = SettingKind::kChoice,
+       .choices = words(kStarts),
+       .text = [](const Settings& s) { return name_of(kStarts, s.start); },
+       .read = [](Settings& s, const Text& t) { s.start = value_of(kStarts, t); }},
+  };
+}
+
+std::vector<Setting> bound_settings() {
+  return {
       {.name = "edge-variance",
        .value = "T|none",
        .help = "bound on the variance of edge lengths, Eq (3)",
@@ -169,6 +179,11 @@ const std::vector<Setting>& setting_table() {
            [](const Settings& s) {
              return !s.target_reduction || (*s.target_reduction > 0.0 && *s.target_reduction < 1.0);
            }},
+  };
+}
+
+std::vector<Setting> method_settings() {
+  return {
       {.name = "topology",
        .help = "what is kept: labels, or interfaces as well",
        .kind = SettingKind::kChoice,
@@ -200,13 +215,11 @@ const std::vector<Setting>& setting_table() {
        .read = [](Settings& s, const Text& t) { s.odt_iterations = parse_int(t); },
        .is_allowed =
            [](const Settings& s) { return is_within(s.odt_iterations, 1, kMaxOdtIterations); }},
-      {.name = "start",
-       .help = "start mesh: coarse (labels coarsened first, larger cells inside them), octree "
-               "(larger cells only), dense (the paper's)",
-       .kind = SettingKind::kChoice,
-       .choices = words(kStarts),
-       .text = [](const Settings& s) { return name_of(kStarts, s.start); },
-       .read = [](Settings& s, const Text& t) { s.start = value_of(kStarts, t); }},
+  };
+}
+
+std::vector<Setting> size_settings() {
+  return {
       {.name = "size",
        .value = "LABEL=H,..",
        .help = "edges of these labels' tets are no longer than H, physical units; not below the "
@@ -233,7 +246,20 @@ const std::vector<Setting>& setting_table() {
        .text = [](const Settings& s) -> Text { return s.sizes.inner_vertices ? "true" : "false"; },
        .read = [](Settings& s, const Text& t) { s.sizes.inner_vertices = parse_switch(t); }},
   };
-  return kTable;
+}
+
+}  // namespace
+
+const std::vector<Setting>& setting_table() {
+  static const std::vector<Setting> table = [] {
+    std::vector<Setting> out;
+    for (const auto& group :
+         {march_settings(), bound_settings(), method_settings(), size_settings()}) {
+      out.insert(out.end(), group.begin(), group.end());
+    }
+    return out;
+  }();
+  return table;
 }
 
 void check(const Setting& setting, const MeshSettings& settings) {
