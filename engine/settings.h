@@ -56,7 +56,8 @@ struct SizeSettings {
   bool inner_vertices = false;
 };
 
-/// Voxels are those of the lattice that the volume is meshed on.
+/// Voxels are those of the lattice that the volume is meshed on.  Every field has its entry in
+/// setting_table.cpp, where flags, config keys, check() and the identity of a run come from.
 struct MeshSettings {
   int window = 32;  ///< window edge in voxels, even
   int marches = 2;  ///< each over the whole volume, with windows twice as large

@@ -7,7 +7,6 @@
 
 #include "engine/cli/label_choice.h"
 #include "engine/cli/progress.h"
-#include "engine/cli/size_options.h"
 #include "engine/cli/volume_options.h"
 #include "engine/settings.h"
 #include "io/mesh/element.h"
@@ -18,12 +17,12 @@ struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
-  bool ascii = false;             ///< the output as text
-  std::filesystem::path report;   ///< empty: none
-  std::filesystem::path html;     ///< empty: none
-  std::filesystem::path trace;    ///< empty: none
-  engine::MeshSettings settings;  ///< sizes: after check_mesh_request()
-  SizeRequest sizes;
+  bool ascii = false;                   ///< the output as text
+  std::filesystem::path report;         ///< empty: none
+  std::filesystem::path html;           ///< empty: none
+  std::filesystem::path trace;          ///< empty: none
+  engine::MeshSettings settings;        ///< those of size_file after check_mesh_request()
+  std::filesystem::path size_file;      ///< empty: none
   int threads = 0;                      ///< 0: all cores
   std::optional<std::uint64_t> memory;  ///< bytes; after check_mesh_request() never empty
   std::filesystem::path workdir;        ///< after check_mesh_request() never empty
@@ -40,7 +39,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request);
 
 /// Fills in what follows from other values.
 /// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other;
-///         those of size_settings().
+///         those of add_sizes_of_file().
 void check_mesh_request(MeshRequest& request);
 
 }  // namespace mw::cli

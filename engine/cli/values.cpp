@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -15,18 +14,8 @@
 namespace mw::cli {
 namespace {
 
-[[noreturn]] void fail_expected(std::string_view expected, std::string_view text) {
-  throw Error(ErrorKind::kUsage,
-              "expected " + std::string(expected) + ", got '" + std::string(text) + "'");
-}
-
-/// Reads all of text as a T; false when that fails.
-template <class T>
-bool read_all(std::string_view text, T& value) {
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end && !text.empty();
-}
+using engine::fail_expected;
+using engine::read_all;
 
 std::vector<std::string_view> split(std::string_view text) {
   std::vector<std::string_view> parts;
@@ -69,18 +58,6 @@ std::optional<std::uint64_t> bytes_of(std::string_view number, std::uint64_t uni
 
 }  // namespace
 
-std::int64_t parse_integer(std::string_view text) {
-  std::int64_t value = 0;
-  if (!read_all(text, value)) fail_expected("an integer", text);
-  return value;
-}
-
-double parse_number(std::string_view text) {
-  double value = 0;
-  if (!read_all(text, value) || !std::isfinite(value)) fail_expected("a finite number", text);
-  return value;
-}
-
 std::array<double, 3> parse_numbers(std::string_view text) {
   const std::vector<std::string_view> parts = split(text);
   if (parts.size() != 3) fail_expected("three numbers X,Y,Z", text);
@@ -111,24 +88,10 @@ Box3 parse_box(std::string_view text) {
   return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
 }
 
-RawLabel parse_label(std::string_view text) {
-  RawLabel label = 0;
-  if (read_all(text, label)) return label;
-  std::int64_t negative = 0;
-  if (!read_all(text, negative)) fail_expected("a label of at most 64 bits", text);
-  return static_cast<RawLabel>(negative);
-}
-
 std::vector<RawLabel> parse_labels(std::string_view text) {
   std::vector<RawLabel> labels;
   for (const std::string_view part : split(text)) labels.push_back(parse_label(part));
   return labels;
-}
-
-bool parse_switch(std::string_view text) {
-  if (text == "true" || text == "1") return true;
-  if (text == "false" || text == "0") return false;
-  fail_expected("true or false", text);
 }
 
 io::Element parse_element(std::string_view text) {
@@ -145,12 +108,6 @@ std::uint64_t parse_size(std::string_view text) {
       unit ? bytes_of(text.substr(0, end), *unit) : std::nullopt;
   if (!bytes || *bytes == 0) fail_expected("a size such as 512M, 1.5G or 4GiB", text);
   return *bytes;
-}
-
-std::string format_number(double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
 }
 
 std::string format_label(RawLabel label, bool is_signed) {

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Where settings come from: defaults < config file < environment < flags.
+#include <algorithm>
+#include <cctype>
+
 #include "tests/engine/cli/run_program.h"
+#include "tests/engine/setting_samples.h"
 
 namespace mw::cli {
 namespace {
@@ -26,6 +30,27 @@ TEST_F(ConfigTest, StrongestSourceWins) {
   EXPECT_EQ(line("window", config + "--window 16", "MW_WINDOW=24"), "window = 16");
   EXPECT_EQ(line("window", "", "MW_WINDOW=24"), "window = 24");
   EXPECT_EQ(line("window", config, "MW_WINDOW="), "window = 40");
+}
+
+/// A setting is one entry of a table: flag, variable and config key are there, and its help.
+TEST_F(ConfigTest, EverySettingComesFromFlagVariableAndFile) {
+  const std::string help = run("mesh --help").out;
+  for (const engine::Setting& setting : engine::setting_table()) {
+    const std::string text = engine::test::samples(setting).good.front();
+    std::string key = setting.name;
+    std::replace(key.begin(), key.end(), '-', '_');
+    std::string variable = "MW_" + key;
+    std::transform(key.begin(), key.end(), variable.begin() + 3, ::toupper);
+    const std::string flag = "--" + setting.name;
+    const bool is_switch = setting.kind == engine::SettingKind::kSwitch;
+    const std::string printed = line(key, is_switch ? flag : flag + " " + text);
+    EXPECT_NE(printed.find(text), std::string::npos) << flag << ": " << printed;
+    EXPECT_NE(printed, line(key, "")) << key;
+    EXPECT_EQ(printed, line(key, "", variable + "=" + text)) << variable;
+    write("one.toml", printed + "\n");
+    EXPECT_EQ(printed, line(key, "--config one.toml")) << key;
+    EXPECT_NE(help.find(setting.help), std::string::npos) << flag;
+  }
 }
 
 TEST_F(ConfigTest, EveryKindOfValueSurvivesPrinting) {

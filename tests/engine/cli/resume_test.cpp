@@ -14,8 +14,8 @@ using nlohmann::json;
 class ResumeProgramTest : public ProgramTest {
  protected:
   /// n.npy, whose mesh takes a few seconds.
-  void make_noise() const {
-    expect_done("synth noise --shape 30,30,30 --labels 3 --seed 1 -o n.npy");
+  void make_noise(const std::string& shape = "30,30,30") const {
+    expect_done("synth noise --labels 3 --seed 1 -o n.npy --shape " + shape);
   }
 
   /// A run that is interrupted after a while and leaves its work.
@@ -54,6 +54,24 @@ TEST_F(ResumeProgramTest, WorksInTheFolderThatIsGiven) {
   EXPECT_FALSE(files().contains("n.vtu.work"));
   expect_done("mesh n.npy -o other.vtu --window 8 --workdir here --resume");
   EXPECT_FALSE(files().contains("here"));
+}
+
+/// What is meshed must be the same; where it goes, what is left out of it and how it is written
+/// may change, and so may what the work is done with.
+TEST_F(ResumeProgramTest, OutputMayChangeBeforeItGoesOn) {
+  make_noise("22,22,22");
+  const std::string other = " --labels 1 --element tet10 --names n.csv";
+  write("n.csv", "label,name\n1,one\n");
+  expect_done("mesh n.npy -o whole.vtu --window 8" + other);
+  interrupt("--threads 1", "n.vtu.work");
+  const std::string mesh = "mesh n.npy -o n.vtu --window 8 --resume";
+  expect_failure(2, mesh + " --merge 1=2", "label fingerprint was");
+  expect_failure(2, mesh + " --crop 0,0,0,21,22,22", "shape was 22,22,22 and is 21,22,22");
+  expect_failure(2, mesh + " --spacing 1,1,1.5", "spacing was 1,1,1 and is 1,1,1.5");
+  expect_done("mesh n.npy -o other.vtu --workdir n.vtu.work --window 8 --resume --threads 2" +
+              other + " --memory 900MiB --report r.json");
+  EXPECT_GT(json::parse(read("r.json"))["engine"]["windows_resumed"], 0);
+  EXPECT_EQ(read("other.vtu"), read("whole.vtu"));
 }
 
 TEST_F(ResumeProgramTest, StartsWhenThereIsNothingToResume) {

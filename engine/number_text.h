@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Numbers and labels of settings and options from text and back.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "kernels/core/label.h"
+
+namespace mw::engine {
+
+/// Reads all of the text, a decimal number, as a T; false when it is none or does not fit.
+template <class T>
+[[nodiscard]] bool read_all(std::string_view text, T& value) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && !text.empty();
+}
+
+/// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.
+[[nodiscard]] std::int64_t parse_integer(std::string_view text);
+[[nodiscard]] double parse_number(std::string_view text);   ///< finite
+[[nodiscard]] RawLabel parse_label(std::string_view text);  ///< negative: two's complement
+[[nodiscard]] bool parse_switch(std::string_view text);     ///< "true", "false", "1", "0"
+
+/// Shortest decimal that reads back as the same double.
+[[nodiscard]] std::string format_number(double value);
+
+/// Throws mw::Error(kUsage): "expected EXPECTED, got 'TEXT'".
+[[noreturn]] void fail_expected(std::string_view expected, std::string_view text);
+
+}  // namespace mw::engine
