@@ -7,6 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "engine/cli/certificate.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/fingerprint.h"
@@ -65,7 +66,10 @@ struct MeshFiles {
   }
 
   /// Where the mesh goes.
-  [[nodiscard]] io::MeshSink& all() {
+  [[nodiscard]] io::MeshSink& all() { return certifier ? certifier->sink() : uncertified(); }
+
+  /// The same, past the certificate.
+  [[nodiscard]] io::MeshSink& uncertified() {
     if (three) return *three;
     return both ? static_cast<io::MeshSink&>(*both) : *sink;
   }
@@ -78,6 +82,7 @@ struct MeshFiles {
   std::optional<io::GroupedSink> grouped;  ///< for the page, the same
   std::optional<io::TeeSink> three;
   std::optional<TraceFile> trace;
+  std::optional<Certifier> certifier;
 };
 
 engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
@@ -140,6 +145,13 @@ void print_space(const io::VolumeSpace& space) {
   if (!what.empty()) std::cout << "coordinates " << what << "\n";
 }
 
+void print_certificate(const FinishedRun& run) {
+  std::cout << "certificate "
+            << (run.certificate == nullptr ? "none: " + run.why_no_certificate
+                                           : "topology, partition, radius ratio and distance hold")
+            << "\n";
+}
+
 void print_summary(const FinishedRun& run, const MeshRequest& request) {
   const double seconds = run.resources.wall_seconds;
   const Index3 shape = run.volume.shape;
@@ -150,6 +162,7 @@ void print_summary(const FinishedRun& run, const MeshRequest& request) {
   print_specks(run.specks);
   print_lattice(run.engine.lattice);
   print_space(run.volume.space);
+  print_certificate(run);
   std::cout << "seconds     " << format_fixed(seconds, 2) << "\n"
             << "voxels/s    " << format_fixed(static_cast<double>(shape.product()) / seconds, 0)
             << "\n"
@@ -187,8 +200,14 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
                   .specks = input.specks()};
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
-  run.engine = mesh_or_keep(request, io::DenseVolume(volume, table), files, fingerprint.text(),
+  const io::DenseVolume labels(volume, table);
+  const CertificatePlan plan = plan_certificate(request);
+  if (plan.why_not.empty()) files.certifier.emplace(plan, request, labels, files.uncertified());
+  run.engine = mesh_or_keep(request, labels, files, fingerprint.text(),
                             *request.memory - input.held_bytes());
+  run.fingerprint = fingerprint.text();
+  run.why_no_certificate = plan.why_not;
+  if (files.certifier) run.certificate = &files.certifier->report();
   if (files.trace) files.trace->finish();
   tell_resume(request, run.engine.store);
   run.resources = meter.read();

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/cli/machine_memory.h"
+#include "engine/cli/resource_options.h"
 #include "engine/cli/setting_options.h"
 #include "engine/cli/size_options.h"
 #include "engine/cli/values.h"
@@ -15,8 +16,6 @@
 
 namespace mw::cli {
 namespace {
-
-constexpr int kMaxThreads = 1024;
 
 void add_output_option(OptionSet& options, MeshRequest& request) {
   options.add({.name = "output",
@@ -41,30 +40,8 @@ std::chrono::milliseconds parse_delay(const std::string& text) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
 }
 
-int parse_threads(const std::string& text) {
-  const std::int64_t threads = parse_integer(text);
-  if (threads >= 0 && threads <= kMaxThreads) return static_cast<int>(threads);
-  throw Error(ErrorKind::kUsage,
-              "must be from 1 to " + std::to_string(kMaxThreads) + ", or 0 for all cores");
-}
-
-void add_resource_options(OptionSet& options, MeshRequest& request) {
-  options.add({.name = "threads",
-               .value = "N",
-               .help = "worker threads; 0: all cores",
-               .kind = ValueKind::kInteger,
-               .fallback = "0",
-               .assign = [&](const std::string& text) { request.threads = parse_threads(text); }});
-  options.add({.name = "memory",
-               .value = "SIZE",
-               .help =
-                   "hard budget for the process, e.g. 512M, 1.5G or 4GiB; K M G T, also with iB, "
-                   "are powers of "
-                   "1024, KB MB GB TB of 1000, in any case [half of the memory that is available]",
-               .kind = ValueKind::kSize,
-               .assign = [&](const std::string& text) {
-                 if (!text.empty()) request.memory = parse_size(text);
-               }});
+void add_run_options(OptionSet& options, MeshRequest& request) {
+  add_resource_options(options, request.threads, request.memory, "hard budget for the process");
   options.add({.name = "workdir",
                .value = "DIR",
                .help = "folder of the block store and journal, removed after success [OUTPUT.work]",
@@ -82,6 +59,11 @@ void add_resource_options(OptionSet& options, MeshRequest& request) {
                .assign = [&](const std::string& text) { request.save_every = parse_delay(text); }});
 }
 
+Certify parse_certify(const std::string& text) {
+  if (text == "auto") return Certify::kAuto;
+  return text == "on" ? Certify::kOn : Certify::kOff;
+}
+
 void add_output_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "ascii",
                .help = "a .msh as text instead of binary",
@@ -96,6 +78,13 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .value = "REPORT.html",
                .help = "writes one page to look at: figures, charts, pictures, surfaces to turn",
                .assign = [&](const std::string& text) { request.html = text; }});
+  options.add({.name = "certify",
+               .help = "on: the mesh is checked like verify does (P1 to P4) before it gets its "
+                       "name, or the run ends with exit code 5; auto: where a quarter of --memory "
+                       "is enough for that",
+               .fallback = "auto",
+               .choices = {"auto", "on", "off"},
+               .assign = [&](const std::string& text) { request.certify = parse_certify(text); }});
   options.add({.name = "trace",
                .value = "FILE.csv",
                .help = "writes when each window was worked on, and by which thread",
@@ -111,12 +100,6 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .fallback = "warn",
                .choices = {"debug", "info", "warn", "error", "off"},
                .assign = [&](const std::string& text) { request.log_level = text; }});
-}
-
-/// What a chunked volume may keep of its file while labels are read: nothing else needs much then.
-std::uint64_t cache_bytes(std::uint64_t memory) {
-  constexpr std::uint64_t kMost = 1ULL << 30U;
-  return std::min(memory / 4, kMost);
 }
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -180,7 +163,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
   add_volume_options(options, request.volume);
   add_setting_options(options, request.settings);
   add_size_file_option(options, request.size_file);
-  add_resource_options(options, request);
+  add_run_options(options, request);
   add_choice_options(options, request.choice);
   add_output_options(options, request);
 }

@@ -13,16 +13,23 @@
 
 namespace mw::cli {
 
+enum class Certify {
+  kAuto,  ///< where memory allows it and the mesh need not be looked at as a whole
+  kOn,
+  kOff,
+};
+
 struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
-  bool ascii = false;                   ///< the output as text
-  std::filesystem::path report;         ///< empty: none
-  std::filesystem::path html;           ///< empty: none
-  std::filesystem::path trace;          ///< empty: none
-  engine::MeshSettings settings;        ///< those of size_file after check_mesh_request()
-  std::filesystem::path size_file;      ///< empty: none
+  bool ascii = false;               ///< the output as text
+  std::filesystem::path report;     ///< empty: none
+  std::filesystem::path html;       ///< empty: none
+  std::filesystem::path trace;      ///< empty: none
+  engine::MeshSettings settings;    ///< those of size_file after check_mesh_request()
+  std::filesystem::path size_file;  ///< empty: none
+  Certify certify = Certify::kAuto;
   int threads = 0;                      ///< 0: all cores
   std::optional<std::uint64_t> memory;  ///< bytes; after check_mesh_request() never empty
   std::filesystem::path workdir;        ///< after check_mesh_request() never empty

@@ -128,6 +128,45 @@ void add_size(Label label, const FinishedRun& run, ordered_json& row) {
   row["longest_edge"] = run.engine.longest_edges[label];
 }
 
+/// Rows of labels have theirs.
+ordered_json distance_json(const FinishedRun& run) {
+  ordered_json out{{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}};
+  if (run.certificate == nullptr || !run.certificate->distance) return out;
+  out["max_voxels"] = run.certificate->distance->max_voxels;
+  out["mean_voxels"] = run.certificate->distance->mean_voxels;
+  return out;
+}
+
+ordered_json topology_json(const FinishedRun& run) {
+  if (run.certificate == nullptr) return {{"checked", false}, {"labels_changed", nullptr}};
+  return {{"checked", true}, {"labels_changed", run.certificate->labels_changed.size()}};
+}
+
+ordered_json certificate_json(const FinishedRun& run) {
+  if (run.certificate == nullptr) return {{"made", false}, {"why", run.why_no_certificate}};
+  ordered_json checks = ordered_json::array();
+  for (const audit::Check& check : run.certificate->checks) {
+    checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
+  }
+  return {{"made", true},
+          {"label_fingerprint", run.fingerprint},
+          {"volume", run.certificate->validity.volume},
+          {"box_volume", run.certificate->validity.box_volume},
+          {"checks", std::move(checks)}};
+}
+
+ordered_json betti_json(const audit::RegionBetti& betti) {
+  const auto numbers = [](const audit::Betti& b) { return ordered_json{b.b0, b.b1, b.b2}; };
+  return {{"closed", numbers(betti.closed)}, {"open", numbers(betti.open)}};
+}
+
+/// Adds to the row of a label what was counted on both sides.
+void add_topology(Label label, const FinishedRun& run, ordered_json& row) {
+  if (run.certificate == nullptr) return;
+  row["betti_of_volume"] = betti_json(run.certificate->voxels[label]);
+  row["betti_of_mesh"] = betti_json(run.certificate->mesh[label]);
+}
+
 }  // namespace
 
 double vertex_fraction(std::uint64_t vertices, Index3 shape) {
@@ -156,8 +195,9 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
           {"quality", quality_json(run.engine.quality.value())},
           {"shape", shape_json(run)},
           {"size", size_json(run)},
-          {"distance", {{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}}},
-          {"topology", {{"checked", false}, {"labels_changed", nullptr}}},
+          {"distance", distance_json(run)},
+          {"topology", topology_json(run)},
+          {"certificate", certificate_json(run)},
           {"performance", performance_json(run)},
           {"engine", engine_json(run)},
           {"digest", run.digest}};
@@ -169,6 +209,7 @@ void write_run_report(io::AtomicFile& file, const FinishedRun& run,
     each_volume(run, [&](const audit::VolumeRow& row) {
       ordered_json out = volume_row_json(row, run.labels, run.volume.names);
       add_size(row.label, run, out);
+      add_topology(row.label, run, out);
       take(out);
     });
   };

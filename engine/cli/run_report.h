@@ -11,6 +11,7 @@
 #include "engine/run.h"
 #include "io/file/atomic_file.h"
 #include "io/labels/despeckled_volume.h"
+#include "kernels/audit/audit.h"
 #include "kernels/audit/volumes.h"
 
 namespace mw::cli {
@@ -25,6 +26,9 @@ struct FinishedRun {
   double labels_seconds = 0;  ///< reading the volume once for its labels
   Resources resources;        ///< times until the mesh was written, memory until its digest
   std::string digest;
+  std::string fingerprint;                          ///< of the labels
+  const audit::AuditReport* certificate = nullptr;  ///< nullptr: none was made
+  std::string why_no_certificate;
 };
 
 /// Vertices of a mesh per corner of the volume's voxels.

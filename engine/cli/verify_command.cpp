@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh verify: promises P1 to P4 and P8 of a finished mesh, independently of how it was made.
-#include <tbb/info.h>
-
 #include <CLI/CLI.hpp>
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/mesh_facts.h"
+#include "engine/cli/resource_options.h"
 #include "engine/cli/verdict.h"
 #include "engine/label_scan.h"
+#include "io/file/nameless_file.h"
 #include "io/mesh/open_mesh.h"
 
 namespace mw::cli {
@@ -33,10 +33,9 @@ Verdict judge(const VerifyRequest& request) {
   io::copy_mesh(request.mesh, mesh);
   verdict.bounds = bounds_of(request, mesh.header().record);
   engine::VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space),
-                          .threads = request.threads,
+                          .threads = threads_or_all(request.threads),
                           .memory_bytes = *request.memory / 2,
                           .folder = folder};
-  if (task.threads == 0) task.threads = tbb::info::default_concurrency();
   task.options.max_volume_error = request.max_volume_error;
   task.options.kept = kept_labels(request.choice, verdict.table);
   verdict.layers = task.options.layers;

@@ -4,6 +4,7 @@
 #include "engine/cli/verify_request.h"
 
 #include "engine/cli/machine_memory.h"
+#include "engine/cli/resource_options.h"
 #include "engine/cli/values.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/audit/audit.h"
@@ -44,12 +45,13 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
                "run kept, else labels]",
        .choices = {"labels", kInterfaces},
        .assign = [&](const std::string& text) { request.count_places = text == kInterfaces; }});
-  options.add({.name = "quality-floor",
-               .value = "R",
-               .help = "P3 fails for a tet below this radius ratio [the run's, else " +
-                       format_number(kOtherPromises.quality_floor) + "]",
-               .kind = ValueKind::kNumber,
-               .assign = [&](const std::string& text) { request.quality_floor = parse_number(text); }});
+  options.add(
+      {.name = "quality-floor",
+       .value = "R",
+       .help = "P3 fails for a tet below this radius ratio [the run's, else " +
+               format_number(kOtherPromises.quality_floor) + "]",
+       .kind = ValueKind::kNumber,
+       .assign = [&](const std::string& text) { request.quality_floor = parse_number(text); }});
   options.add(
       {.name = "max-distance",
        .value = "D",
@@ -72,20 +74,8 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
        .kind = ValueKind::kNumberOrNone,
        .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
        .assign = [&](const std::string& text) { request.max_volume_error = parse_bound(text); }});
-  options.add({.name = "threads",
-               .value = "N",
-               .help = "worker threads; 0: all cores",
-               .kind = ValueKind::kInteger,
-               .fallback = "0",
-               .assign = [&](const std::string& text) { request.threads = parse_threads(text); }});
-  options.add({.name = "memory",
-               .value = "SIZE",
-               .help = "what its lists and buffers may take, e.g. 512M or 4GiB; more is taken only "
-                       "as the README says [half of the memory that is available]",
-               .kind = ValueKind::kSize,
-               .assign = [&](const std::string& text) {
-                 if (!text.empty()) request.memory = parse_size(text);
-               }});
+  add_resource_options(options, request.threads, request.memory,
+                       "what lists and buffers may take together, beside a tile a thread");
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes the result as JSON",
@@ -95,7 +85,8 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
 void check_verify_request(VerifyRequest& request) {
   require_path(request.mesh, "MESH");
   check_choice(request.choice);
-  if (request.count_places.value_or(false) && (request.choice.labels || request.choice.background)) {
+  if (request.count_places.value_or(false) &&
+      (request.choice.labels || request.choice.background)) {
     throw Error(ErrorKind::kUsage,
                 "--topology interfaces: is for meshes of all labels, without --labels and "
                 "--background");

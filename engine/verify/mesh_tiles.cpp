@@ -21,7 +21,7 @@ MeshTiles::MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table, 
       layers_(layers_of(volume.space.spacing)),
       is_upright_(io::is_upright(volume.space)),
       is_mirrored_(io::is_mirrored(volume.space)),
-      grid_(volume.shape, layers_),
+      grid_(volume.shape, layers_, place.edge),
       memory_bytes_(place.memory_bytes),
       positions_(place.folder),
       tets_(place.folder, grid_.size(), place.memory_bytes) {}

@@ -43,6 +43,7 @@ class MeshTiles : public io::MeshSink {
   struct Place {
     std::filesystem::path folder;  ///< of temporary files
     std::uint64_t memory_bytes = std::uint64_t{32} << 20U;
+    std::int64_t edge = TileGrid::kEdge;  ///< of tiles
   };
 
   /// volume and table outlive this.

@@ -16,8 +16,8 @@ class TileGrid {
   static constexpr std::int64_t kEdge = 64;
   static constexpr std::int64_t kMostTiles = 1 << 14;
 
-  /// Edges of kEdge voxels of the lattice, twice as long as often as there are too many tiles.
-  TileGrid(Index3 shape, Index3 layers);
+  /// Edges of that many voxels of the lattice, twice as long as often as there are too many tiles.
+  TileGrid(Index3 shape, Index3 layers, std::int64_t edge = kEdge);
 
   [[nodiscard]] Index3 shape() const { return shape_; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(count_.product()); }

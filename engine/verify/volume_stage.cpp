@@ -35,6 +35,9 @@ struct LoadedVoxels {
   Box3 box;
   std::vector<Label> labels;
 
+  [[nodiscard]] bool has_one_label() const {
+    return std::equal(labels.begin() + 1, labels.end(), labels.begin());
+  }
   [[nodiscard]] LoadedVoxels part(const Box3& of) const {
     LoadedVoxels out{of, {}};
     out.labels.reserve(static_cast<std::size_t>(of.voxels()));
@@ -145,6 +148,7 @@ class VolumeStage {
         pieces_->near(around(box, reach + 2 * pieces_->radius()));
     const Box3 lattice_box = scaled(box, layers_);
     std::erase_if(pieces, [&](const auto& piece) { return is_beyond(piece, lattice_box, reach); });
+    if (pieces.empty() && loaded.has_one_label()) return {};
     const TileLabels names(seen_in(loaded, pieces), label_count_);
     names.make_own(loaded.labels);
     for (audit::InterfaceTriangle& piece : pieces) {

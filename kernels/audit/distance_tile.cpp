@@ -22,12 +22,13 @@ class Finder {
   Finder(const LabelTrees& trees, std::size_t label_count, SquaredDistance squared_distance)
       : trees_(trees), squared_distance_(squared_distance), last_(label_count, kNone) {}
 
-  /// Infinite when the label has none.
-  [[nodiscard]] double distance(Label label, const VoxelPoint& p) {
+  /// Infinite when the label has none.  That of another item will do that is near enough.
+  [[nodiscard]] double distance(Label label, const VoxelPoint& p, double enough = -1) {
     const auto to_item = [&](std::uint32_t item) { return squared_distance_(p, item); };
     LabelTrees::Nearest guess;
     if (last_[label] != kNone) guess = {to_item(last_[label]), last_[label]};
-    const LabelTrees::Nearest found = trees_.nearest(label, p, guess, to_item);
+    const double square = enough < 0 ? -1 : enough * enough;
+    const LabelTrees::Nearest found = trees_.nearest(label, p, guess, to_item, square);
     if (!trees_.empty(label)) last_[label] = found.item;
     return std::sqrt(found.squared);
   }
@@ -39,6 +40,9 @@ class Finder {
   SquaredDistance squared_distance_;
   std::vector<std::uint32_t> last_;
 };
+
+/// One face in so many counts for means.
+constexpr std::uint32_t kWeighed = 4;
 
 /// A square on a voxel face, by its centre.
 struct Square {
@@ -102,9 +106,10 @@ class TileDistances {
         {voxel(p[0], lo_.x, s.x), voxel(p[1], lo_.y, s.y), voxel(p[2], lo_.z, s.z)});
   }
 
-  /// Distances that are not below the largest so far, or the limit, are worth a closer look.
-  [[nodiscard]] bool may_tell(const DistanceTally& tally, double distance, double around) const {
-    return distance + around > std::max(tally.largest, task_.limit);
+  /// Distances of points so far around tell nothing new where this one's is no larger: they are not
+  /// above the largest so far, or the limit.
+  [[nodiscard]] double enough(const DistanceTally& tally, double around) const {
+    return std::max(tally.largest, task_.limit) - around;
   }
 
   /// Returns whether something is in reach.
@@ -127,34 +132,41 @@ class TileDistances {
   void measure_pieces() {
     for (const InterfaceTriangle& piece : pieces_) {
       if (!is_measured(piece)) continue;
+      const VoxelPoint middle = centroid(piece.corners);
+      const std::array<double, 2> squared = to_faces(piece.labels, middle);
+      const double weight = area(piece.corners);
       for (std::size_t i = 0; i < 2; ++i) {
         DistanceTally& tally = rows_[piece.labels[i]].to_input;
         rows_[piece.labels[i]].in_mesh = true;
-        const double distance = look_from(piece.corners, piece.labels[i], tally);
-        if (distance <= task_.reach) weigh(tally, distance, area(piece.corners));
+        const double distance = std::sqrt(squared[i]);
+        look_around(piece.corners, piece.labels[i], distance, tally);
+        if (distance <= task_.reach) weigh(tally, distance, weight);
       }
     }
   }
 
-  /// Returns the distance of the centroid.
-  double look_from(const VoxelTriangle& t, Label label, DistanceTally& tally) {
-    const VoxelPoint middle = centroid(t);
-    const double distance = to_faces(label, middle);
-    if (!take(tally, distance)) return distance;
+  /// distance: of the centroid.
+  void look_around(const VoxelTriangle& t, Label label, double distance, DistanceTally& tally) {
+    if (!take(tally, distance)) return;
     const double around = radius(t);
-    if (around > kCoveringRadius && may_tell(tally, distance, around)) {
-      for (const VoxelTriangle& half : halves(t)) look_from(half, label, tally);
+    if (around <= kCoveringRadius || distance <= enough(tally, around)) return;
+    for (const VoxelTriangle& half : halves(t)) {
+      const double nearest = to_faces({label, label}, centroid(half))[0];
+      look_around(half, label, std::sqrt(nearest), tally);
     }
-    return distance;
   }
 
-  [[nodiscard]] double to_faces(Label label, const VoxelPoint& p) {
-    if (label != gap_) {
-      const double squared = CloseFaces(voxels()).squared_distances(p, {label, label})[0];
-      if (squared <= CloseFaces::kReach * CloseFaces::kReach) return std::sqrt(squared);
+  /// Squared, of each label.
+  [[nodiscard]] std::array<double, 2> to_faces(const LabelPair& labels, const VoxelPoint& p) {
+    std::array<double, 2> squared = CloseFaces(voxels()).squared_distances(p, labels);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bool is_close = squared[i] <= CloseFaces::kReach * CloseFaces::kReach;
+      if (is_close && labels[i] != gap_) continue;
+      if (!face_finder_) make_face_finder();
+      const double distance = face_finder_->distance(labels[i], p);
+      squared[i] = distance * distance;
     }
-    if (!face_finder_) make_face_finder();
-    return face_finder_->distance(label, p);
+    return squared;
   }
 
   /// Most tiles have a few samples that need it; some have none.
@@ -192,10 +204,23 @@ class TileDistances {
         rows_[is_kept ? label : gap_].in_volume = true;
         if (!is_kept) continue;
         DistanceTally& tally = rows_[label].to_mesh;
-        const double distance = look_from(square, label, finder, tally);
+        if (!is_weighed(face)) {
+          look_from(square, label, finder, tally);
+          continue;
+        }
+        const double distance = finder.distance(label, square.centre);
+        look_around(square, label, distance, finder, tally);
         if (distance <= task_.reach) weigh(tally, distance, 1);
       }
     });
+  }
+
+  /// Means are of some of the faces, spread evenly: of the others it is enough to know that they
+  /// are near.
+  [[nodiscard]] bool is_weighed(const VoxelFace& face) const {
+    const auto [x, y, z] = face.upper;
+    const auto first = static_cast<std::uint32_t>(lo_.x + lo_.y + lo_.z);
+    return (first + x + y + z) % kWeighed == 0;
   }
 
   static Square square_of(const VoxelFace& face) {
@@ -206,15 +231,21 @@ class TileDistances {
     return out;
   }
 
-  /// Returns the distance of the centre.
   template <class PieceFinder>
-  double look_from(const Square& square, Label label, PieceFinder& finder, DistanceTally& tally) {
-    const double distance = finder.distance(label, square.centre);
-    if (!take(tally, distance)) return distance;
-    if (square.reach() > kCoveringRadius && may_tell(tally, distance, square.reach())) {
-      for (const Square& quarter : square.quarters()) look_from(quarter, label, finder, tally);
-    }
-    return distance;
+  void look_from(const Square& square, Label label, PieceFinder& finder, DistanceTally& tally) {
+    const bool is_last = square.reach() <= kCoveringRadius;
+    const double near = enough(tally, is_last ? 0 : square.reach());
+    const double distance = finder.distance(label, square.centre, near);
+    if (distance > near) look_around(square, label, distance, finder, tally);
+  }
+
+  /// distance: of the centre.
+  template <class PieceFinder>
+  void look_around(const Square& square, Label label, double distance, PieceFinder& finder,
+                   DistanceTally& tally) {
+    if (!take(tally, distance)) return;
+    if (square.reach() <= kCoveringRadius || distance <= enough(tally, square.reach())) return;
+    for (const Square& quarter : square.quarters()) look_from(quarter, label, finder, tally);
   }
 
   struct ToFace {

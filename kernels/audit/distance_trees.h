@@ -36,13 +36,14 @@ class LabelTrees {
 
   [[nodiscard]] bool empty(Label label) const { return begin_[label] == begin_[label + 1]; }
 
-  /// The nearest item of the label that is nearer than `best`, else `best`.
+  /// The nearest item of the label that is nearer than `best`, else `best`.  One that is no farther
+  /// than enough (squared) will do.
   /// squared_distance_to(item) -> double.  The distance found does not depend on `best` as long as
   /// that is an item of the label.
   /// Cost: O(log items) for points near them, whatever the distance to the others.
   template <class SquaredDistance>
   [[nodiscard]] Nearest nearest(Label label, const VoxelPoint& p, Nearest best,
-                                SquaredDistance&& squared_distance_to) const;
+                                SquaredDistance&& squared_distance_to, double enough = -1) const;
 
  private:
   static constexpr std::uint64_t kFan = 4;
@@ -153,13 +154,14 @@ void LabelTrees::add_leaves(Label label, ExtentOf&& extent_of) {
 
 template <class SquaredDistance>
 LabelTrees::Nearest LabelTrees::nearest(Label label, const VoxelPoint& p, Nearest best,
-                                        SquaredDistance&& squared_distance_to) const {
+                                        SquaredDistance&& squared_distance_to,
+                                        double enough) const {
   const std::span<const Level> levels = std::span(levels_).subspan(
       level_begin_[label], level_begin_[label + 1] - level_begin_[label]);
   if (levels.empty()) return best;
   Stack stack;
   stack.nodes[stack.size++] = {0, 0, levels.size() - 1};
-  while (stack.size > 0) {
+  while (stack.size > 0 && best.squared > enough) {
     const Waiting node = stack.nodes[--stack.size];
     if (node.squared >= best.squared) continue;
     if (node.level > 0) {

@@ -165,12 +165,10 @@ class SharedRow {
  public:
   SharedRow(const VoxelTile& tile, const VoxelRuns& runs)
       : runs_(runs), lo_(tile.loaded.lo), shape_(tile.loaded.shape()), volume_{{}, tile.shape} {
-    const auto is_shared = [](std::int64_t lo, std::int64_t hi, std::int64_t end) {
-      return std::array<bool, 2>{lo > 0, hi < end};
-    };
-    shared_ = {is_shared(tile.loaded.lo.x, tile.loaded.hi.x, tile.shape.x),
-               is_shared(tile.loaded.lo.y, tile.loaded.hi.y, tile.shape.y),
-               is_shared(tile.loaded.lo.z, tile.loaded.hi.z, tile.shape.z)};
+    const Index3 before = tile.owned.lo - tile.loaded.lo;
+    const Index3 behind = tile.shape - tile.loaded.hi;
+    shared_ = {
+        {{before.x > 0, behind.x > 0}, {before.y > 0, behind.y > 0}, {before.z > 0, behind.z > 0}}};
   }
 
   void add(std::int64_t y, std::int64_t z, std::vector<SharedRun>& out) const {
