@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""One case: a volume and settings drawn from a number, run in several ways, held to the promises."""
+"""One case: volume and settings drawn from a number, run in several ways, held to all promises."""
 import json
 import math
 import os
@@ -264,7 +264,7 @@ class Case:
             found = {n: found[n] for n in found if ".partial-" not in n}
         others = sorted(set(found) ^ set(self.expected))
         if others or any(p.is_dir() for p in (self.folder / "b").iterdir()):
-            raise Failed(f"files after the run: {self.entries('b')}, expected {list(self.expected)}")
+            raise Failed(f"files after the run: {self.entries('b')}, not {list(self.expected)}")
         for name, content in self.expected.items():
             if found[name] != content:
                 raise Failed(f"{name} has other bytes than that of the undisturbed run")

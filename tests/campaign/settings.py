@@ -133,7 +133,8 @@ def verify_arguments(random, settings, volume_kind):
     tells = settings.output.split(".")[1] in KEEP_PROMISES
     if not tells or random.random() < 0.3:
         bound = settings.get("max-distance", "1.5")
-        out += [f"--max-distance={bound}", f"--quality-floor={settings.get('quality-floor', '0.2')}",
+        floor = settings.get("quality-floor", "0.2")
+        out += [f"--max-distance={bound}", f"--quality-floor={floor}",
                 f"--surface={settings.get('surface', 'smooth')}"]
         if not settings.chosen:
             out.append(f"--topology={settings.get('topology', 'labels')}")
@@ -143,7 +144,10 @@ def verify_arguments(random, settings, volume_kind):
 
 
 def promises_volumes(settings, volume_kind):
-    """P8 is for smooth surfaces under a distance bound, of labels that are no dust."""
+    """P8 is for smooth surfaces under a distance bound, of labels that are no dust, and is best
+    effort where steps towards it are taken away (no optimiser, a high floor)."""
     bound = settings.max_distance()
-    return (settings.is_smooth() and bound is not None and
+    usual = (settings.get("optimizer", "local") != "none" and
+             float(settings.get("quality-floor", "0.2")) <= 0.25)
+    return (usual and settings.is_smooth() and bound is not None and
             volume_kind in ("voronoi", "spheres", "balls", "boxes", "one"))

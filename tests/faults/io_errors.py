@@ -166,6 +166,7 @@ def try_run(name, folder, everything):
 
 
 def main():
+    watched.require_module()
     everything = "--all" in sys.argv
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name).resolve()

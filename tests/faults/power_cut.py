@@ -32,14 +32,15 @@ class Subject:
                        for x in range(shape[0]))
         watched.write_npy(folder / "v.npy", shape, labels)
         self.name = draw.choice(["m.vtu", "m.vtkhdf"])
-        self.settings = [f"--window={draw.choice([6, 8])}", f"--order={draw.choice(['raster', 'colour'])}"]
+        self.settings = [f"--window={draw.choice([6, 8])}",
+                         f"--order={draw.choice(['raster', 'colour'])}", "--save-every=0"]
         code, text = watched.run(self.arguments("whole", []), folder)
         assert code == 0, text
         self.expected = (folder / "whole" / self.name).read_bytes()
 
     def arguments(self, place, more):
         (self.folder / place).mkdir(exist_ok=True)
-        return ["mesh", "v.npy", "-o", f"{place}/{self.name}", "--save-every=0", *self.settings, *more]
+        return ["mesh", "v.npy", "-o", f"{place}/{self.name}", *self.settings, *more]
 
     def recorded(self, place, kill_at=0):
         """What a run did, until it was killed."""
@@ -147,6 +148,7 @@ def histories(seed, ways):
 
 
 def main():
+    watched.require_module()
     minutes = float(sys.argv[1]) if len(sys.argv) > 1 else 0
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1
     end = time.monotonic() + 60 * minutes

@@ -3,6 +3,7 @@
 """Runs the program with its system calls counted, failed or recorded (fault_plan.h)."""
 import os
 import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,6 +33,15 @@ class Event:
 
 class Crash(Exception):
     """Ended by a signal, or not at all."""
+
+
+def require_module():
+    """Sanitizers put themselves before the same functions, and want to be first."""
+    done = subprocess.run([PROGRAM, "--version"], env=dict(os.environ, LD_PRELOAD=MODULE),
+                          capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        print(f"skipped: {MODULE} does not go with this program: {done.stderr}")
+        sys.exit(77)
 
 
 def run(arguments, folder, watch=None, log=None, at=0, how=""):
