@@ -15,6 +15,7 @@ set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 program="$(realpath "${MW_PROGRAM:-$root/build/release/mwmesh}")"
 source="${MW_JUDGE:-$root/../shared/judge}"
+unset MW_JUDGE # or the program would ask what option that is
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
 

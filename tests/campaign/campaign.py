@@ -11,6 +11,7 @@ import time
 import case
 
 CASES_A_SEED = 1_000_000
+SECONDS_A_LINE = 120
 
 
 def arguments():
@@ -28,6 +29,11 @@ def report(number, text):
     print(f"campaign: FAILED: reproduce by: tests/campaign.sh --case {number}\n{text}", flush=True)
 
 
+def summary(counts, failed):
+    words = ", ".join(f"{count} {word}" for word, count in counts.items())
+    return f"campaign: {words}; {failed} failed"
+
+
 def one(args):
     verdict, what = case.run_case(args.case, args.program, args.judge, keep=True, tell=print)
     if verdict == "failed":
@@ -41,7 +47,7 @@ def many(args):
     """Starts cases until the time is over; each worker takes the next number."""
     end = time.monotonic() + 60 * args.minutes
     numbers = iter(range(args.seed * CASES_A_SEED, (args.seed + 1) * CASES_A_SEED))
-    counts, failed = collections.Counter(), 0
+    counts, failed, told = collections.Counter(), 0, time.monotonic()
 
     def next_case():
         if time.monotonic() >= end:
@@ -64,8 +70,10 @@ def many(args):
                 else:
                     failed += 1
                     report(number, what)
-    print("campaign: " + ", ".join(f"{n} {word}" for word, n in counts.items())
-          + f"; {failed} failed")
+                if time.monotonic() >= told + SECONDS_A_LINE:
+                    told = time.monotonic()
+                    print(summary(counts, failed), flush=True)
+    print(summary(counts, failed))
     return 1 if failed else 0
 
 

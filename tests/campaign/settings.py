@@ -144,10 +144,8 @@ def verify_arguments(random, settings, volume_kind):
 
 
 def promises_volumes(settings, volume_kind):
-    """P8 is for smooth surfaces under a distance bound, of labels that are no dust, and is best
-    effort where steps towards it are taken away (no optimiser, a high floor)."""
-    bound = settings.max_distance()
-    usual = (settings.get("optimizer", "local") != "none" and
-             float(settings.get("quality-floor", "0.2")) <= 0.25)
-    return (usual and settings.is_smooth() and bound is not None and
+    """P8 is for smooth surfaces under a distance bound and with an optimiser, and for labels that
+    are no dust."""
+    optimized = settings.get("optimizer", "local") != "none"
+    return (optimized and settings.is_smooth() and settings.max_distance() is not None and
             volume_kind in ("voronoi", "spheres", "balls", "boxes", "one"))
