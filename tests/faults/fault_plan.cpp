@@ -60,7 +60,17 @@ std::atomic<std::uint64_t>& calls() {
   return *kCalls;
 }
 
-Fault fault_of(const std::string& how) {
+bool takes_space(std::string_view call) {
+  return call == "write" || call == "pwrite" || call == "fallocate" || call == "mkostemp";
+}
+
+Fault fault_of(std::string_view call, std::uint64_t number) {
+  const std::uint64_t at = plan().at;
+  const std::string& how = plan().how;
+  if (at == 0 || number < at) return {};
+  if (how == "full") return {.error = takes_space(call) ? ENOSPC : 0};
+  if (how == "gone") return {.error = EIO};
+  if (number > at) return {};
   if (how == "kill") ::kill(::getpid(), SIGKILL);
   if (how == "short") return {.is_short = true};
   return {.error = std::atoi(how.c_str())};
@@ -98,7 +108,7 @@ Fault next_fault(std::string_view call, const std::string& path) {
   if (plan().log >= 0) {
     append("call\t" + std::to_string(number) + "\t" + std::string(call) + "\t" + path + "\n");
   }
-  return number == plan().at ? fault_of(plan().how) : Fault{};
+  return fault_of(call, number);
 }
 
 void record(const Event& event) {

@@ -20,9 +20,9 @@ struct Fault {
 };
 
 /// Numbers the call (from 1) when it is on something below the folder FAULT_FOLDER, and says
-/// whether it is the one that FAULT_AT names.  FAULT_HOW: an errno as a number, "short", or
-/// "kill", which does not return.  The log FAULT_LOG, if any, gets a line
-/// "call NUMBER NAME PATH".
+/// whether it is to fail: the one that FAULT_AT names, in the way FAULT_HOW: an errno as a number,
+/// "short", or "kill", which does not return; or it and all later calls: "full", those that take
+/// space, and "gone", all.  The log FAULT_LOG, if any, gets a line "call NUMBER NAME PATH".
 /// Thread-safe.  Leaves errno as it is.
 [[nodiscard]] Fault next_fault(std::string_view call, const std::string& path);
 

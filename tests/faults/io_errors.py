@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fails each system call of small runs in turn, with each error that the call may have.
+"""Fails each system call of small runs in turn, with each error that the call may have; or from
+there on all that take space (the disk is full), or all (it is gone).
 
 A run ends with exit code 3 or 4 and a message, or does without the call and gives the right bytes;
 no name holds half a file; nothing is left over; and the same command (with --resume for `mesh`)
@@ -18,15 +19,15 @@ from pathlib import Path
 
 import watched
 
-WRITE = [errno.ENOSPC, errno.EIO, errno.EDQUOT, errno.EINTR, "short"]
-MAKE = [errno.EMFILE, errno.ENOSPC, errno.EIO]
+WRITE = [errno.ENOSPC, errno.EIO, errno.EDQUOT, errno.EINTR, "short", "full", "gone"]
+MAKE = [errno.EMFILE, errno.ENOSPC, errno.EIO, "gone"]
 ERRORS = {
     "open": MAKE, "mkostemp": MAKE, "fopen": [errno.EMFILE, errno.EIO],
-    "read": [errno.EIO, "short"], "pread": [errno.EIO, errno.EINTR, "short"],
+    "read": [errno.EIO, "short"], "pread": [errno.EIO, errno.EINTR, "short", "gone"],
     "write": WRITE, "pwrite": WRITE,
-    "fsync": [errno.EIO, errno.ENOSPC, errno.EDQUOT], "fdatasync": [errno.EIO, errno.ENOSPC],
-    "ftruncate": [errno.EIO, errno.ENOSPC], "fallocate": [errno.ENOSPC, errno.EINTR, errno.EDQUOT],
-    "mmap": [errno.ENOMEM, errno.ENODEV], "rename": [errno.EIO, errno.ENOSPC, errno.EDQUOT],
+    "fsync": [errno.EIO, errno.ENOSPC, errno.EDQUOT], "fdatasync": [errno.EIO, "gone"],
+    "ftruncate": [errno.EIO, errno.ENOSPC], "fallocate": [errno.EINTR, "full", errno.EDQUOT],
+    "mmap": [errno.ENOMEM, "gone"], "rename": [errno.EIO, errno.ENOSPC, "gone"],
     "mkdir": [errno.ENOSPC, errno.EIO], "unlink": [errno.EIO], "remove": [errno.EIO],
     "rmdir": [errno.EIO],
 }
@@ -76,21 +77,25 @@ def is_passing(name):
     return ".partial-" in name or ".mwmesh-" in name or ".work/" in name
 
 
-def check_failed(folder, expected, call, text):
+def could_clear_away(call, how):
+    return how != "gone" and call.name not in ("unlink", "remove", "rmdir")
+
+
+def check_failed(folder, expected, clean, text):
     """What a run may leave that ends with 3 or 4."""
     if "mwmesh: error: " not in text:
         raise Broken(f"no message\n{text}")
     for name, data in contents(folder).items():
         if is_passing(name):
-            if ".work/" not in name and call.name not in ("unlink", "remove", "rmdir"):
+            if ".work/" not in name and clean:
                 raise Broken(f"{name} is left over")
         elif expected.get(name) != data:
             raise Broken(f"{name} is not what it ought to be")
 
 
-def check_done(folder, expected, call):
+def check_done(folder, expected, clean):
     found = contents(folder)
-    if call.name in ("unlink", "remove", "rmdir"):  # cannot be cleared away
+    if not clean:
         found = {name: found[name] for name in found if not is_passing(name)}
     if found != expected:
         raise Broken(f"exit code 0 and {sorted(found)}, expected {sorted(expected)}, "
@@ -114,13 +119,14 @@ def attempt(folder, arguments, expected, call, how):
     log.unlink(missing_ok=True)
     code, text = watched.run(arguments, folder, watch=folder, log=log, at=call.number, how=how)
     call = next(c for c in watched.read_calls(log) if c.number == call.number)
+    clean = could_clear_away(call, how)
     if code == 0:
-        return check_done(folder, expected, call)
+        return check_done(folder, expected, clean)
     if code not in (3, 4):
         raise Broken(f"exit code {code}\n{text}")
-    check_failed(folder, expected, call, text)
+    check_failed(folder, expected, clean, text)
     again(folder, arguments)
-    return check_done(folder, expected, call)
+    return check_done(folder, expected, clean)
 
 
 def sampled(calls):
@@ -157,7 +163,7 @@ def try_run(name, folder, everything):
             attempt(folder, arguments, expected, call, how)
         except (Broken, watched.Crash) as failure:
             failed += 1
-            error = how if how == "short" else errno.errorcode[how]
+            error = errno.errorcode.get(how, how)
             print(f"FAILED: {name}: {error} at call {call.number} ({call.name} of "
                   f"{Path(call.path).relative_to(folder)}): {failure}", flush=True)
     print(f"io_errors: {name}: {len(tried)} errors at {len(calls)} calls, {failed} failed",
