@@ -4,6 +4,7 @@
 #include "engine/cli/exit_code.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 
@@ -50,6 +51,8 @@ int guarded(const std::function<int()>& action) noexcept {
     return fail(kExitResource, "", "out of memory; try a smaller volume or a larger machine");
   } catch (const std::length_error& error) {
     return fail(kExitResource, "more data than memory can hold: ", error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(kExitResource, "check the disk: ", error.what());
   } catch (const std::exception& error) {
     return fail(kExitInternal, "internal: ", error.what());
   } catch (...) {

@@ -124,6 +124,7 @@ void Journal::replay(const std::function<void(const JournalRecord&)>& use) {
   JournalRecord record;
   for (; read_next(record); ++records_) use(record);
   file_->resize(end_);
+  if (records_ > 0) file_->sync();
 }
 
 void Journal::make_room(std::uint64_t size) {

@@ -52,6 +52,8 @@ class Journal {
   explicit Journal(std::unique_ptr<WorkFile> file);
 
   /// Calls `use` for every whole record, in order, and cuts off the rest.
+  /// ENSURES: the records survive a power cut, even those of a run that was killed before it synced
+  /// them; the space of blocks that they replace may be used again.
   void replay(const std::function<void(const JournalRecord&)>& use);
   /// ENSURES: on return the record survives a power cut.
   /// REQUIRES: replay() was called; what the record points to has been synced.

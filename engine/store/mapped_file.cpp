@@ -14,6 +14,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/file_descriptor.h"
+#include "io/file/sync_folder.h"
 #include "kernels/core/assert.h"
 
 namespace mw::engine {
@@ -25,9 +26,7 @@ namespace ipc = boost::interprocess;
 void make(const std::filesystem::path& path) {
   const io::FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
   if (!file.valid()) io::fail_output(path.string(), "create", errno);
-  const io::FileDescriptor folder(
-      ::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.valid()) ::fsync(folder.get());  // some file systems cannot; nothing else helps then
+  io::sync_folder(path.parent_path());
 }
 
 ipc::file_mapping open_mapping(const std::string& path) {

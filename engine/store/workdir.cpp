@@ -20,6 +20,7 @@
 #include "io/file/atomic_file.h"
 #include "io/file/errors.h"
 #include "io/file/nameless_file.h"
+#include "io/file/sync_folder.h"
 
 namespace mw::engine {
 namespace {
@@ -66,6 +67,13 @@ std::string value_of(const Lines& lines, const std::string& name) {
 std::string content_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Nothing is there afterwards.
+void clear_away(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) io::fail_output(path.string(), "remove", error.value());
 }
 
 /// The locked file is still the one with that name: a run that ends removes it.
@@ -163,8 +171,8 @@ void Workdir::check_settings(const std::string& settings) const {
 }
 
 void Workdir::start_afresh(const std::string& settings) {
-  fs::remove(path_ / kJournalFile);
-  fs::remove(path_ / kBlocksFile);
+  clear_away(path_ / kJournalFile);
+  clear_away(path_ / kBlocksFile);
   io::AtomicFile file(path_ / kSettingsFile);
   file.append(settings);
   file.commit();
@@ -176,7 +184,11 @@ void Workdir::remove_files() const {
     const std::string name = entry.path().filename().string();
     if (is_left_over(name)) fs::remove(entry.path(), ignored);
   }
-  for (const char* name : kFiles) fs::remove(path_ / name, ignored);
+  for (const char* name : kFiles) {
+    fs::remove(path_ / name, ignored);
+    // A journal that a power cut brings back without the others would look like saved work.
+    if (name == kJournalFile) io::sync_folder(path_);
+  }
   fs::remove(path_, ignored);
 }
 

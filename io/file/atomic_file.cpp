@@ -12,6 +12,7 @@
 #include <string>
 
 #include "io/file/errors.h"
+#include "io/file/sync_folder.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -42,13 +43,6 @@ std::filesystem::path partial_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter{0};
   return folder_of(target) /
          text(".", target.filename().string(), ".partial-", ::getpid(), "-", counter++);
-}
-
-/// The rename itself is safe only once the folder is on the disk; file systems that cannot sync a
-/// folder say so, and that is not the user's problem.
-void sync_folder(const std::filesystem::path& folder) {
-  const FileDescriptor handle(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (handle.valid()) ::fsync(handle.get());
 }
 
 }  // namespace
@@ -133,7 +127,7 @@ void AtomicFile::commit() {
     fail_output(target_.string(), "rename to", errno);
   }
   committed_ = true;
-  sync_folder(folder_of(target_));
+  sync_folder(folder_of(target_));  // the rename itself is safe only then
 }
 
 }  // namespace mw::io

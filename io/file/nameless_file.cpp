@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// mkostemp, unlink, pread and pwrite.
+// A file without a name, pread and pwrite.
 #include "io/file/nameless_file.h"
 
 #include <fcntl.h>
@@ -11,13 +11,27 @@
 #include "io/file/errors.h"
 
 namespace mw::io {
+namespace {
+
+/// Where the file system can do that: without ever having a name, so that no kill leaves one.
+int open_nameless(const std::string& folder) {
+  return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+}
+
+int open_and_unlink(const std::string& folder) {
+  std::string path = folder + "/" + kScratchPrefix + "XXXXXX";
+  const int file = ::mkostemp(path.data(), O_CLOEXEC);
+  if (file >= 0) ::unlink(path.c_str());
+  return file;
+}
+
+}  // namespace
 
 NamelessFile::NamelessFile(const std::filesystem::path& folder)
     : folder_(folder.empty() ? "." : folder.string()) {
-  std::string path = folder_ + "/" + kScratchPrefix + "XXXXXX";
-  file_ = FileDescriptor(::mkostemp(path.data(), O_CLOEXEC));
+  file_ = FileDescriptor(open_nameless(folder_));
+  if (!file_.valid()) file_ = FileDescriptor(open_and_unlink(folder_));
   if (!file_.valid()) fail_output(folder_, "create a temporary file there", errno);
-  ::unlink(path.c_str());
 }
 
 void NamelessFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) const {

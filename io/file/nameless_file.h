@@ -13,8 +13,8 @@
 
 namespace mw::io {
 
-/// Names of such files begin so in the instant before they have none; a kill then leaves one
-/// behind.
+/// Where a file cannot be made without a name, its name begins so in the instant before it has
+/// none; a kill then leaves one behind.
 inline constexpr const char* kScratchPrefix = ".mwmesh-scratch-";
 
 /// Bytes by place.

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "io/file/errors.h"
+#include "io/hdf5/library_errors.h"
 #include "io/mesh/vtkhdf/hdf5_array.h"
 
 namespace mw::io {
@@ -99,9 +100,25 @@ std::string bytes_of(const LabelNames& names) {
   return bytes;
 }
 
-bool has_array(hid_t place, const char* group, const char* array) {
-  return H5Lexists(place, group, H5P_DEFAULT) > 0 &&
-         H5Lexists(place, text(group, "/", array).c_str(), H5P_DEFAULT) > 0;
+/// Not there is an answer, not known is none.
+bool has_link(hid_t place, const std::string& path, const std::string& file) {
+  const htri_t found = H5Lexists(place, path.c_str(), H5P_DEFAULT);
+  if (found < 0) {
+    fail_input(file, path, "cannot be looked up: " + hdf5_reason(), "the file or disk is damaged");
+  }
+  return found > 0;
+}
+
+/// An array of a group that may not be there either.
+struct ArrayPlace {
+  hid_t place = H5I_INVALID_HID;
+  const char* group = nullptr;
+  const char* array = nullptr;
+};
+
+bool has_array(const ArrayPlace& at, const std::string& file) {
+  return has_link(at.place, at.group, file) &&
+         has_link(at.place, text(at.group, "/", at.array), file);
 }
 
 std::vector<std::uint64_t> read_numbers(const Hdf5Array& array, std::uint64_t components) {
@@ -158,15 +175,16 @@ bool write_vtkhdf_facts(hid_t file, hid_t grid, const MeshHeader& header) {
 }
 
 MeshRecord read_vtkhdf_record(hid_t file, const std::string& name) {
-  if (!has_array(file, kOurs, kRecord)) return {};
+  if (!has_array({file, kOurs, kRecord}, name)) return {};
   const std::vector<std::uint64_t> bytes =
       read_numbers(Hdf5Array(file, text(kOurs, "/", kRecord), name), 1);
   return parse_record(std::string(bytes.begin(), bytes.end()), name);
 }
 
 LabelNames read_vtkhdf_names(hid_t file, hid_t grid, const std::string& name) {
-  const bool has_all = has_array(grid, kFields, kLabelId) &&
-                       has_array(grid, kFields, kLabelColour) && has_array(file, kOurs, kLabelName);
+  const bool has_all = has_array({grid, kFields, kLabelId}, name) &&
+                       has_array({grid, kFields, kLabelColour}, name) &&
+                       has_array({file, kOurs, kLabelName}, name);
   if (!has_all) return {};
   const Hdf5Array ids(grid, text(kFields, "/", kLabelId), name);
   const Hdf5Array colours(grid, text(kFields, "/", kLabelColour), name);

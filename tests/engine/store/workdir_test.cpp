@@ -121,5 +121,16 @@ TEST_F(WorkdirTest, NeedsAFolderToBeIn) {
   }
 }
 
+TEST_F(WorkdirTest, TellsWhatItCannotClearAway) {
+  fs::create_directories(path() / kBlocksFile / "in the way");
+  try {
+    const Workdir workdir(path(), false, kSettings);
+    ADD_FAILURE() << "took it";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::kResource);
+    EXPECT_NE(std::string(e.what()).find(kBlocksFile), std::string::npos) << e.what();
+  }
+}
+
 }  // namespace
 }  // namespace mw::engine

@@ -3,8 +3,10 @@
 // Temporary files: what was written is read, no name is left, and errors name the folder.
 #include "io/file/nameless_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <optional>
 #include <random>
@@ -19,6 +21,17 @@ std::vector<std::byte> random_bytes(std::mt19937& random, std::size_t count) {
   std::vector<std::byte> out(count);
   for (std::byte& b : out) b = static_cast<std::byte>(random());
   return out;
+}
+
+/// Making a name, be it for an instant, shows in the time of the folder.
+TEST(NamelessFile, NeverHasANameWhereTheFileSystemCanDoWithout) {
+  const TempDir dir;
+  const FileDescriptor probe(::open(dir.path().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  if (!probe.valid()) GTEST_SKIP() << "files need names here";
+  const auto past = std::filesystem::last_write_time(dir.path()) - std::chrono::hours(1);
+  std::filesystem::last_write_time(dir.path(), past);
+  const NamelessFile file(dir.path());
+  EXPECT_EQ(std::filesystem::last_write_time(dir.path()), past);
 }
 
 TEST(NamelessFile, HoldsWhatWasWrittenAndHasNoName) {

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Random settings of a run, and what the program promises under them (README, P1 to P8)."""
+from dataclasses import dataclass, field
+
+FORMATS = ("vtkhdf", "vtu", "mesh", "msh", "inp", "xdmf", "feb", "node")
+KEEP_PROMISES = ("vtkhdf", "vtu", "mesh", "xdmf")  # formats that tell what the run promised
+
+
+@dataclass
+class Settings:
+    """flags: name -> value, None for a flag alone.  prepare: those that change the volume."""
+
+    flags: dict = field(default_factory=dict)
+    prepare: dict = field(default_factory=dict)
+    chosen: dict = field(default_factory=dict)  # --labels or --background
+    output: str = "m.vtu"
+    merged: dict = field(default_factory=dict)  # old label -> new
+    crop: tuple = None
+
+    def arguments(self):
+        out = []
+        for flags in (self.prepare, self.chosen, self.flags):
+            for name, value in flags.items():
+                out.append(f"--{name}" if value is None else f"--{name}={value}")
+        return out
+
+    def get(self, name, default):
+        return self.flags.get(name, default)
+
+    def is_smooth(self):
+        return self.get("surface", "smooth") == "smooth"
+
+    def max_distance(self):
+        """In voxels of the lattice; None without a bound."""
+        bound = self.get("max-distance", "1.5")
+        return None if bound == "none" else float(bound)
+
+
+def merge(random, settings, values):
+    """Unites some labels under one of theirs or a new one."""
+    some = random.sample(values, min(len(values), random.randint(1, 3)))
+    target = random.choice(values + [7])
+    settings.merged = {label: target for label in some}
+    settings.prepare["merge"] = ",".join(map(str, some)) + f"={target}"
+
+
+def crop(random, settings, shape):
+    lo = [random.randrange(n) for n in shape]
+    hi = [random.randint(l + 1, n) for l, n in zip(lo, shape)]
+    settings.crop = (lo, hi)
+    settings.prepare["crop"] = ",".join(map(str, lo + hi))
+
+
+def draw_prepare(random, settings, volume, values_of):
+    if random.random() < 0.12:
+        crop(random, settings, volume.shape)
+    if random.random() < 0.10:
+        merge(random, settings, values_of(settings))
+    if random.random() < 0.10:
+        settings.prepare["drop-specks"] = random.choice(["2", "5", "30", "3/26"])
+
+
+def draw_chosen(random, settings, values):
+    """What is written; REQUIRES values of the prepared volume, unless specks are dropped."""
+    if len(values) < 2 or "drop-specks" in settings.prepare:
+        return
+    if random.random() < 0.08:
+        some = random.sample(values, random.randint(1, len(values)))
+        settings.chosen["labels"] = ",".join(map(str, some))
+    elif random.random() < 0.08:
+        settings.chosen["background"] = str(random.choice(values))
+
+
+def draw_sizes(random, settings, values, spacing):
+    """Below the diagonal of a voxel of the lattice a size is refused."""
+    if settings.get("optimizer", "local") == "tetgen" or "drop-specks" in settings.prepare:
+        return
+    if random.random() < 0.08:
+        some = random.sample(values, random.randint(1, min(3, len(values))))
+        diagonal = sum(h * h for h in spacing) ** 0.5
+        settings.flags["size"] = ",".join(
+            f"{label}={diagonal * random.uniform(1.01, 4):.6g}" for label in some)
+        if random.random() < 0.5:
+            settings.flags["gradation"] = random.choice(["0", "0.2", "2"])
+    if random.random() < 0.08:
+        settings.flags["inner-vertices"] = None
+
+
+def draw_flags(random, settings):
+    flags = settings.flags
+
+    def at_times(name, share, values):
+        if random.random() < share:
+            flags[name] = random.choice(values)
+
+    at_times("window", 0.6, [4, 6, 8, 10, 12, 16, 20, 24])
+    at_times("marches", 0.3, [1, 2, 3, 4])
+    at_times("order", 0.3, ["colour"])
+    at_times("start", 0.4, ["coarse", "octree", "dense"])
+    at_times("topology", 0.25, ["interfaces"])
+    at_times("surface", 0.25, ["voxel"])
+    at_times("optimizer", 0.15, ["none", "local", "local", "tetgen"])
+    at_times("max-distance", 0.4, ["0.75", "1", "2", "3", "6", "none"])
+    at_times("target-reduction", 0.15, ["0.001", "0.05", "0.3"])
+    at_times("edge-variance", 0.15, ["0.05", "0.1", "1"])
+    at_times("quality-floor", 0.4, ["0", "0.01", "0.1", "0.25", "0.3"])
+    if not settings.is_smooth():
+        flags["quality-floor"] = random.choice(["0", "0", "0.01", "0.05", "0.2"])
+
+
+def draw(random, volume, values_of):
+    """values_of(settings): labels of the volume as cropped and merged so far."""
+    settings = Settings()
+    draw_prepare(random, settings, volume, values_of)
+    values = values_of(settings)
+    draw_chosen(random, settings, values)
+    draw_flags(random, settings)
+    draw_sizes(random, settings, values, volume.spacing)
+    settings.output = "m." + random.choice(FORMATS + ("vtkhdf", "vtu", "mesh"))
+    if random.random() < 0.1 and settings.output != "m.mesh":
+        settings.flags["element"] = "tet10"
+    if settings.output == "m.msh" and random.random() < 0.3:
+        settings.flags["ascii"] = None
+    return settings
+
+
+def verify_arguments(random, settings, volume_kind):
+    """What `verify` is asked: all that the run promised, and no more."""
+    out = []
+    for flags in (settings.prepare, settings.chosen):
+        out += [f"--{name}={value}" for name, value in flags.items()]
+    tells = settings.output.split(".")[1] in KEEP_PROMISES
+    if not tells or random.random() < 0.3:
+        bound = settings.get("max-distance", "1.5")
+        floor = settings.get("quality-floor", "0.2")
+        out += [f"--max-distance={bound}", f"--quality-floor={floor}",
+                f"--surface={settings.get('surface', 'smooth')}"]
+        if not settings.chosen:
+            out.append(f"--topology={settings.get('topology', 'labels')}")
+    if not promises_volumes(settings, volume_kind):
+        out.append("--max-volume-error=none")
+    return out
+
+
+def promises_volumes(settings, volume_kind):
+    """P8 is for smooth surfaces under a distance bound and with an optimiser, and for labels that
+    are no dust."""
+    optimized = settings.get("optimizer", "local") != "none"
+    return (optimized and settings.is_smooth() and settings.max_distance() is not None and
+            volume_kind in ("voronoi", "spheres", "balls", "boxes", "one"))
