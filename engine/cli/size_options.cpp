@@ -27,15 +27,10 @@ LabelSize label_size(std::string_view label, std::string_view size) {
 
 std::string read_table(const std::filesystem::path& path) {
   const std::unique_ptr<io::ByteSource> source = io::open_bytes(path);
-  if (source->size() > kMaxTableBytes) {
-    io::fail_input(source->name(), {},
-                   io::text("is no table of sizes: it has ", source->size(), " bytes, the most is ",
-                            kMaxTableBytes),
-                   "give a line label,size for each label");
-  }
-  std::string content(source->size(), '\0');
-  source->read_at(0, std::as_writable_bytes(std::span(content)));
-  return content;
+  if (auto content = io::read_whole(*source, kMaxTableBytes)) return *std::move(content);
+  io::fail_input(source->name(), {},
+                 io::text("is no table of sizes: it has more than ", kMaxTableBytes, " bytes"),
+                 "give a line label,size for each label");
 }
 
 void sort_by_label(std::vector<LabelSize>& sizes) {
