@@ -170,6 +170,7 @@ void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
 
 /// As many of the threads asked for as the system gives.
 int threads_at_hand(int asked) {
+  engine::save_address_space();
   const int wanted = engine::thread_count(asked);
   const int given = engine::Crew(wanted).size();
   if (given < wanted) {
