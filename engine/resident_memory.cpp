@@ -4,6 +4,7 @@
 #include "engine/resident_memory.h"
 
 #include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -23,6 +24,13 @@ void return_free_memory_above(std::uint64_t most) {
 void return_large_pieces_at_once() {
   (void)::mallopt(M_MMAP_THRESHOLD, 512 << 10);
   (void)::mallopt(M_TRIM_THRESHOLD, 1 << 20);
+}
+
+void save_address_space() {
+  constexpr int kMostPools = 2;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  (void)::mallopt(M_ARENA_MAX, kMostPools);
 }
 
 }  // namespace mw::engine

@@ -21,4 +21,8 @@ void return_free_memory_above(std::uint64_t most);
 /// which saves the time of getting them anew.)
 void return_large_pieces_at_once();
 
+/// Where address space is limited (`ulimit -v`), lets threads share the pools of the allocator, of
+/// which each would take 64 MiB of it.  REQUIRES: called before there are other threads.
+void save_address_space();
+
 }  // namespace mw::engine

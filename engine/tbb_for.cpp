@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "engine/crew.h"
 #include "kernels/core/each_index.h"
 
 namespace mw::engine {
@@ -39,8 +40,7 @@ void tbb_each_index(int threads, Index3 shape, const std::function<void(Index3)>
     return;
   }
   using Rows = tbb::blocked_range2d<std::int64_t>;
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  Crew(threads).run([&] {
     tbb::parallel_for(Rows(0, shape.z, 0, shape.y), [&](const Rows& rows) {
       each_index(Box3{{0, rows.cols().begin(), rows.rows().begin()},
                       {shape.x, rows.cols().end(), rows.rows().end()}},

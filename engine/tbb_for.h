@@ -16,8 +16,9 @@ namespace mw::engine {
 /// ERRORS: what a body throws; the others may then not have run.
 void tbb_for(std::size_t n, const RangeBody& body);
 
-/// Calls visit for every index of an array of the given shape, once, on that many threads; with one
-/// in order, x fastest, otherwise in any order.  REQUIRES: threads > 0.
+/// Calls visit for every index of an array of the given shape, once, on that many threads, or as
+/// many as there can be; with one in order, x fastest, otherwise in any order.
+/// REQUIRES: threads > 0.
 /// ERRORS: what a visit throws; the others may then not have happened.
 void tbb_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit);
 

@@ -20,6 +20,7 @@
 #include "engine/cli/speck_facts.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
+#include "engine/crew.h"
 #include "engine/label_scan.h"
 #include "engine/resident_memory.h"
 #include "engine/voxel_lattice.h"
@@ -180,6 +181,20 @@ void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
   }
 }
 
+/// As many of the threads asked for as the system gives.
+int threads_at_hand(int asked) {
+  engine::save_address_space();
+  const int wanted = engine::thread_count(asked);
+  const int given = engine::Crew(wanted).size();
+  if (given < wanted) {
+    spdlog::warn(
+        "the system gives {} of {} threads; the mesh is the same, later. Raise the limit of "
+        "processes (ulimit -u) or of address space (ulimit -v), or give --threads {}",
+        given, wanted, given);
+  }
+  return given;
+}
+
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   const ResourceMeter meter;
@@ -236,6 +251,7 @@ int run_mesh(MeshJob& job) {
   }
   check_mesh_request(job.request);
   start_log(job.request.log_level);
+  job.request.threads = threads_at_hand(job.request.threads);
   return mesh(job.request, job.options);
 }
 

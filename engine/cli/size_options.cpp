@@ -20,15 +20,10 @@ constexpr std::uint64_t kMaxTableBytes = 64 << 20;
 
 std::string read_table(const std::filesystem::path& path) {
   const std::unique_ptr<io::ByteSource> source = io::open_bytes(path);
-  if (source->size() > kMaxTableBytes) {
-    io::fail_input(source->name(), {},
-                   io::text("is no table of sizes: it has ", source->size(), " bytes, the most is ",
-                            kMaxTableBytes),
-                   "give a line label,size for each label");
-  }
-  std::string content(source->size(), '\0');
-  source->read_at(0, std::as_writable_bytes(std::span(content)));
-  return content;
+  if (auto content = io::read_whole(*source, kMaxTableBytes)) return *std::move(content);
+  io::fail_input(source->name(), {},
+                 io::text("is no table of sizes: it has more than ", kMaxTableBytes, " bytes"),
+                 "give a line label,size for each label");
 }
 
 }  // namespace

@@ -66,8 +66,11 @@ class SpawnPlan {
     const int reason =
         ::posix_spawn(&id, program.c_str(), &actions_, &attributes_, arguments.data(), environ);
     if (reason == 0) return id;
-    throw Error(ErrorKind::kUsage, "--optimizer tetgen: cannot start " + program + ": " +
-                                       std::strerror(reason));  // NOLINT(concurrency-mt-unsafe)
+    const std::string message = "--optimizer tetgen: cannot start " + program + ": " +
+                                std::strerror(reason);  // NOLINT(concurrency-mt-unsafe)
+    if (reason != EAGAIN && reason != ENOMEM) throw Error(ErrorKind::kUsage, message);
+    throw Error(ErrorKind::kResource,
+                message + "; raise the limit of processes (ulimit -u) or give fewer --threads");
   }
 
  private:

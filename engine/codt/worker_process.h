@@ -24,7 +24,7 @@ class WorkerProcess {
  public:
   using Milliseconds = std::chrono::milliseconds;
 
-  /// ERRORS: kUsage when the program cannot be started.
+  /// ERRORS: kUsage when the program cannot be started; kResource when there can be no process.
   explicit WorkerProcess(const std::filesystem::path& program);
   /// Kills it.
   ~WorkerProcess();

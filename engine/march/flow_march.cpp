@@ -5,7 +5,6 @@
 #include "engine/march/flow_march.h"
 
 #include <oneapi/tbb/flow_graph.h>
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <exception>
@@ -39,10 +38,10 @@ Outcome visit_window(const VisitWindow& visit, Index3 window) {
 /// time.
 class Dispatcher {
  public:
-  Dispatcher(const WindowOrder& order, const MarchOptions& options)
+  Dispatcher(const WindowOrder& order, const MarchOptions& options, int threads)
       : order_(order),
         options_(options),
-        threads_(static_cast<std::size_t>(thread_count(options.threads))),
+        threads_(static_cast<std::size_t>(threads)),
         wavefront_(order,
                    options.look_ahead > 0 ? options.look_ahead : default_look_ahead(threads_),
                    options.finished_before) {}
@@ -128,20 +127,23 @@ void run_graph(Dispatcher& dispatcher, const VisitWindow& visit) {
   // All of the first windows are chosen before one is sent: from then on the keeper may be at work.
   std::vector<Index3> first;
   while (const auto window = dispatcher.next()) first.push_back(*window);
-  for (Index3 window : first) visitor.try_put(window);
+  try {
+    for (Index3 window : first) visitor.try_put(window);
+  } catch (...) {
+    // No memory for a message: those that were sent must be over before the nodes go.
+    graph.cancel();
+    graph.wait_for_all();
+    throw;
+  }
   graph.wait_for_all();
 }
 
 }  // namespace
 
-void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options) {
-  const int threads = thread_count(options.threads);
-  // Without the control an arena never has more threads than the machine has cores.
-  const oneapi::tbb::global_control allowed(oneapi::tbb::global_control::max_allowed_parallelism,
-                                            static_cast<std::size_t>(threads));
-  oneapi::tbb::task_arena arena(threads);
-  Dispatcher dispatcher(order, options);
-  arena.execute([&] { run_graph(dispatcher, visit); });
+void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options,
+                Crew& crew) {
+  Dispatcher dispatcher(order, options, crew.size());
+  crew.run([&] { run_graph(dispatcher, visit); });
   dispatcher.rethrow_error();
 }
 

@@ -3,12 +3,14 @@
 // The march with many threads, on a oneTBB flow graph.
 #pragma once
 
+#include "engine/crew.h"
 #include "engine/march/march.h"
 
 namespace mw::engine {
 
-/// As march(), always through the graph.  REQUIRES: order.size() >= 1.
+/// As march(), by this crew, always through the graph.  REQUIRES: order.size() >= 1.
 /// Memory: that of the wavefront, and two messages and one admission a thread.
-void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options);
+void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options,
+                Crew& crew);
 
 }  // namespace mw::engine

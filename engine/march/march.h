@@ -44,7 +44,9 @@ using OnVisited = std::function<void(const Visited& visited)>;
 
 /// How a march goes.  Nothing here changes its result.
 struct MarchOptions {
-  int threads = 1;  ///< 1: in sequence, by the caller's thread; 0: as many as there are cores
+  /// 1: in sequence, by the caller's thread; 0: as many as there are cores.  Fewer where the
+  /// system gives no more.
+  int threads = 1;
   /// How many ranks from the sequence's first unfinished window others may run; bounds the march's
   /// memory and how many blocks are in use; 0: default_look_ahead().
   std::uint64_t look_ahead = 0;

@@ -14,7 +14,7 @@ constexpr std::uint64_t kBufferBytes = 1 << 20;
 }  // namespace
 
 bool ByteCursor::refill() {
-  const std::uint64_t count = std::min(kBufferBytes, source_.size() - loaded_);
+  const std::uint64_t count = source_.size_within(loaded_ + kBufferBytes) - loaded_;
   buffer_.resize(count);
   source_.read_at(loaded_, std::as_writable_bytes(std::span(buffer_)));
   loaded_ += count;
@@ -22,8 +22,12 @@ bool ByteCursor::refill() {
   return count > 0;
 }
 
+std::uint64_t ByteCursor::left(std::uint64_t most) const {
+  return source_.size_within(saturating_sum(offset(), most)) - offset();
+}
+
 bool ByteCursor::read(std::span<std::byte> out) {
-  if (out.size() > left()) return false;
+  if (out.size() > left(out.size())) return false;
   while (!out.empty()) {
     if (at_ == buffer_.size()) refill();
     const std::size_t count = std::min(out.size(), buffer_.size() - at_);

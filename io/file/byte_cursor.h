@@ -31,7 +31,8 @@ class ByteCursor {
   [[nodiscard]] bool read_line(std::string& out, std::size_t most);
 
   [[nodiscard]] std::uint64_t offset() const { return loaded_ - buffer_.size() + at_; }
-  [[nodiscard]] std::uint64_t left() const { return source_.size() - offset(); }
+  /// The bytes that follow, counted up to `most`.
+  [[nodiscard]] std::uint64_t left(std::uint64_t most) const;
   /// Counted from 1 by line ends that take() and read_line() saw.
   [[nodiscard]] std::uint64_t line() const { return line_; }
 

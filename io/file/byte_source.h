@@ -3,19 +3,37 @@
 // Random access to bytes: the seam between the formats and the file system.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace mw::io {
 
+/// The sum of two numbers of a file, or the largest number when it is larger.
+[[nodiscard]] inline std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
+  return a + std::min(b, ~a);
+}
+
+/// The same for the product.
+[[nodiscard]] inline std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  return b != 0 && a > kMost / b ? kMost : a * b;
+}
+
 /// A readable run of bytes.  Thread safety: all members may be called from many threads.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
   [[nodiscard]] virtual std::uint64_t size() const = 0;
+  /// The size, but at most `most`: a source that is packed unpacks so much, not all.
+  [[nodiscard]] virtual std::uint64_t size_within(std::uint64_t most) const {
+    return std::min(size(), most);
+  }
   /// What error messages call it; the path for a file.
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// Fills out with the bytes from offset on.
@@ -25,5 +43,8 @@ class ByteSource {
 
 /// The first `length` bytes, or all when there are fewer.
 [[nodiscard]] std::vector<std::byte> read_prefix(const ByteSource& source, std::size_t length);
+
+/// All of it as text; nothing when that is more than `most` bytes.
+[[nodiscard]] std::optional<std::string> read_whole(const ByteSource& source, std::uint64_t most);
 
 }  // namespace mw::io

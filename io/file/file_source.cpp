@@ -60,9 +60,17 @@ void FileSource::read_at(std::uint64_t offset, std::span<std::byte> out) const {
 }
 
 std::vector<std::byte> read_prefix(const ByteSource& source, std::size_t length) {
-  std::vector<std::byte> bytes(std::min<std::uint64_t>(length, source.size()));
+  std::vector<std::byte> bytes(source.size_within(length));
   source.read_at(0, bytes);
   return bytes;
+}
+
+std::optional<std::string> read_whole(const ByteSource& source, std::uint64_t most) {
+  const std::uint64_t size = source.size_within(most + 1);
+  if (size > most) return std::nullopt;
+  std::string content(size, '\0');
+  source.read_at(0, std::as_writable_bytes(std::span(content)));
+  return content;
 }
 
 }  // namespace mw::io

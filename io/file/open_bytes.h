@@ -10,15 +10,9 @@
 
 namespace mw::io {
 
-/// Opens path; a gzip file (by content) is inflated first, see inflate_bytes.
+/// Opens path; a gzip file (by content) is inflated as far as it is read, see InflatedSource.
 /// ERRORS: mw::Error(kInput) when missing, a folder, empty, or not a sound gzip file.
 [[nodiscard]] std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path);
-
-/// Inflates the gzip data that begin at offset of packed, once, into an unlinked temporary file in
-/// $TMPDIR or /tmp, so that memory stays bounded and the result can be read by region.
-/// ERRORS: mw::Error(kInput) when corrupt or truncated; kResource when the disk is full.
-[[nodiscard]] std::unique_ptr<ByteSource> inflate_bytes(const ByteSource& packed,
-                                                        std::uint64_t offset);
 
 /// Whether the bytes at offset begin a gzip member.
 [[nodiscard]] bool is_gzip(const ByteSource& source, std::uint64_t offset = 0);

@@ -35,15 +35,14 @@ nlohmann::json parse_json(std::string_view text, std::string_view file) {
 
 nlohmann::json read_json(const std::filesystem::path& path) {
   const FileSource source(path);
-  if (source.size() > kMostJsonBytes) {
+  const std::optional<std::string> content = read_whole(source, kMostJsonBytes);
+  if (!content) {
     fail_input(source.name(), "JSON",
                text("the file has ", source.size(), " bytes, and at most ", kMostJsonBytes,
                     " are read of a description"),
                "check that it is the store's own");
   }
-  std::string content(source.size(), '\0');
-  source.read_at(0, std::as_writable_bytes(std::span(content)));
-  return parse_json(content, source.name());
+  return parse_json(*content, source.name());
 }
 
 }  // namespace mw::io

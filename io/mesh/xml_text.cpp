@@ -6,6 +6,18 @@
 #include "io/file/errors.h"
 
 namespace mw::io {
+namespace {
+
+/// What is no XML is known by that, however much it is.
+bool begins_with_tag(const ByteSource& source) {
+  constexpr std::size_t kMostBlanks = 4096;
+  const std::vector<std::byte> head = read_prefix(source, kMostBlanks);
+  const std::string_view start(reinterpret_cast<const char*>(head.data()), head.size());
+  const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  return first != start.npos && start[first] == '<';
+}
+
+}  // namespace
 
 std::string xml_escaped(std::string_view text) {
   std::string out;
@@ -31,12 +43,14 @@ std::string xml_escaped(std::string_view text) {
 }
 
 void parse_xml(const ByteSource& source, std::uint64_t most_bytes, pugi::xml_document& document) {
-  if (source.size() > most_bytes) {
+  if (!begins_with_tag(source)) {
+    fail_input(source.name(), {}, "is no XML: it does not begin with a tag", "give another file");
+  }
+  const std::optional<std::string> content = read_whole(source, most_bytes);
+  if (!content) {
     fail_input(source.name(), {}, text("more than ", most_bytes, " bytes of XML"));
   }
-  std::string content(source.size(), '\0');
-  source.read_at(0, std::as_writable_bytes(std::span(content)));
-  const pugi::xml_parse_result result = document.load_buffer(content.data(), content.size());
+  const pugi::xml_parse_result result = document.load_buffer(content->data(), content->size());
   if (result) return;
   fail_input(source.name(), text("byte ", std::to_string(result.offset)),
              text("no well-formed XML (", result.description(), ")"),

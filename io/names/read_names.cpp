@@ -44,15 +44,13 @@ LabelNames parse_names(std::string_view text, std::string_view file) {
 
 LabelNames read_names(const std::filesystem::path& path) {
   const std::unique_ptr<ByteSource> source = open_bytes(path);
-  if (source->size() > kMaxNamesBytes) {
+  const std::optional<std::string> content = read_whole(*source, kMaxNamesBytes);
+  if (!content) {
     fail_input(source->name(), {},
-               text("is no table of names: it has ", source->size(), " bytes, the most is ",
-                    kMaxNamesBytes),
+               text("is no table of names: it has more than ", kMaxNamesBytes, " bytes"),
                "give a table of the labels alone");
   }
-  std::string content(source->size(), '\0');
-  source->read_at(0, std::as_writable_bytes(std::span(content)));
-  return parse_names(content, source->name());
+  return parse_names(*content, source->name());
 }
 
 }  // namespace mw::io

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "io/file/byte_source.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
@@ -26,10 +27,13 @@ void check_spacing(std::string_view file, std::string_view field, double spacing
 /// ERRORS: kInput naming `field` unless the origin is finite.
 void check_origin(std::string_view file, std::string_view field, double origin);
 
-/// ERRORS: kInput with both numbers unless `size` bytes hold the voxels from `offset` on; with
-/// `exact`, also when bytes are left over.
-void check_payload(std::string_view file, const VolumeInfo& info, std::uint64_t offset,
-                   std::uint64_t size, bool exact);
+enum class BytesBehind { kIgnored, kRefused };
+
+/// ERRORS: kInput with both numbers unless source holds the voxels from `offset` on; with kRefused,
+/// also when bytes are left over.
+/// ENSURES: a source that is packed is unpacked as far as the voxels go, and not much further.
+void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64_t offset,
+                   BytesBehind behind = BytesBehind::kIgnored);
 
 /// Bytes of all voxels.
 [[nodiscard]] std::uint64_t payload_bytes(const VolumeInfo& info);

@@ -17,8 +17,9 @@ class ByteStream {
   virtual ~ByteStream() = default;
   /// ERRORS: mw::Error(kInput) when there are fewer bytes or the text is no base64.
   virtual void read(std::span<std::byte> out) = 0;
-  /// An upper bound on the bytes left, to refuse absurd lengths before memory is taken.
-  [[nodiscard]] virtual std::uint64_t left() const = 0;
+  /// An upper bound on the bytes left, counted up to `most`, to refuse absurd lengths before memory
+  /// is taken.
+  [[nodiscard]] virtual std::uint64_t left(std::uint64_t most) const = 0;
 };
 
 class SourceStream : public ByteStream {
@@ -28,8 +29,9 @@ class SourceStream : public ByteStream {
     source_.read_at(next_, out);
     next_ += out.size();
   }
-  [[nodiscard]] std::uint64_t left() const override {
-    return next_ < source_.size() ? source_.size() - next_ : 0;
+  [[nodiscard]] std::uint64_t left(std::uint64_t most) const override {
+    const std::uint64_t size = source_.size_within(saturating_sum(next_, most));
+    return next_ < size ? size - next_ : 0;
   }
 
  private:
@@ -43,7 +45,9 @@ class Base64Stream : public ByteStream {
  public:
   Base64Stream(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
   void read(std::span<std::byte> out) override;
-  [[nodiscard]] std::uint64_t left() const override { return ready_ + (text_.size() - at_); }
+  [[nodiscard]] std::uint64_t left(std::uint64_t most) const override {
+    return std::min<std::uint64_t>(ready_ + (text_.size() - at_), most);
+  }
 
  private:
   void decode_group();

@@ -17,9 +17,15 @@ namespace {
 /// No packing is tighter than that of zlib.
 constexpr std::uint64_t kMaxRatio = 1040;
 constexpr std::uint64_t kPieceBytes = 1 << 20;
+/// Packed bytes of an array whose size is not known from elsewhere.
+constexpr std::uint64_t kMostAnnounced = std::uint64_t{1} << 40U;
 
 [[noreturn]] void fail(const ArrayName& name, std::string_view reason) {
   fail_input(name.file, text("array '", name.array, "'"), reason, "the file is damaged");
+}
+
+bool may_hold(const ByteStream& stream, std::uint64_t bytes) {
+  return stream.left(bytes) >= bytes;
 }
 
 std::uint64_t read_word(ByteStream& stream, const VtkEncoding& encoding) {
@@ -67,7 +73,8 @@ void visit_compressed(ByteStream& stream, const VtkEncoding& encoding, std::uint
   const std::uint64_t last = blocks == 0 || last_bytes != 0 ? last_bytes : block_bytes;
   // Divisions, not products: the numbers of a damaged file may be anything.
   const auto word = static_cast<std::uint64_t>(encoding.header_bytes);
-  if (blocks > stream.left() / word || expected / kMaxRatio > stream.left() || last > block_bytes ||
+  if (!may_hold(stream, saturating_product(blocks, word)) ||
+      !may_hold(stream, expected / kMaxRatio) || last > block_bytes ||
       (blocks > 1 && (block_bytes == 0 || blocks - 1 > expected / block_bytes))) {
     fail(name, "block counts are not credible");
   }
@@ -78,7 +85,7 @@ void visit_compressed(ByteStream& stream, const VtkEncoding& encoding, std::uint
   std::vector<std::byte> packed;
   for (std::uint64_t i = 0; i < blocks; ++i) {
     const std::uint64_t bytes = i + 1 < blocks ? block_bytes : last;
-    if (packed_bytes[i] > stream.left()) fail(name, "truncated");
+    if (!may_hold(stream, packed_bytes[i])) fail(name, "truncated");
     if (bytes / kMaxRatio > packed_bytes[i]) fail(name, "a block is not credible");
     packed.resize(packed_bytes[i]);
     stream.read(packed);
@@ -161,8 +168,9 @@ std::optional<NumberType> parse_number_type(std::string_view name) {
 void check_payload_length(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
                           const ArrayName& name) {
   check_length(read_word(stream, encoding), expected, name);
-  if (expected > stream.left()) {
-    fail(name, text("truncated: needs ", expected, " bytes, at most ", stream.left(), " are left"));
+  const std::uint64_t left = stream.left(expected);
+  if (expected > left) {
+    fail(name, text("truncated: needs ", expected, " bytes, at most ", left, " are left"));
   }
 }
 
@@ -195,13 +203,13 @@ std::uint64_t announced_bytes(ByteStream& stream, const VtkEncoding& encoding,
                               const ArrayName& name) {
   const std::uint64_t first = read_word(stream, encoding);
   if (encoding.packing == VtkPacking::kNone) {
-    if (first > stream.left()) fail(name, "truncated");
+    if (!may_hold(stream, first)) fail(name, "truncated");
     return first;
   }
   const std::uint64_t block_bytes = read_word(stream, encoding);
   const std::uint64_t last_bytes = read_word(stream, encoding);
   if (first == 0) return 0;
-  const std::uint64_t most = stream.left() * kMaxRatio;
+  const std::uint64_t most = stream.left(kMostAnnounced) * kMaxRatio;
   if (block_bytes > most || last_bytes > block_bytes ||
       (block_bytes != 0 && first > most / block_bytes)) {
     fail(name, "block counts are not credible");

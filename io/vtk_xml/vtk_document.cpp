@@ -13,7 +13,26 @@ namespace {
 
 constexpr std::string_view kAppendedTag = "<AppendedData";
 constexpr std::uint64_t kChunkBytes = 1 << 20;
+constexpr std::string_view kRootTag = "<VTKFile";
+/// Of text, which is held in memory.
+constexpr std::uint64_t kMostTextBytes = std::uint64_t{1} << 33U;
 constexpr std::uint64_t kMaxStringBytes = 64 << 20;
+
+[[noreturn]] void fail_too_much_text(const std::string& file, std::string_view field) {
+  fail_input(file, field, text("more than ", kMostTextBytes, " bytes of text"),
+             "save the arrays as binary data: appended, raw");
+}
+
+/// Adds at most `count` bytes of the source from start on, behind those that text has of it; false
+/// at the end.
+bool append_chunk(const ByteSource& source, std::uint64_t start, std::uint64_t count,
+                  std::string& text) {
+  const std::size_t before = text.size();
+  const std::uint64_t from = start + before;
+  text.resize(before + (source.size_within(from + count) - from));
+  source.read_at(from, std::as_writable_bytes(std::span(text)).subspan(before));
+  return text.size() > before;
+}
 
 NumberType type_of(pugi::xml_node array, const ArrayName& name) {
   const std::string type = array.attribute("type").as_string();
@@ -41,18 +60,18 @@ VtkDocument::VtkDocument(const ByteSource& source, VtkKind kind) : source_(sourc
   // XML up to the appended data, which may be binary; all of it when there are none.
   std::string head;
   std::size_t found = std::string::npos;
-  while (found == std::string::npos && head.size() < source.size()) {
+  while (found == std::string::npos) {
     const std::size_t before = head.size();
-    head.resize(before + std::min<std::uint64_t>(kChunkBytes, source.size() - before));
-    source.read_at(before, std::as_writable_bytes(std::span(head)).subspan(before));
+    if (before > kMostTextBytes) fail_too_much_text(source.name(), "XML");
+    if (!append_chunk(source, 0, kChunkBytes, head)) break;
+    if (before == 0 && head.find(kRootTag) == std::string::npos) {
+      fail_input(source.name(), "XML", "no VTKFile begins here", "give a VTK XML file");
+    }
     found = head.find(kAppendedTag, before - std::min(before, kAppendedTag.size()));
   }
   if (found != std::string::npos) {
     // The tag, its '_' and some slack: the start tag may have been cut by the chunk.
-    const std::uint64_t extra = std::min<std::uint64_t>(4096, source.size() - head.size());
-    const std::size_t before = head.size();
-    head.resize(before + extra);
-    source.read_at(before, std::as_writable_bytes(std::span(head)).subspan(before));
+    append_chunk(source, 0, 4096, head);
     appended_ = true;
     appended_start_ = found;
     find_appended(head);
@@ -117,12 +136,17 @@ std::uint64_t VtkDocument::number(pugi::xml_node node, const char* attribute,
              "the file is damaged");
 }
 
-/// Reads from there to the end once; positions in it are the arrays' offsets.
+/// Reads from there to the next tag once; positions in it are the arrays' offsets.
 std::string_view VtkDocument::appended_text() {
   if (appended_text_.empty()) {
-    appended_text_.resize(source_.size() - appended_start_);
-    source_.read_at(appended_start_, std::as_writable_bytes(std::span(appended_text_)));
-    appended_text_.resize(std::min(appended_text_.find('<'), appended_text_.size()));
+    std::size_t end = std::string::npos;
+    while (end == std::string::npos) {
+      const std::size_t before = appended_text_.size();
+      if (before > kMostTextBytes) fail_too_much_text(file(), "AppendedData");
+      if (!append_chunk(source_, appended_start_, kChunkBytes, appended_text_)) break;
+      end = appended_text_.find('<', before);
+    }
+    appended_text_.resize(std::min(end, appended_text_.size()));
   }
   return appended_text_;
 }
@@ -133,11 +157,12 @@ std::unique_ptr<ByteStream> VtkDocument::stream_of(pugi::xml_node array, const A
     return std::make_unique<Base64Stream>(array.text().get(), name.file);
   }
   const std::uint64_t offset = number(array, "offset", 0);
-  if (format != "appended" || !appended_ || offset > source_.size() - appended_start_) {
+  const std::uint64_t place = saturating_sum(appended_start_, offset);
+  if (format != "appended" || !appended_ || source_.size_within(place) < place) {
     fail_input(name.file, text("array '", name.array, "'"),
                text("format '", format, "' with no data at offset ", offset));
   }
-  if (appended_raw_) return std::make_unique<SourceStream>(source_, appended_start_ + offset);
+  if (appended_raw_) return std::make_unique<SourceStream>(source_, place);
   const std::string_view all = appended_text();
   return std::make_unique<Base64Stream>(all.substr(std::min<std::size_t>(offset, all.size())),
                                         name.file);
@@ -157,7 +182,8 @@ std::optional<std::uint64_t> VtkDocument::plain_bytes(pugi::xml_node array, std:
   const ArrayName name = name_of(array, file());
   const std::unique_ptr<ByteStream> stream = stream_of(array, name);
   check_payload_length(*stream, encoding_, bytes, name);
-  return source_.size() - stream->left();
+  return appended_start_ + number(array, "offset", 0) +
+         static_cast<std::uint64_t>(encoding_.header_bytes);
 }
 
 void VtkDocument::visit_bytes(pugi::xml_node array, std::uint64_t bytes, const UseBytes& use) {

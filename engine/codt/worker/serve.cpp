@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <system_error>
 #include <thread>
 
 #include "engine/codt/shared_memory.h"
@@ -61,7 +62,11 @@ void serve(const Triangulate& triangulate) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   ::signal(SIGINT, SIG_IGN);  // a terminal's Ctrl-C is for the engine
-  std::thread(watch_engine).detach();
+  try {
+    std::thread(watch_engine).detach();
+  } catch (const std::system_error&) {
+    // The system gives no thread: the end of the engine is then seen after a triangulation.
+  }
   Worker worker(triangulate);
   Order order;
   while (::recv(kControlDescriptor, &order, sizeof order, 0) == sizeof order) {

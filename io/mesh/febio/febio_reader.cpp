@@ -16,7 +16,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 33U;
 
 class FebioReader {
  public:

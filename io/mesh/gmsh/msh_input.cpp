@@ -115,8 +115,10 @@ void MshInput::skip_reals(std::int64_t how_many) {
 
 void MshInput::check_rows(std::uint64_t rows, std::uint64_t bytes, std::uint64_t numbers) const {
   const std::uint64_t least = ascii_ ? 2 * numbers : bytes;  // a digit and a blank
-  if (rows <= cursor_.left() / least) return;
-  fail(text(rows, " rows are announced, the ", cursor_.left(), " bytes left cannot hold them"));
+  const std::uint64_t wanted = saturating_product(rows, least);
+  const std::uint64_t left = cursor_.left(wanted);
+  if (wanted <= left) return;
+  fail(text(rows, " rows are announced, the ", left, " bytes left cannot hold them"));
 }
 
 void MshInput::fail_word(std::string_view expected) const {

@@ -101,17 +101,16 @@ std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh) {
   if (!std::filesystem::exists(path)) return std::nullopt;
   const std::unique_ptr<ByteSource> source = open_bytes(path);
   constexpr std::uint64_t kMostBytes = 1 << 30;
-  if (source->size() > kMostBytes) {
+  const std::optional<std::string> content = read_whole(*source, kMostBytes);
+  if (!content) {
     fail_input(source->name(), {}, "is too large for a table of labels", "remove it");
   }
-  std::string content(source->size(), '\0');
-  source->read_at(0, std::as_writable_bytes(std::span(content)));
-  CsvRecords records(content, ',', source->name());
+  CsvRecords records(*content, ',', source->name());
   LabelMap map;
   CsvRecord record;
   if (!records.next(record)) fail_input(source->name(), {}, "is empty", "convert the mesh anew");
   while (records.next(record)) take_record(record, source->name(), map);
-  map.names = parse_csv_names(content, source->name());
+  map.names = parse_csv_names(*content, source->name());
   return map;
 }
 

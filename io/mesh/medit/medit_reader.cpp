@@ -16,9 +16,10 @@ constexpr std::string_view kRecord = " mwmesh ";
 std::uint64_t next_rows(TokenScanner& scanner, const ByteSource& source,
                         std::uint64_t least_bytes) {
   const std::uint64_t rows = scanner.next_count("a number of rows");
-  if (rows > source.size() / least_bytes) {
-    scanner.fail(
-        text(rows, " rows are announced, the file of ", source.size(), " bytes cannot hold them"));
+  const std::uint64_t least = saturating_product(rows, least_bytes);
+  const std::uint64_t size = source.size_within(least);
+  if (size < least) {
+    scanner.fail(text(rows, " rows are announced, the file of ", size, " bytes cannot hold them"));
   }
   return rows;
 }

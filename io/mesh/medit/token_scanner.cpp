@@ -34,7 +34,7 @@ bool parse_all(std::string_view word, T& number) {
 }  // namespace
 
 bool TokenScanner::refill() {
-  const std::uint64_t count = std::min(kBufferBytes, source_.size() - offset_);
+  const std::uint64_t count = source_.size_within(offset_ + kBufferBytes) - offset_;
   buffer_.resize(count);
   source_.read_at(offset_, std::as_writable_bytes(std::span(buffer_)));
   offset_ += count;

@@ -51,6 +51,9 @@ class Reader {
     header_.labels_signed = labels_ && labels_->is_signed();
     sink_.begin(header_);
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) survey(part);
+    if (labels_ && labels_->rows() != tets) {
+      labels_->fail(text("has ", labels_->rows(), " rows, there are ", tets, " cells"));
+    }
     if (ten_nodes_) find_middles();
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {
       read_points(part);

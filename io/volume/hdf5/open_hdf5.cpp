@@ -82,7 +82,7 @@ std::unique_ptr<LabelVolume> open_run(std::unique_ptr<ByteSource> source, Volume
     source = std::make_unique<HeldBytes>(std::move(description.bytes), source->name());
     offset = 0;
   }
-  check_payload(source->name(), info, offset, source->size(), false);
+  check_payload(*source, info, offset);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
                                           ArrayPlace{.offset = offset, .order = description.order});
 }

@@ -18,12 +18,12 @@ bool has_inr_magic(std::span<const std::byte> head) {
 
 std::unique_ptr<LabelVolume> open_inr(std::unique_ptr<ByteSource> source,
                                       const OpenOptions& options) {
-  std::string head(std::min<std::uint64_t>(source->size(), kMaxInrHeaderBytes), '\0');
+  std::string head(source->size_within(kMaxInrHeaderBytes), '\0');
   source->read_at(0, std::as_writable_bytes(std::span(head)));
   const InrHeader header = parse_inr_header(head, source->name());
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "inr"};
   info.space = placed(source->name(), header.space, options);
-  check_payload(source->name(), info, header.bytes, source->size(), false);
+  check_payload(*source, info, header.bytes);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
       ArrayPlace{.offset = header.bytes, .order = header.order});

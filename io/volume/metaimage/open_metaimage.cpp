@@ -34,9 +34,11 @@ Placed one_file(std::unique_ptr<ByteSource> source, const MetaImageHeader& heade
   if (!local) {
     data.source = std::make_unique<FileSource>(named_beside(path, kDataField, header.data_file));
   }
-  const std::uint64_t size = data.source->size();
   if (header.header_size > 0) data.offset = static_cast<std::uint64_t>(header.header_size);
-  if (header.header_size < 0 && size >= data.offset + needed) data.offset = size - needed;
+  if (header.header_size < 0) {
+    const std::uint64_t size = data.source->size();
+    if (size >= data.offset + needed) data.offset = size - needed;
+  }
   return data;
 }
 
@@ -57,11 +59,12 @@ std::unique_ptr<ByteSource> many_files(const MetaImageHeader& header, std::strin
 }
 
 void inflate(Placed& data, const MetaImageHeader& header, std::uint64_t needed) {
-  const std::uint64_t size = data.source->size();
-  const std::uint64_t offset = std::min(data.offset, size);
-  const std::uint64_t held = size - offset;
-  const DeflatedBytes place{.offset = offset,
-                            .end = offset + std::min(held, header.packed_bytes.value_or(held)),
+  // Deflate adds a few bytes to what it cannot pack; the file itself may be packed once more.
+  const std::uint64_t most = saturating_sum(saturating_product(needed, 2), 1 << 20);
+  const std::uint64_t end =
+      data.source->size_within(saturating_sum(data.offset, header.packed_bytes.value_or(most)));
+  const DeflatedBytes place{.offset = std::min(data.offset, end),
+                            .end = end,
                             .framing = DeflateFraming::kZlibOrGzip,
                             .field = "compressed voxel data"};
   data = {inflate_to_scratch(*data.source, place, needed), 0};
@@ -72,7 +75,7 @@ void inflate(Placed& data, const MetaImageHeader& header, std::uint64_t needed) 
 std::unique_ptr<LabelVolume> open_metaimage(std::unique_ptr<ByteSource> source,
                                             const std::filesystem::path& path,
                                             const OpenOptions& options) {
-  std::string head(std::min<std::uint64_t>(source->size(), kMaxMetaImageBytes), '\0');
+  std::string head(source->size_within(kMaxMetaImageBytes), '\0');
   source->read_at(0, std::as_writable_bytes(std::span(head)));
   const MetaImageHeader header = parse_metaimage_header(head, source->name());
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "metaimage"};
@@ -85,7 +88,7 @@ std::unique_ptr<LabelVolume> open_metaimage(std::unique_ptr<ByteSource> source,
     data = one_file(std::move(source), header, path, needed);
     if (header.compressed) inflate(data, header, needed);
   }
-  check_payload(data.source->name(), info, data.offset, data.source->size(), false);
+  check_payload(*data.source, info, data.offset);
   return std::make_unique<RawArrayVolume>(std::move(data.source), std::move(info),
                                           ArrayPlace{.offset = data.offset, .order = header.order});
 }

@@ -38,7 +38,7 @@ std::string read_text(const ByteSource& source, std::uint64_t at, std::uint64_t 
 
 LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header) {
   const std::uint64_t first = header.version == 1 ? 348 : 540;
-  const std::uint64_t end = std::min(header.data_offset, source.size());
+  const std::uint64_t end = source.size_within(header.data_offset);
   if (end < first + 4) return {};
   std::array<std::byte, 4> flags{};
   source.read_at(first, flags);

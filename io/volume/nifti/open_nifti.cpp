@@ -19,7 +19,7 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
   info.space = placed(file, header.space, options);
   info.scaled = !header.scaling.is_identity();
   info.names = read_nifti_names(*source, header);
-  check_payload(file, info, header.data_offset, source->size(), false);
+  check_payload(*source, info, header.data_offset);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
       ArrayPlace{.offset = header.data_offset, .order = header.order, .scaling = header.scaling});

@@ -15,9 +15,10 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
                                       const OpenOptions& options) {
   const NpyPrefix prefix = parse_npy_prefix(read_prefix(*source, 12), source->name());
   const std::size_t offset = prefix.dict_offset + prefix.dict_length;
-  if (source->size() < offset) {
+  const std::uint64_t held = source->size_within(offset);
+  if (held < offset) {
     fail_input(source->name(), "npy header",
-               text("truncated: it needs ", offset, " bytes, the file holds ", source->size()),
+               text("truncated: it needs ", offset, " bytes, the file holds ", held),
                "get a whole copy of the file");
   }
   std::string dict(prefix.dict_length, '\0');
@@ -26,7 +27,7 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "npy"};
   info.z_fastest = header.fortran_order;
   info.space = placed(source->name(), {}, options);
-  check_payload(source->name(), info, offset, source->size(), false);
+  check_payload(*source, info, offset);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
                                           ArrayPlace{.offset = offset, .order = header.order});
 }

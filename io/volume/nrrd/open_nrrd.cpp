@@ -7,7 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/file_source.h"
-#include "io/file/open_bytes.h"
+#include "io/file/inflated_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
 #include "io/volume/nrrd/nrrd_header.h"
@@ -17,7 +17,7 @@ namespace mw::io {
 namespace {
 
 NrrdHeader read_header(const ByteSource& source) {
-  std::string head(std::min<std::uint64_t>(source.size(), kMaxNrrdHeaderBytes), '\0');
+  std::string head(source.size_within(kMaxNrrdHeaderBytes), '\0');
   source.read_at(0, std::as_writable_bytes(std::span(head)));
   return parse_nrrd_header(head, source.name());
 }
@@ -51,15 +51,16 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   std::unique_ptr<ByteSource> data = data_source(std::move(source), header, path);
   std::uint64_t offset = header.data_file.empty() ? header.bytes : 0;
   if (header.gzip) {
-    data = inflate_bytes(*data, offset);
+    data = std::make_unique<InflatedSource>(std::move(data), offset);
     offset = 0;
   }
   const std::uint64_t needed = payload_bytes(info);
-  const bool at_end = header.byte_skip == -1 && data->size() >= offset + needed;
-  offset = at_end
-               ? data->size() - needed
-               : offset + static_cast<std::uint64_t>(std::max<std::int64_t>(0, header.byte_skip));
-  check_payload(data->name(), info, offset, data->size(), false);
+  if (header.byte_skip > 0) offset += static_cast<std::uint64_t>(header.byte_skip);
+  if (header.byte_skip == -1) {
+    const std::uint64_t size = data->size();
+    if (size >= offset + needed) offset = size - needed;
+  }
+  check_payload(*data, info, offset);
   return std::make_unique<RawArrayVolume>(std::move(data), std::move(info),
                                           ArrayPlace{.offset = offset, .order = header.order});
 }

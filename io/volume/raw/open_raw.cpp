@@ -16,7 +16,7 @@ std::unique_ptr<LabelVolume> open_raw(std::unique_ptr<ByteSource> source,
   info.shape =
       checked_shape(source->name(), "shape", {layout.shape.x, layout.shape.y, layout.shape.z});
   info.space = placed(source->name(), {}, options);
-  check_payload(source->name(), info, 0, source->size(), true);
+  check_payload(*source, info, 0, BytesBehind::kRefused);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
                                           ArrayPlace{.offset = 0, .order = layout.order});
 }

@@ -67,7 +67,7 @@ std::unique_ptr<LabelVolume> open_one_page(std::unique_ptr<ByteSource> source,
   const Index3 shape =
       checked_shape(source->name(), "ImageJ images", {info.shape.x, info.shape.y, slices});
   info.shape = shape;
-  check_payload(source->name(), info, offset, source->size(), false);
+  check_payload(*source, info, offset);
   const bool big = TIFFIsBigEndian((*lease).get()) != 0;
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),

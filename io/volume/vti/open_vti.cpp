@@ -91,7 +91,7 @@ std::unique_ptr<LabelVolume> open_vti(std::unique_ptr<ByteSource> source,
   } else {
     data = unpacked_bytes(document, array.node, info);
   }
-  check_payload(file, info, place.offset, data->size(), false);
+  check_payload(*data, info, place.offset);
   return std::make_unique<RawArrayVolume>(std::move(data), std::move(info), place);
 }
 

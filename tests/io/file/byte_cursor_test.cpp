@@ -25,7 +25,8 @@ TEST(ByteCursor, TakesEveryByteOnceWhateverIsAsked) {
   std::vector<std::byte> bytes;
   while (cursor.peek() >= 0) {
     EXPECT_EQ(cursor.offset(), found.size());
-    EXPECT_EQ(cursor.left(), content.size() - found.size());
+    EXPECT_EQ(cursor.left(content.size()), content.size() - found.size());
+    EXPECT_EQ(cursor.left(1), 1);
     const std::uint64_t what = random() % 3;
     if (what == 0) {
       found.push_back(static_cast<char>(cursor.peek()));
@@ -37,7 +38,7 @@ TEST(ByteCursor, TakesEveryByteOnceWhateverIsAsked) {
       if (cursor.offset() - before > line.size()) found.push_back('\n');
     } else {
       bytes.resize(random() % 100'000);
-      const bool enough = bytes.size() <= cursor.left();
+      const bool enough = bytes.size() <= cursor.left(bytes.size());
       EXPECT_EQ(cursor.read(bytes), enough);
       if (!enough) continue;
       for (const std::byte byte : bytes) found.push_back(static_cast<char>(byte));

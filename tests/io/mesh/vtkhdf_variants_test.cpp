@@ -126,6 +126,10 @@ TEST(VtkhdfVariants, RefusesWhatIsBrokenOrNoTetMesh) {
   refuse({"Connectivity", "point 5, there are 5"}, set("Connectivity", 11, 5));
   refuse({"Connectivity", "point 4, there are 4"}, set("Connectivity", 0, 4));
   refuse({"Connectivity", "point -1"}, set("Connectivity", 7, -1));
+  refuse({"label", "has 4 rows, there are 3 cells"},
+         [](Sample& s) { s.arrays["CellData/label"].numbers.push_back(5); });
+  refuse({"label", "has 2 rows, there are 3 cells"},
+         [](Sample& s) { s.arrays["CellData/label"].numbers.pop_back(); });
   refuse({"Types", "3 rows"}, set("NumberOfCells", 1, 3));
   refuse({"Points", "9 rows"}, set("NumberOfPoints", 1, 6));
   refuse({"not credible"}, set("NumberOfCells", 1, std::int64_t{1} << 60));

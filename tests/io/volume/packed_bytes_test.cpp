@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A few packed bytes may unpack to any number: no more are unpacked than the header asks for.
+#include "io/mesh/open_mesh.h"
+#include "io/names/read_names.h"
+#include "io/volume/open_volume.h"
+#include "tests/io/mesh/sample_mesh.h"
+#include "tests/io/volume/sample_files.h"
+
+namespace mw::io {
+namespace {
+
+constexpr Index3 kShape{5, 4, 3};
+
+/// The content, then more zeros than any header may have, and damage: whoever unpacks that far
+/// learns of it.
+std::string bomb(const std::string& content) {
+  std::string damaged = gzip("the end of it");
+  damaged[damaged.size() - 5] = static_cast<char>(damaged[damaged.size() - 5] ^ 1);
+  return gzip(content + std::string(20 << 20, '\0')) + damaged;
+}
+
+class PackedBytes : public testing::Test {
+ protected:
+  void expect_read(const std::string& name, const std::string& file) const {
+    const auto path = dir_.file(name, file);
+    EXPECT_EQ(read_all(*open_volume(path)), labels_) << name;
+  }
+
+  TempDir dir_;
+  std::vector<RawLabel> labels_ = sample_labels(kShape, VoxelType::kU8);
+  std::string voxels_ = voxel_bytes(labels_, VoxelType::kU8, false);
+};
+
+TEST_F(PackedBytes, BehindTheVoxelsAreNotUnpacked) {
+  const std::string nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 5 4 3\n";
+  const std::string mha =
+      "ObjectType = Image\nNDims = 3\nDimSize = 5 4 3\nElementType = MET_UCHAR\n";
+  std::string inr = "#INRIMAGE-4#{\nXDIM=5\nYDIM=4\nZDIM=3\nTYPE=unsigned fixed\nPIXSIZE=8 bits\n";
+  inr.resize(252, '\n');
+  const std::string vti =
+      "<VTKFile type=\"ImageData\" header_type=\"UInt32\"><ImageData WholeExtent=\"0 5 0 4 0 3\">"
+      "<Piece Extent=\"0 5 0 4 0 3\"><CellData Scalars=\"a\"><DataArray type=\"UInt8\" Name=\"a\" "
+      "format=\"appended\" offset=\"0\"/></CellData></Piece></ImageData>"
+      "<AppendedData encoding=\"raw\">_";
+  expect_read("a.npy.gz", bomb(npy_file("|u1", false, "(3, 4, 5)", voxels_)));
+  expect_read("a.nii.gz", bomb(NiftiSample{.magic = {}}.header() + voxels_));
+  expect_read("a.nrrd.gz", bomb(nrrd + "encoding: raw\n\n" + voxels_));
+  expect_read("a.nrrd", nrrd + "encoding: gzip\n\n" + bomb(voxels_));
+  expect_read("b.nrrd", nrrd + "encoding: gzip\nbyte skip: 7\n\n" + bomb("1234567" + voxels_));
+  expect_read("a.mha.gz", bomb(mha + "ElementDataFile = LOCAL\n" + voxels_));
+  expect_read("a.mha", mha + "CompressedData = True\nElementDataFile = LOCAL\n" + bomb(voxels_));
+  expect_read("b.mha.gz",
+              bomb(mha + "CompressedData = True\nElementDataFile = LOCAL\n" + gzip(voxels_)));
+  expect_read("a.inr.gz", bomb(inr + "##}\n" + voxels_));
+  expect_read("a.vti.gz", bomb(vti + number_bytes(voxels_.size(), 4, false) + voxels_));
+}
+
+TEST_F(PackedBytes, OfARawVolumeMustBeAsManyAsItsVoxels) {
+  const OpenOptions options{.raw = RawLayout{kShape, VoxelType::kU8}, .spacing = {}, .origin = {}};
+  EXPECT_EQ(read_all(*open_volume(dir_.file("a.gz", gzip(voxels_)), options)), labels_);
+  const auto more = dir_.file("b.gz", bomb(voxels_));
+  expect_error(ErrorKind::kInput, {"b.gz", "needs 60 bytes", "holds at least 960"},
+               [&] { static_cast<void>(open_volume(more, options)); });
+}
+
+TEST_F(PackedBytes, BehindAMeshAreNotUnpacked) {
+  const auto path = dir_.path() / "m.mesh";
+  write_mesh(sample_mesh(7, false), *open_mesh_sink(path));
+  const MeshData good = read_mesh(path);
+  const MeshData same = read_mesh(dir_.file("n.mesh", bomb(content_of(path))));
+  EXPECT_EQ(same.vertices, good.vertices);
+  EXPECT_EQ(same.tets, good.tets);
+}
+
+TEST_F(PackedBytes, OfATableOfNamesAreLimited) {
+  const std::string many(kMaxNamesBytes + 1, ' ');
+  expect_error(ErrorKind::kInput, {"n.csv", "more than"},
+               [&] { static_cast<void>(read_names(dir_.file("n.csv", bomb(many)))); });
+}
+
+TEST_F(PackedBytes, WithoutXmlAreNoXml) {
+  for (const char* name : {"m.vtu", "m.feb", "m.xdmf"}) {
+    const auto path = dir_.file(name, bomb(""));
+    expect_error(ErrorKind::kInput, {name}, [&] { static_cast<void>(read_mesh(path)); });
+  }
+  expect_error(ErrorKind::kInput, {"v.vti", "no VTKFile begins here"},
+               [&] { static_cast<void>(open_volume(dir_.file("v.vti", bomb("")))); });
+}
+
+}  // namespace
+}  // namespace mw::io
