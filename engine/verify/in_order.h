@@ -4,11 +4,12 @@
 #pragma once
 
 #include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+
+#include "engine/crew.h"
 
 namespace mw::engine {
 
@@ -34,10 +35,10 @@ void each_in_order(int threads, std::uint32_t count,
   const auto run = [&](std::uint32_t tile) {
     return std::make_shared<Done>(Done{tile, std::make_unique<Result>(work(tile))});
   };
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  Crew crew(threads);
+  crew.run([&] {
     tbb::parallel_pipeline(
-        static_cast<std::size_t>(2 * threads),
+        static_cast<std::size_t>(2 * crew.size()),
         tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order, start) &
             tbb::make_filter<std::uint32_t, std::shared_ptr<Done>>(tbb::filter_mode::parallel,
                                                                    run) &
