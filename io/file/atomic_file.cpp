@@ -6,12 +6,12 @@
 #include <fcntl.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <string>
 
 #include "io/file/errors.h"
+#include "io/file/partial_file.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -34,16 +34,6 @@ std::filesystem::path resolve(const std::filesystem::path& target) {
   return std::filesystem::weakly_canonical(target, ignored);
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& target) {
-  return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
-}
-
-std::filesystem::path partial_name(const std::filesystem::path& target) {
-  static std::atomic<unsigned> counter{0};
-  return folder_of(target) /
-         text(".", target.filename().string(), ".partial-", ::getpid(), "-", counter++);
-}
-
 /// The rename itself is safe only once the folder is on the disk; file systems that cannot sync a
 /// folder say so, and that is not the user's problem.
 void sync_folder(const std::filesystem::path& folder) {
@@ -57,13 +47,10 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolve(ta
   if (!target_.has_filename()) {
     throw Error(ErrorKind::kUsage, target.string() + ": cannot create: no file name in the path");
   }
-  // Not mkostemp: its mode 0600 would survive the rename; here the user's umask holds.
-  do {
-    partial_ = partial_name(target_);
-    file_ = FileDescriptor(::open(partial_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  } while (!file_.valid() && errno == EEXIST);
-  if (!file_.valid()) fail_output(target.string(), "create", errno);
-  buffer_.reserve(kBufferBytes);
+  buffer_.reserve(kBufferBytes);  // first: what fails behind the partial file leaves it there
+  PartialOutput partial = make_partial(target_, PartialKind::kFile);
+  partial_ = std::move(partial.path);
+  file_ = std::move(partial.file);
 }
 
 AtomicFile::~AtomicFile() {
