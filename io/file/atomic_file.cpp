@@ -4,6 +4,7 @@
 #include "io/file/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -120,6 +121,7 @@ void AtomicFile::commit() {
     fail_output(target_.string(), "rename to", errno);
   }
   committed_ = true;
+  ::flock(file_.get(), LOCK_UN);  // the HDF5 library, for one, opens no file that is locked
   sync_folder(folder_of(target_));
 }
 

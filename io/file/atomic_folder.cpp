@@ -44,6 +44,7 @@ void AtomicFolder::commit() {
     fail_output(target_.string(), "rename to", errno);
   }
   committed_ = true;
+  lock_ = FileDescriptor();
 }
 
 }  // namespace mw::io

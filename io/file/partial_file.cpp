@@ -123,10 +123,13 @@ std::vector<std::string> found_in(const fs::path& folder) {
   std::error_code ignored;
   const auto [place, is_new] = found.try_emplace(fs::absolute(folder, ignored));
   if (!is_new) return place->second;
-  for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end;
-       at.increment(ignored)) {
-    std::string name = at->path().filename().string();
-    if (name.find(kPartial) != name.npos) place->second.push_back(std::move(name));
+  try {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      std::string name = entry.path().filename().string();
+      if (name.find(kPartial) != name.npos) place->second.push_back(std::move(name));
+    }
+  } catch (const fs::filesystem_error&) {
+    // A folder that cannot be listed keeps what it has; files may be made there all the same.
   }
   return place->second;
 }

@@ -13,10 +13,10 @@ namespace mw::io {
 /// tells apart machines, and the times between their starts; it is the same in all containers of
 /// one.
 ///
-/// Its file (flock) is locked as long as its writer lives, so that one whose lock is free is left
-/// over from a run that was killed; numbers of processes, which are used again, do not matter.
-/// Some shared file systems keep locks from other machines: there only what this one has left is
-/// taken for left over.
+/// Its file (flock) is locked until it has its own name or its writer is gone, so that one whose
+/// lock is free is left over from a run that was killed; numbers of processes, which are used
+/// again, do not matter. Some shared file systems keep locks from other machines: there only what
+/// this one has left is taken for left over.
 struct PartialOutput {
   std::filesystem::path path;
   FileDescriptor file;
