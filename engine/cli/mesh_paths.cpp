@@ -75,12 +75,17 @@ std::vector<Named> files_of(const MeshRequest& request) {
   return out;
 }
 
+/// Who has the mesh written into a folder of slices may have the work there as well.
+bool is_input_around_all(const fs::path& file, const MeshRequest& request) {
+  return file == whole_path(request.volume.path) && is_at_or_in(whole_path(request.output), file);
+}
+
 void require_workdir_apart(const MeshRequest& request) {
   const fs::path workdir = whole_path(request.workdir);
   for (const auto& [name, file] : files_of(request)) {
     const fs::path whole = whole_path(file);
     const bool is_in_file = is_at_or_in(workdir, whole), has_file = is_at_or_in(whole, workdir);
-    if (!is_in_file && !has_file) continue;
+    if (!has_file && (!is_in_file || is_input_around_all(whole, request))) continue;
     const std::string why = is_in_file && has_file ? "this is " + name
                             : is_in_file           ? "lies in " + file.string() + ", " + name
                                                    : "has " + file.string() + " in it, " + name;

@@ -54,7 +54,7 @@ TEST_F(FailingMalloc, ConvertEndsWithFourInEveryFormat) {
   make_inputs();
   for (const std::string name :
        {"o.vtkhdf", "o.xdmf", "o.vtu", "o.mesh", "o.msh", "o.inp", "o.feb", "o.node"}) {
-    fail_some("convert m.vtu " + name, name, 40);
+    fail_some("convert m.vtu " + name, name, 15);
   }
 }
 
@@ -62,7 +62,7 @@ TEST_F(FailingMalloc, MeshEndsWithFourInEveryFormat) {
   if (!mw::test::kResidentMemoryIsOurs) GTEST_SKIP() << "the allocator is a sanitizer's";
   make_inputs();
   for (const std::string name : {"o.vtkhdf", "o.xdmf", "o.vtu", "o.msh"}) {
-    fail_some("mesh v.npy --threads 2 --progress none --report r.json -o " + name, name, 40);
+    fail_some("mesh v.npy --threads 2 --progress none --report r.json -o " + name, name, 25);
   }
 }
 
