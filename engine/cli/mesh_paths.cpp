@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/store/workdir.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
 
