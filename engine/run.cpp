@@ -13,11 +13,13 @@
 #include "engine/resident_memory.h"
 #include "engine/run_forecast.h"
 #include "engine/stopwatch.h"
+#include "engine/store/damaged_work.h"
 #include "engine/store/run_identity.h"
 #include "engine/store/workdir.h"
 #include "engine/tbb_for.h"
 #include "engine/voxel_lattice.h"
 #include "engine/window_memory.h"
+#include "io/file/errors.h"
 
 namespace mw::engine {
 namespace {
@@ -50,11 +52,14 @@ class Marches {
     const std::uint64_t budget = hooks_.store.memory;
     const bool roomy = is_roomy(budget, order.grid(), thread_count(hooks_.threads));
     if (!roomy) return_large_pieces_at_once();
-    const StartSizeOf start_size = [&](Index3 block) {
-      return roomy ? most_start_size(order.grid(), block) : visitor.start_size(block);
-    };
+    const WindowNeeds needs{.start_size =
+                                [&](Index3 block) {
+                                  return roomy ? most_start_size(order.grid(), block)
+                                               : visitor.start_size(block);
+                                },
+                            .max_distance = visitor.max_distance()};
     const AdmitWindow admit = [&](Index3 window) -> Admission {
-      const std::uint64_t bytes = window_bytes(order.grid(), window, store, start_size);
+      const std::uint64_t bytes = window_bytes(order.grid(), window, store, needs);
       if (!roomy && bytes < budget) return_free_memory_above(budget - bytes);
       if (!store.admit(window, bytes)) return nullptr;
       return std::make_shared<Index3>(window);
@@ -277,10 +282,9 @@ void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
   if (options.kept) options.kept();
 }
 
-}  // namespace
-
-RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
-                      io::MeshSink& sink, const RunHooks& asked) {
+/// mesh_volume() but for the way out of damaged work.
+RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::MeshSink& sink,
+              const RunHooks& asked) {
   check(volume.info(), settings);
   check(volume.table(), settings);
   RunHooks hooks = asked;
@@ -300,6 +304,10 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   try {
     march_and_write(layout, lattice, settings, store, sink, hooks, workers ? &*workers : nullptr,
                     report);
+  } catch (const DamagedWork&) {
+    // Nobody is told to go on from it; it stays for whoever wants to know what happened.
+    if (workdir != nullptr && store.has_saved_work()) workdir->keep();
+    throw;
   } catch (...) {
     keep_work(store, workdir.get(), hooks.store);
     throw;
@@ -312,6 +320,19 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   }
   report.store = store.facts();
   return report;
+}
+
+}  // namespace
+
+RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
+                      io::MeshSink& sink, const RunHooks& hooks) {
+  try {
+    return run(volume, settings, sink, hooks);
+  } catch (const DamagedWork& damage) {
+    const std::string folder = hooks.store.workdir.string();
+    throw Error(damage.kind(), io::text(damage.what(), "; the disk or ", folder,
+                                        " is damaged: delete that folder and start again"));
+  }
 }
 
 }  // namespace mw::engine

@@ -27,7 +27,8 @@ void check_shape(Index3 shape, Index3 layers) {
                        cut ? io::text(" once they are cut into ", layers.x, " x ", layers.y, " x ",
                                       layers.z, " layers, as their spacing differs")
                            : "",
-                       "; fewer than ", kMaxSampledVoxels, " can be meshed: cut it into parts",
+                       "; fewer than ", kMaxSampledVoxels,
+                       " can be meshed at once: mesh parts of it with --crop",
                        cut ? ", or set --surface voxel" : ""));
 }
 

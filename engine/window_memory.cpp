@@ -3,7 +3,10 @@
 // Bounds by measured factors.
 #include "engine/window_memory.h"
 
+#include <algorithm>
+
 #include "io/labels/brick_volume.h"
+#include "kernels/distance/label_reach.h"
 
 namespace mw::engine {
 namespace {
@@ -14,9 +17,12 @@ constexpr std::uint64_t kMebibyte = 1 << 20;
 // The most that any visit took, from decoding to encoding, was 6.2 times the bytes of the content
 // it began with (a checkerboard whose only block has eight parts); most take 4.
 constexpr double kBytesPerContentByte = 6.5;
-// Labels for the distance bound, and around blocks that are made from voxels.
-constexpr std::uint64_t kBytesPerLabelVoxel = 8;
-constexpr std::int64_t kLabelHalo = 6;
+// Labels around blocks that are made from voxels, before and after coarsening.
+constexpr std::uint64_t kBytesPerStartVoxel = 2 * sizeof(Label);
+constexpr std::int64_t kStartLabelHalo = 6;
+// Labels for the distance bound.  Content reaches out of its window by up to a block, though not to
+// all sides at once: the most was 0.5 of the window's edge along an axis, and a voxel at each end.
+constexpr std::uint64_t kBytesPerLabelVoxel = sizeof(Label);
 constexpr std::uint64_t kBytesPerWindow = 64 * kKibibyte;
 
 // Pages of code and libraries, the allocator's slack, and buffers of the reading of labels.
@@ -41,6 +47,19 @@ std::uint64_t content_bytes(const StartSize& size) {
          size.samples * sizeof(BlockSample);
 }
 
+/// What the distance guard looks at; nothing without a bound.
+std::uint64_t distance_label_bytes(const WindowGrid& grid, Index3 window,
+                                   std::optional<double> max_distance) {
+  if (!max_distance) return 0;
+  const Index3 edges = grid.window_box(window).shape(), volume = grid.volume();
+  const std::int64_t around = 2 * (LabelReach::search_reach(*max_distance) + 1);
+  const auto along = [&](std::int64_t edge, std::int64_t all) {
+    return static_cast<std::uint64_t>(std::min(edge + (edge + 1) / 2 + around, all));
+  };
+  return kBytesPerLabelVoxel * along(edges.x, volume.x) * along(edges.y, volume.y) *
+         along(edges.z, volume.z);
+}
+
 std::uint64_t bricks_of(Index3 shape) {
   constexpr std::int64_t kEdge = io::BrickVolume::kEdge;
   const auto along = [](std::int64_t n) { return (n + kEdge - 1) / kEdge; };
@@ -50,15 +69,17 @@ std::uint64_t bricks_of(Index3 shape) {
 }  // namespace
 
 std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockStore& store,
-                           const StartSizeOf& start_size) {
+                           const WindowNeeds& needs) {
   std::uint64_t content = store.taken_bytes(window);
   for (Index3 block : grid.blocks_of(window)) {
-    if (store.loaded_bytes(block) == 0) content += content_bytes(start_size(block));
+    if (store.loaded_bytes(block) == 0) content += content_bytes(needs.start_size(block));
   }
   const auto voxels =
-      static_cast<std::uint64_t>(grown(grid.window_box(window), kLabelHalo).voxels());
-  return static_cast<std::uint64_t>(kBytesPerContentByte * static_cast<double>(content)) +
-         kBytesPerLabelVoxel * voxels + kBytesPerWindow;
+      static_cast<std::uint64_t>(grown(grid.window_box(window), kStartLabelHalo).voxels());
+  const std::uint64_t labels = std::max(kBytesPerStartVoxel * voxels,
+                                        distance_label_bytes(grid, window, needs.max_distance));
+  return static_cast<std::uint64_t>(kBytesPerContentByte * static_cast<double>(content)) + labels +
+         kBytesPerWindow;
 }
 
 /// Noise: a vertex a voxel corner, six tets a voxel where cells of two voxels fan out to all their

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "engine/block_store.h"
 #include "engine/settings.h"
@@ -15,11 +16,17 @@ namespace mw::engine {
 /// The size of a block that is made from voxels.
 using StartSizeOf = std::function<StartSize(Index3 block)>;
 
+/// What visits of one march need to know beside what is stored.
+struct WindowNeeds {
+  StartSizeOf start_size;
+  std::optional<double> max_distance;  ///< in voxels; labels are read so far around the content
+};
+
 /// An upper bound on what a visit allocates, by the content that it begins with: blocks as they are
-/// stored, and those that are made from voxels.  It holds for every kind of volume and start mesh
-/// (tests/engine/memory).
+/// stored, those that are made from voxels, and the labels around them.  It holds for every kind of
+/// volume, start mesh and bound on the distance (tests/engine/memory).
 [[nodiscard]] std::uint64_t window_bytes(const WindowGrid& grid, Index3 window,
-                                         const BlockStore& store, const StartSizeOf& start_size);
+                                         const BlockStore& store, const WindowNeeds& needs);
 
 /// The size of a block whatever its labels are.
 [[nodiscard]] StartSize most_start_size(const WindowGrid& grid, Index3 block);

@@ -110,7 +110,8 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   std::optional<DistanceGuard> guard;
   if (max_distance_ && !content.one_label) {
     const std::int64_t halo = LabelReach::search_reach(*max_distance_);
-    labels = labels_.original(voxels_around(content.mesh, halo));
+    const Box3 volume{{0, 0, 0}, grid_.volume()};
+    labels = labels_.original(intersection(voxels_around(content.mesh, halo), volume));
     guard.emplace(labels, *max_distance_, content.samples);
   }
   DistanceGuard* const keep_distance = guard ? &*guard : nullptr;

@@ -55,6 +55,8 @@ class WindowVisitor {
   /// Lends threads to the filling of a window's queue; none by default.  The result is the same.
   void seed_with(ParallelFor loop) { simplify_.seeding = std::move(loop); }
 
+  /// How far around a window's content a visit reads labels, in voxels; none: it does not.
+  [[nodiscard]] std::optional<double> max_distance() const { return max_distance_; }
   /// The size of a block that is made from voxels.  Cost: about a hundredth of a visit.
   [[nodiscard]] StartSize start_size(Index3 block) const;
   /// Such a block.

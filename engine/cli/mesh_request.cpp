@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/cli/machine_memory.h"
+#include "engine/cli/mesh_paths.h"
 #include "engine/cli/resource_options.h"
 #include "engine/cli/setting_options.h"
 #include "engine/cli/size_options.h"
@@ -102,41 +103,6 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = [&](const std::string& text) { request.log_level = text; }});
 }
 
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code ignored;
-  return std::filesystem::equivalent(a, b, ignored) || a.lexically_normal() == b.lexically_normal();
-}
-
-void require_names_used_once(const MeshRequest& request) {
-  const std::vector<std::filesystem::path> outputs = io::mesh_files(request.output);
-  for (const std::filesystem::path& output : outputs) {
-    if (is_same_file(request.volume.path, output)) {
-      throw Error(ErrorKind::kUsage, "-o " + output.string() + ": this is the input");
-    }
-    if (is_same_file(request.volume.names, output)) {
-      throw Error(ErrorKind::kUsage, "-o " + output.string() + ": this is --names");
-    }
-  }
-  if (is_same_file(request.size_file, request.output)) {
-    throw Error(ErrorKind::kUsage, "-o " + request.output.string() + ": this is --size-file");
-  }
-  const auto require_new = [](const char* flag, const std::filesystem::path& path,
-                              const std::vector<std::filesystem::path>& taken) {
-    for (const std::filesystem::path& other : taken) {
-      if (path.empty() || !is_same_file(path, other)) continue;
-      throw Error(ErrorKind::kUsage, flag + (" " + path.string()) + ": name used twice");
-    }
-  };
-  require_new("--report", request.report,
-              {request.volume.path, request.volume.names, request.size_file, request.output});
-  require_new("--trace", request.trace,
-              {request.volume.path, request.volume.names, request.size_file, request.output,
-               request.report});
-  require_new("--html", request.html,
-              {request.volume.path, request.volume.names, request.size_file, request.output,
-               request.report, request.trace});
-}
-
 /// The page is drawn when the mesh is written, in what it leaves of the budget.
 void require_memory_for_page(const MeshRequest& request) {
   constexpr std::uint64_t kLeast = 192 << 20;
@@ -175,7 +141,7 @@ void check_mesh_request(MeshRequest& request) {
   request.volume.cache_bytes = cache_bytes(*request.memory);
   (void)open_options(request.volume);
   check_choice(request.choice);
-  require_names_used_once(request);
+  require_paths_apart(request);
   require_memory_for_page(request);
   settle_sizes(request);
   if (request.settings.optimizer == engine::Optimizer::kTetgen) (void)engine::codt::find_worker();

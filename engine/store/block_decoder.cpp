@@ -7,6 +7,7 @@
 #include "engine/store/block_codec.h"
 #include "engine/store/block_layout.h"
 #include "engine/store/byte_codes.h"
+#include "engine/store/damaged_work.h"
 #include "io/file/checksum.h"
 #include "io/file/errors.h"
 
@@ -186,8 +187,7 @@ BlockMesh decode_block(const BlockKey& key, std::span<const std::byte> bytes) {
   try {
     return Decoder(key, bytes).take();
   } catch (const BadBytes& bad) {
-    io::fail_input(name(key), "corrupt", bad.reason,
-                   "the disk or the work folder is damaged: delete the folder and start again");
+    throw DamagedWork(name(key), bad.reason);
   }
 }
 

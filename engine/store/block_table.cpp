@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "engine/store/block_layout.h"
+#include "engine/store/damaged_work.h"
 #include "io/file/byte_order.h"
-#include "io/file/errors.h"
 #include "kernels/core/assert.h"
 
 namespace mw::engine {
@@ -53,8 +53,7 @@ void BlockTable::take_extents() {
   for (std::uint64_t slot = 0; slot < blocks_.size(); ++slot) {
     const StoredBlock& block = blocks_[slot];
     if (block.size == 0 || disk_->take(block.extent())) continue;
-    io::fail_input(name(layout_.key(slot)), "corrupt", "the journal points to where it cannot be",
-                   "delete the work folder and start again");
+    throw DamagedWork(name(layout_.key(slot)), "the journal points to where it cannot be");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/store/byte_codes.h"
+#include "engine/store/damaged_work.h"
 #include "io/file/checksum.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
@@ -86,8 +87,7 @@ JournalRecord decode(std::span<const std::byte> body, std::uint64_t number) {
 Journal::Journal(std::unique_ptr<WorkFile> file) : file_(std::move(file)) {
   if (file_->size() < kMagicBytes || is_unfinished(number_at(*file_, 0, kMagicBytes))) begin();
   if (number_at(*file_, 0, kMagicBytes) != kMagic) {
-    io::fail_input("journal", "corrupt", "it does not begin as a journal of version 1",
-                   "delete the work folder and start again");
+    throw DamagedWork("journal", "it does not begin as a journal of version 1");
   }
   end_ = kMagicBytes;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/store/damaged_work.h"
 #include "engine/store/workdir.h"
 #include "engine/window.h"
 #include "io/file/errors.h"
@@ -93,11 +94,13 @@ RunStore::~RunStore() = default;
 void RunStore::restore() {
   journal_->replay([&](const JournalRecord& record) {
     for (const JournalBlock& block : record.blocks) {
-      if (block.slot >= layout_.slots()) throw Error(ErrorKind::kInput, "journal: corrupt");
+      if (block.slot >= layout_.slots())
+        throw DamagedWork("journal", "it has a block that there is not");
       table_.restore(block);
     }
     for (std::uint64_t window : record.windows) {
-      if (window >= layout_.windows()) throw Error(ErrorKind::kInput, "journal: corrupt");
+      if (window >= layout_.windows())
+        throw DamagedWork("journal", "it has a window that there is not");
       done_.insert(window);
     }
   });
@@ -131,8 +134,7 @@ BlockMesh RunStore::read(const Source& source) const {
   BlockMesh mesh;
   disk_->read(source.extent, [&](std::span<const std::byte> bytes) {
     if (bytes.size() < 8 || sum_of(bytes) != source.sum) {
-      io::fail_input(name(source.key), "corrupt", "these are not the bytes that were written",
-                     "the disk or the work folder is damaged: delete the folder and start again");
+      throw DamagedWork(name(source.key), "these are not the bytes that were written");
     }
     mesh = decode_block(source.key, bytes);
   });

@@ -11,8 +11,8 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "engine/store/journal.h"
@@ -20,6 +20,7 @@
 #include "io/file/atomic_file.h"
 #include "io/file/errors.h"
 #include "io/file/nameless_file.h"
+#include "io/file/printable.h"
 #include "io/file/sync_folder.h"
 
 namespace mw::engine {
@@ -32,6 +33,11 @@ constexpr const char* kSettingsFile = "settings.txt";
 // In the order of removal: a kill on the way leaves nothing that looks like saved work.
 constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettingsFile, kLockFile};
 constexpr const char* kPartialSettings = ".settings.txt.partial-";  // AtomicFile, after a kill
+
+// Sizes of many labels make long lines; those that differ are shown in part.
+constexpr std::uintmax_t kMostSettings = 16 << 20;
+constexpr std::size_t kMostShown = 120;
+constexpr std::size_t kMostTold = 8;
 
 /// Left by a kill in an unlucky instant.
 bool is_left_over(const std::string& name) {
@@ -59,14 +65,30 @@ Lines lines_of(const std::string& text) {
   return out;
 }
 
-std::string value_of(const Lines& lines, const std::string& name) {
+std::optional<std::string> value_of(const Lines& lines, const std::string& name) {
   const auto found = lines.find(name);
-  return found == lines.end() ? "(not there)" : found->second;
+  return found == lines.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::string shown(const std::optional<std::string>& value) {
+  return value ? io::printable(*value, kMostShown) : "(not there)";
+}
+
+/// As identity_text() and the program write it.
+bool is_plain(const std::string& text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
+}
+
+/// What the settings of a run could be; a damaged file may be anything.
 std::string content_of(const fs::path& path) {
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(path, failed);
+  std::string content(failed ? 0 : std::min(size, kMostSettings), '\0');
   std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  in.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(in.gcount()));
+  return content;
 }
 
 /// Nothing is there afterwards.
@@ -91,10 +113,15 @@ std::string differences(const std::string& before, const std::string& now) {
   Lines names = old_lines;
   names.insert(new_lines.begin(), new_lines.end());
   std::string out;
+  std::size_t told = 0;
   for (const auto& [name, any] : names) {
-    const std::string was = value_of(old_lines, name), is = value_of(new_lines, name);
-    if (was != is) out += (out.empty() ? "" : "; ") + name + " was " + was + " and is " + is;
+    const auto was = value_of(old_lines, name), is = value_of(new_lines, name);
+    if (was == is) continue;
+    if (++told > kMostTold) continue;
+    out += (out.empty() ? "" : "; ") + io::printable(name, kMostShown) + " was " + shown(was) +
+           " and is " + shown(is);
   }
+  if (told > kMostTold) out += io::text("; and ", told - kMostTold, " more");
   return out;
 }
 
@@ -166,7 +193,12 @@ bool Workdir::has_saved_work() {
 void Workdir::check_settings(const std::string& settings) const {
   const std::string before = content_of(path_ / kSettingsFile);
   if (before == settings) return;
-  refuse(path_, "cannot go on, its work is that of another run: " + differences(before, settings) +
+  const std::string different = differences(before, settings);
+  if (different.empty() || !is_plain(before)) {
+    refuse(path_, io::text("cannot go on, its ", kSettingsFile,
+                           " is damaged: delete the folder to start again"));
+  }
+  refuse(path_, "cannot go on, its work is that of another run: " + different +
                     "; give the same input and settings, or delete the folder to start again");
 }
 

@@ -4,14 +4,15 @@
 #include "io/file/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <string>
 
 #include "io/file/errors.h"
+#include "io/file/partial_file.h"
 #include "io/file/sync_folder.h"
 #include "kernels/core/assert.h"
 
@@ -35,29 +36,16 @@ std::filesystem::path resolve(const std::filesystem::path& target) {
   return std::filesystem::weakly_canonical(target, ignored);
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& target) {
-  return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
-}
-
-std::filesystem::path partial_name(const std::filesystem::path& target) {
-  static std::atomic<unsigned> counter{0};
-  return folder_of(target) /
-         text(".", target.filename().string(), ".partial-", ::getpid(), "-", counter++);
-}
-
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolve(target)) {
   if (!target_.has_filename()) {
     throw Error(ErrorKind::kUsage, target.string() + ": cannot create: no file name in the path");
   }
-  // Not mkostemp: its mode 0600 would survive the rename; here the user's umask holds.
-  do {
-    partial_ = partial_name(target_);
-    file_ = FileDescriptor(::open(partial_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  } while (!file_.valid() && errno == EEXIST);
-  if (!file_.valid()) fail_output(target.string(), "create", errno);
-  buffer_.reserve(kBufferBytes);
+  buffer_.reserve(kBufferBytes);  // first: what fails behind the partial file leaves it there
+  PartialOutput partial = make_partial(target_, PartialKind::kFile);
+  partial_ = std::move(partial.path);
+  file_ = std::move(partial.file);
 }
 
 AtomicFile::~AtomicFile() {
@@ -127,7 +115,8 @@ void AtomicFile::commit() {
     fail_output(target_.string(), "rename to", errno);
   }
   committed_ = true;
-  sync_folder(folder_of(target_));  // the rename itself is safe only then
+  ::flock(file_.get(), LOCK_UN);  // the HDF5 library, for one, opens no file that is locked
+  sync_folder(folder_of(target_));
 }
 
 }  // namespace mw::io

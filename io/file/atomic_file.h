@@ -14,10 +14,10 @@
 
 namespace mw::io {
 
-/// Writes to ".<name>.partial-<n>" beside the target; commit() gives it its name in one step.
-/// The destructor of a file that was not committed removes the partial one.
-/// ERRORS (all members): mw::Error(kResource) when the disk is full; kUsage when the path cannot
-/// be written.  Thread safety: none.
+/// Writes to ".<name>.partial-..." beside the target (partial_file.h); commit() gives it its name
+/// in one step. The destructor of a file that was not committed removes the partial one. ERRORS
+/// (all members): mw::Error(kResource) when the disk is full; kUsage when the path cannot be
+/// written.  Thread safety: none.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);

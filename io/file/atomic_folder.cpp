@@ -3,14 +3,11 @@
 // An output folder that appears under its name only when it is whole.
 #include "io/file/atomic_folder.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 
 #include "io/file/errors.h"
+#include "io/file/partial_file.h"
 
 namespace mw::io {
 namespace {
@@ -29,21 +26,12 @@ std::filesystem::path free_target(const std::filesystem::path& target) {
                   "remove it or give another name");
 }
 
-std::filesystem::path partial_name(const std::filesystem::path& target) {
-  static std::atomic<unsigned> counter{0};
-  return target.parent_path() /
-         text(".", target.filename().string(), ".partial-", ::getpid(), "-", counter++);
-}
-
 }  // namespace
 
 AtomicFolder::AtomicFolder(const std::filesystem::path& target) : target_(free_target(target)) {
-  int made = 0;
-  do {
-    partial_ = partial_name(target_);
-    made = ::mkdir(partial_.c_str(), 0777);
-  } while (made != 0 && errno == EEXIST);
-  if (made != 0) fail_output(target_.string(), "create", errno);
+  PartialOutput partial = make_partial(target_, PartialKind::kFolder);
+  partial_ = std::move(partial.path);
+  lock_ = std::move(partial.file);
 }
 
 AtomicFolder::~AtomicFolder() {
@@ -56,6 +44,7 @@ void AtomicFolder::commit() {
     fail_output(target_.string(), "rename to", errno);
   }
   committed_ = true;
+  lock_ = FileDescriptor();
 }
 
 }  // namespace mw::io

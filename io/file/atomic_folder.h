@@ -5,12 +5,14 @@
 
 #include <filesystem>
 
+#include "io/file/file_descriptor.h"
+
 namespace mw::io {
 
-/// Files are written into ".<name>.partial-<n>" beside the target; commit() gives it its name in
-/// one step.  The destructor of a folder that was not committed removes it and all that is in it.
-/// ERRORS (all members): mw::Error(kResource) when the disk is full; kUsage when the folder cannot
-/// be made, or exists and is not empty.  Thread safety: none.
+/// Files are written into ".<name>.partial-..." beside the target (partial_file.h); commit() gives
+/// it its name in one step.  The destructor of a folder that was not committed removes it and all
+/// that is in it. ERRORS (all members): mw::Error(kResource) when the disk is full; kUsage when the
+/// folder cannot be made, or exists and is not empty.  Thread safety: none.
 class AtomicFolder {
  public:
   explicit AtomicFolder(const std::filesystem::path& target);
@@ -26,6 +28,7 @@ class AtomicFolder {
  private:
   std::filesystem::path target_;
   std::filesystem::path partial_;
+  FileDescriptor lock_;
   bool committed_ = false;
 };
 

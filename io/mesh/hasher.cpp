@@ -1,31 +1,28 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 by OpenSSL.
+// SHA-256 by OpenSSL: its low-level functions, since the others (EVP) allocate, and crash where an
+// allocation fails.
+#define OPENSSL_SUPPRESS_DEPRECATED
 #include "io/mesh/hasher.h"
 
 #include <array>
 
 #include "io/file/byte_order.h"
-#include "kernels/core/error.h"
 
 namespace mw::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 16;
 
-void check(bool done) {
-  if (!done) throw Error(ErrorKind::kInternal, "SHA-256 is not available in this OpenSSL");
-}
-
 }  // namespace
 
-Hasher::Hasher() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-  check(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+Hasher::Hasher() {
+  SHA256_Init(&context_);
 }
 
 void Hasher::add(std::string_view characters) {
   flush();
-  check(EVP_DigestUpdate(context_.get(), characters.data(), characters.size()) == 1);
+  SHA256_Update(&context_, characters.data(), characters.size());
 }
 
 void Hasher::add(std::uint64_t word) {
@@ -36,20 +33,19 @@ void Hasher::add(std::uint64_t word) {
 
 std::string Hasher::finish() {
   flush();
-  std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
-  unsigned length = 0;
-  check(EVP_DigestFinal_ex(context_.get(), bytes.data(), &length) == 1);
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> bytes{};
+  SHA256_Final(bytes.data(), &context_);
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string hex;
-  for (unsigned i = 0; i < length; ++i) {
-    hex.push_back(kDigits[bytes[i] >> 4]);
-    hex.push_back(kDigits[bytes[i] & 15]);
+  for (const unsigned char byte : bytes) {
+    hex.push_back(kDigits[byte >> 4]);
+    hex.push_back(kDigits[byte & 15]);
   }
   return hex;
 }
 
 void Hasher::flush() {
-  check(EVP_DigestUpdate(context_.get(), buffer_.data(), buffer_.size()) == 1);
+  SHA256_Update(&context_, buffer_.data(), buffer_.size());
   buffer_.clear();
 }
 

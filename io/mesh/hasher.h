@@ -3,17 +3,15 @@
 // SHA-256 of a stream of 64-bit words.
 #pragma once
 
-#include <openssl/evp.h>
+#include <openssl/sha.h>
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace mw::io {
 
-/// ERRORS of all: mw::Error(kInternal) when OpenSSL has no SHA-256.
 class Hasher {
  public:
   Hasher();
@@ -26,7 +24,7 @@ class Hasher {
  private:
   void flush();
 
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+  SHA256_CTX context_{};
   std::vector<std::byte> buffer_;
 };
 

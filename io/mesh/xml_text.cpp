@@ -3,6 +3,8 @@
 // Text in XML, out and in.
 #include "io/mesh/xml_text.h"
 
+#include <new>
+
 #include "io/file/errors.h"
 
 namespace mw::io {
@@ -52,6 +54,7 @@ void parse_xml(const ByteSource& source, std::uint64_t most_bytes, pugi::xml_doc
   }
   const pugi::xml_parse_result result = document.load_buffer(content->data(), content->size());
   if (result) return;
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   fail_input(source.name(), text("byte ", std::to_string(result.offset)),
              text("no well-formed XML (", result.description(), ")"),
              "the file is truncated or damaged: write it anew");

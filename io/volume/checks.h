@@ -10,14 +10,12 @@
 
 #include "io/file/byte_source.h"
 #include "io/volume/label_volume.h"
+#include "kernels/core/axis_limit.h"
 
 namespace mw::io {
 
-/// Largest number of voxels along an axis: positions are int32 in units of 1/1024 voxel.
-inline constexpr std::int64_t kMaxAxisVoxels = std::int64_t{1} << 20;
-
 /// A shape from (x, y, z) extents.  ERRORS: kInput naming field when an axis is not in
-/// 1..kMaxAxisVoxels.  Within it no product of extents overflows.
+/// 1..kMaxAxisVoxels.
 [[nodiscard]] Index3 checked_shape(std::string_view file, std::string_view field,
                                    std::array<std::int64_t, 3> extents);
 

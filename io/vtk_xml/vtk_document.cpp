@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <new>
 
 #include "io/file/errors.h"
 
@@ -95,6 +96,7 @@ void VtkDocument::find_appended(std::string& head) {
 
 void VtkDocument::parse(std::string head) {
   const pugi::xml_parse_result result = xml_.load_buffer(head.data(), head.size());
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   if (!result) {
     fail_input(file(), text("XML at offset ", result.offset), result.description(),
                "the file is truncated, damaged or no VTK XML file");

@@ -3,15 +3,16 @@
 // Synthetic labelled volumes: which kind, and the kinds without objects.
 #include "kernels/synth/synth.h"
 
+#include <string>
+
 #include "kernels/core/assert.h"
+#include "kernels/core/axis_limit.h"
 #include "kernels/core/error.h"
 #include "kernels/synth/counter_hash.h"
 #include "kernels/synth/synth_kinds.h"
 
 namespace mw {
 namespace {
-
-constexpr std::int64_t kMaxAxisVoxels = std::int64_t{1} << 20;
 
 /// Fills the slab with value(voxel).
 template <class Value>
@@ -50,7 +51,8 @@ void check_synth_spec(const SynthSpec& spec) {
   if (spec.labels < 1) throw Error(ErrorKind::kUsage, "labels: at least 1 is needed");
   for (const std::int64_t extent : {spec.shape.x, spec.shape.y, spec.shape.z}) {
     if (extent >= 1 && extent <= kMaxAxisVoxels) continue;
-    throw Error(ErrorKind::kUsage, "shape: each axis needs 1 to 1048576 voxels");
+    throw Error(ErrorKind::kUsage,
+                "shape: each axis needs 1 to " + std::to_string(kMaxAxisVoxels) + " voxels");
   }
 }
 

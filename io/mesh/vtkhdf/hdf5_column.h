@@ -1,47 +1,52 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A data set that is written row by row.
+// A data set that is written number by number.
 #pragma once
 
+#include <bit>
 #include <vector>
 
-#include "io/hdf5/hdf5_handle.h"
+#include "io/mesh/vtkhdf/hdf5_output.h"
 
 namespace mw::io {
 
-/// How numbers lie in the file and in memory; of one signedness, since HDF5 clamps when it differs.
-struct Hdf5Type {
-  hid_t file = H5I_INVALID_HID;
-  hid_t memory = H5I_INVALID_HID;
-};
-
-/// A chunked data set that grows at its end, one whole chunk at a time.
-/// T: double, std::uint64_t, std::int32_t or std::uint8_t.
+/// Numbers one behind the other, from an address on.  T: as wide as the numbers in the file.
+/// Cost: half a MiB.
 template <class T>
 class Hdf5Column {
  public:
   Hdf5Column() = default;
-  /// REQUIRES: the HDF5 file is open.  rows_per_chunk >= 1; components 1 means one dimension.
-  Hdf5Column(hid_t place, const char* name, Hdf5Type type, hsize_t rows_per_chunk,
-             hsize_t components = 1);
-  void add(T value) { buffer_.push_back(value); }
-  /// After each row.
-  void end_row() {
-    if (buffer_.size() == rows_per_chunk_ * components_) flush();
+  /// address: reserved for as many bytes as will be added, or the next to be.
+  /// REQUIRES: output outlives the column.
+  Hdf5Column(Hdf5Output& output, std::uint64_t address) : output_(&output), address_(address) {
+    buffer_.reserve(kBuffered);
   }
-  /// Writes what is left; whether all went well.
-  bool finish();
+  /// ERRORS of both: as Hdf5Output.
+  void add(T value) {
+    buffer_.push_back(value);
+    if (buffer_.size() == kBuffered) flush();
+  }
+  /// Writes what is left; a data set of this shape.  REQUIRES: it has as many numbers.
+  [[nodiscard]] Hdf5DataSet finish(const std::string& name, Hdf5Kind kind,
+                                   const std::vector<std::uint64_t>& shape) {
+    flush();
+    return {.name = name, .kind = kind, .shape = shape, .address = address_};
+  }
 
  private:
-  void flush();
+  static_assert(std::endian::native == std::endian::little, "numbers are written as they are");
+  static constexpr std::size_t kBuffered = (std::size_t{1} << 19) / sizeof(T);
 
-  Hdf5Handle set_;
-  hid_t memory_type_ = H5I_INVALID_HID;
-  hsize_t rows_per_chunk_ = 0;
-  hsize_t components_ = 1;
-  hsize_t rows_ = 0;  ///< written
+  void flush() {
+    output_->write_at(address_ + written_ * sizeof(T), std::as_bytes(std::span(buffer_)));
+    written_ += buffer_.size();
+    buffer_.clear();
+  }
+
+  Hdf5Output* output_ = nullptr;
+  std::uint64_t address_ = 0;
+  std::uint64_t written_ = 0;  ///< numbers
   std::vector<T> buffer_;
-  bool sound_ = true;
 };
 
 }  // namespace mw::io

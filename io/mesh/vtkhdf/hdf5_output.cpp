@@ -3,43 +3,37 @@
 // An HDF5 file that is written, whole or not at all.
 #include "io/mesh/vtkhdf/hdf5_output.h"
 
-#include "io/file/errors.h"
+#include <utility>
+
+#include "io/hdf5/hdf5_text_heap.h"
 
 namespace mw::io {
 
-Hdf5Handle hdf5_creation(hid_t of_what) {
-  Hdf5Handle properties(H5Pcreate(of_what), &H5Pclose);
-  H5Pset_obj_track_times(properties.get(), false);
-  return properties;
+std::uint64_t Hdf5Output::reserve(std::uint64_t bytes) {
+  return std::exchange(end_, end_ + (bytes + 7) / 8 * 8);
 }
 
-Hdf5Output::Hdf5Output(const std::filesystem::path& path)
-    : name_(path.string()), file_(path), target_{.file = &file_, .failure = nullptr} {
-  silence_hdf5();
+void Hdf5Output::write_at(std::uint64_t address, std::span<const std::byte> bytes) {
+  file_.write_at(address, bytes);
 }
 
-void Hdf5Output::open() {
-  const Hdf5Handle access = access_through(target_);
-  const Hdf5Handle properties = hdf5_creation(H5P_FILE_CREATE);
-  hdf5_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, properties.get(), access.get()),
-                     &H5Fclose);
-  require(hdf5_.valid());
+Hdf5DataSet Hdf5Output::add(Hdf5DataSet set, std::span<const std::byte> bytes) {
+  set.address = reserve(bytes.size());
+  write_at(set.address, bytes);
+  return set;
 }
 
-Hdf5Handle Hdf5Output::make_group(hid_t place, const char* name) const {
-  const Hdf5Handle properties = hdf5_creation(H5P_GROUP_CREATE);
-  Hdf5Handle group(H5Gcreate2(place, name, H5P_DEFAULT, properties.get(), H5P_DEFAULT), &H5Gclose);
-  require(group.valid());
-  return group;
+Hdf5DataSet Hdf5Output::add_texts(const std::string& name, std::span<const std::string> texts) {
+  const Hdf5Texts all = hdf5_texts(texts, next());
+  write_at(reserve(all.heap.size()), std::as_bytes(std::span(all.heap)));
+  return add({.name = name, .kind = Hdf5Kind::kText, .shape = {texts.size()}},
+             std::as_bytes(std::span(all.places)));
 }
 
-void Hdf5Output::require(bool done) const {
-  target_.check();
-  if (!done) throw Error(ErrorKind::kResource, name_ + ": the HDF5 library failed to write it");
-}
-
-void Hdf5Output::commit() {
-  require(hdf5_.close());
+void Hdf5Output::commit(const Hdf5Group& root) {
+  const Hdf5Metadata metadata = hdf5_metadata(root, end_);
+  write_at(end_, std::as_bytes(std::span(metadata.tail)));
+  write_at(0, std::as_bytes(std::span(metadata.head)));
   file_.commit();
 }
 

@@ -3,40 +3,44 @@
 // An HDF5 file that is written, whole or not at all.
 #pragma once
 
-#include <filesystem>
+#include <span>
 #include <string>
 
-#include "io/mesh/vtkhdf/atomic_file_driver.h"
+#include "io/file/atomic_file.h"
+#include "io/hdf5/hdf5_tree.h"
 
 namespace mw::io {
 
-/// No time stamps: equal content is equal bytes.  Thread safety: see Hdf5Handle.
-/// ERRORS (all members): mw::Error(kResource) or kUsage as AtomicFile; kResource when the library
-/// fails.
+/// Data first, each in one piece, then what tells of them.  Without the HDF5 library, which does
+/// not survive an allocation that fails: here that is std::bad_alloc.  Equal content is equal
+/// bytes.
+/// ERRORS (all members): mw::Error(kResource) or kUsage as AtomicFile.  Thread safety: none.
 class Hdf5Output {
  public:
   /// Makes the file, still without its name.
-  explicit Hdf5Output(const std::filesystem::path& path);
-  /// Begins its content.
-  void open();
+  explicit Hdf5Output(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
 
-  [[nodiscard]] hid_t file() const { return hdf5_.get(); }
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] Hdf5Handle make_group(hid_t place, const char* name) const;
-  /// Throws what went wrong if done is false, or if a write failed before.
-  void require(bool done) const;
-  void check() const { target_.check(); }
-  /// REQUIRES: groups and data sets are closed.
-  void commit();
+
+  /// Room for a data set: the address of its first byte.
+  [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes);
+  /// Where the next room will begin: for data whose size is not known yet.
+  /// REQUIRES: it is reserved when they are written, and nothing else before.
+  [[nodiscard]] std::uint64_t next() const { return end_; }
+  void write_at(std::uint64_t address, std::span<const std::byte> bytes);
+
+  /// A data set of these bytes.
+  [[nodiscard]] Hdf5DataSet add(Hdf5DataSet set, std::span<const std::byte> bytes);
+  /// A data set of kText.
+  [[nodiscard]] Hdf5DataSet add_texts(const std::string& name, std::span<const std::string> texts);
+
+  /// REQUIRES: the data of all sets are written.
+  void commit(const Hdf5Group& root);
 
  private:
   std::string name_;
   AtomicFile file_;
-  Hdf5Target target_;
-  Hdf5Handle hdf5_;
+  std::uint64_t end_ = kHdf5HeadBytes;  ///< of what is reserved; a multiple of 8
 };
-
-/// Properties of a file, group or data set that is made: no time stamps.
-[[nodiscard]] Hdf5Handle hdf5_creation(hid_t of_what);
 
 }  // namespace mw::io

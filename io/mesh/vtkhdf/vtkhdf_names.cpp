@@ -19,79 +19,30 @@ constexpr const char* kRecord = "record";
 /// More than a table of names could need; a damaged file may announce anything.
 constexpr std::uint64_t kMaxNumbers = 64 << 20;
 
-/// A whole array: its numbers in memory, and the types there and in the file.
-struct Numbers {
-  std::array<hsize_t, 2> shape{0, 1};
-  int rank = 1;
-  hid_t file_type = H5I_INVALID_HID;
-  hid_t memory_type = H5I_INVALID_HID;
-  const void* data = nullptr;
-};
-
-Hdf5Handle creation(hid_t of_what) {
-  Hdf5Handle properties(H5Pcreate(of_what), &H5Pclose);
-  H5Pset_obj_track_times(properties.get(), false);
-  return properties;
-}
-
-Hdf5Handle make_group(hid_t place, const char* name) {
-  return {H5Gcreate2(place, name, H5P_DEFAULT, creation(H5P_GROUP_CREATE).get(), H5P_DEFAULT),
-          &H5Gclose};
-}
-
-bool write_array(hid_t group, const char* name, const Numbers& numbers) {
-  constexpr hsize_t kMaxChunkRows = 1 << 16;
-  const std::array<hsize_t, 2> chunk{std::min(numbers.shape[0], kMaxChunkRows), numbers.shape[1]};
-  const Hdf5Handle space(H5Screate_simple(numbers.rank, numbers.shape.data(), nullptr), &H5Sclose);
-  const Hdf5Handle properties = creation(H5P_DATASET_CREATE);
-  H5Pset_chunk(properties.get(), numbers.rank, chunk.data());
-  H5Pset_fill_time(properties.get(), H5D_FILL_TIME_ALLOC);
-  const Hdf5Handle set(H5Dcreate2(group, name, numbers.file_type, space.get(), H5P_DEFAULT,
-                                  properties.get(), H5P_DEFAULT),
-                       &H5Dclose);
-  return set.valid() &&
-         H5Dwrite(set.get(), numbers.memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data) >= 0;
-}
-
-bool write_ids(hid_t group, const LabelNames& names, bool labels_signed) {
+Hdf5DataSet ids_of(Hdf5Output& output, const MeshHeader& header) {
   std::vector<RawLabel> ids;
-  for (const LabelName& row : names.rows()) ids.push_back(row.label);
-  return write_array(group, kLabelId,
-                     {.shape = {ids.size(), 1},
-                      .file_type = labels_signed ? H5T_STD_I64LE : H5T_STD_U64LE,
-                      .memory_type = labels_signed ? H5T_NATIVE_INT64 : H5T_NATIVE_UINT64,
-                      .data = ids.data()});
+  for (const LabelName& row : header.names.rows()) ids.push_back(row.label);
+  return output.add({.name = kLabelId,
+                     .kind = header.labels_signed ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64,
+                     .shape = {ids.size()}},
+                    std::as_bytes(std::span(ids)));
 }
 
-bool write_strings(hid_t group, const LabelNames& names) {
-  std::vector<const char*> strings;
-  for (const LabelName& row : names.rows()) strings.push_back(row.name.c_str());
-  const Hdf5Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
-  H5Tset_size(type.get(), H5T_VARIABLE);
-  return write_array(group, kLabelName,
-                     {.shape = {strings.size(), 1},
-                      .file_type = type.get(),
-                      .memory_type = type.get(),
-                      .data = strings.data()});
+Hdf5DataSet strings_of(Hdf5Output& output, const LabelNames& names) {
+  std::vector<std::string> strings;
+  for (const LabelName& row : names.rows()) strings.push_back(row.name);
+  return output.add_texts(kLabelName, strings);
 }
 
-bool write_colours(hid_t group, const LabelNames& names) {
+Hdf5DataSet colours_of(Hdf5Output& output, const LabelNames& names) {
   std::vector<Colour> colours;
   for (const LabelName& row : names.rows()) colours.push_back(field_colour(row));
-  return write_array(group, kLabelColour,
-                     {.shape = {colours.size(), 4},
-                      .rank = 2,
-                      .file_type = H5T_STD_U8LE,
-                      .memory_type = H5T_NATIVE_UINT8,
-                      .data = colours.data()});
+  return output.add({.name = kLabelColour, .shape = {colours.size(), 4}},
+                    std::as_bytes(std::span(colours)));
 }
 
-bool write_bytes(hid_t group, const char* array, const std::string& bytes) {
-  return write_array(group, array,
-                     {.shape = {bytes.size(), 1},
-                      .file_type = H5T_STD_U8LE,
-                      .memory_type = H5T_NATIVE_UINT8,
-                      .data = bytes.data()});
+Hdf5DataSet bytes_in(Hdf5Output& output, const char* name, const std::string& bytes) {
+  return output.add({.name = name, .shape = {bytes.size()}}, std::as_bytes(std::span(bytes)));
 }
 
 std::string bytes_of(const LabelNames& names) {
@@ -160,18 +111,20 @@ std::vector<std::string> read_names(const Hdf5Array& array) {
 
 }  // namespace
 
-bool write_vtkhdf_facts(hid_t file, hid_t grid, const MeshHeader& header) {
+void add_vtkhdf_facts(Hdf5Output& output, const MeshHeader& header, Hdf5Group& file,
+                      Hdf5Group& grid) {
   const LabelNames& names = header.names;
   const std::string record = record_text(header.record);
-  if (names.empty() && record.empty()) return true;
-  const Hdf5Handle ours = make_group(file, kOurs);
-  if (!ours.valid()) return false;
-  if (!record.empty() && !write_bytes(ours.get(), kRecord, record)) return false;
-  if (names.empty()) return true;
-  const Hdf5Handle fields = make_group(grid, kFields);
-  return fields.valid() && write_ids(fields.get(), names, header.labels_signed) &&
-         write_strings(fields.get(), names) && write_colours(fields.get(), names) &&
-         write_bytes(ours.get(), kLabelName, bytes_of(names));
+  if (names.empty() && record.empty()) return;
+  Hdf5Group ours{.name = kOurs};
+  if (!record.empty()) ours.sets.push_back(bytes_in(output, kRecord, record));
+  if (!names.empty()) {
+    grid.groups.push_back(
+        {.name = kFields,
+         .sets = {ids_of(output, header), strings_of(output, names), colours_of(output, names)}});
+    ours.sets.push_back(bytes_in(output, kLabelName, bytes_of(names)));
+  }
+  file.groups.push_back(std::move(ours));
 }
 
 MeshRecord read_vtkhdf_record(hid_t file, const std::string& name) {

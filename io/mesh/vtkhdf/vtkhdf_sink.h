@@ -7,7 +7,6 @@
 
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/vtkhdf/hdf5_column.h"
-#include "io/mesh/vtkhdf/hdf5_output.h"
 
 namespace mw::io {
 
@@ -22,7 +21,7 @@ namespace mw::io {
 ///     CellData/label     UInt64 or Int64 [tets]
 ///     FieldData          names of labels, where there are any, as in /mwmesh (vtkhdf_names.h)
 /// No time stamps: equal meshes are equal bytes.
-/// Cost: 4 MiB of buffers and as much inside HDF5.  Thread safety: see Hdf5Handle.
+/// Cost: 4 MiB of buffers.  Thread safety: none.
 class VtkhdfSink : public TenNodeSink {
  public:
   explicit VtkhdfSink(const std::filesystem::path& path, Element element = Element::kTet4)
@@ -33,22 +32,22 @@ class VtkhdfSink : public TenNodeSink {
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void write_ten_nodes(std::span<const TenRows> tets, std::span<const RawLabel> labels) override;
   void finish() override;
-  [[nodiscard]] std::uint64_t buffer_bytes() const override { return 10 << 20; }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return 4 << 20; }
 
  private:
+  using Column = Hdf5Column<std::uint64_t>;
+
   void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
-  void write_attributes() const;
-  void write_count(const char* name, std::uint64_t count) const;
+  [[nodiscard]] Hdf5DataSet one(const char* name, std::uint64_t count);
 
   Hdf5Output output_;
   Element element_;
-  Hdf5Handle group_;
   MeshHeader header_;
-  Hdf5Column<double> points_;
-  Hdf5Column<std::uint64_t> connectivity_;
-  Hdf5Column<std::uint64_t> offsets_;
+  Column connectivity_;
+  Column offsets_;
   Hdf5Column<std::uint8_t> types_;
-  Hdf5Column<std::uint64_t> labels_;
+  Column labels_;
+  Hdf5Column<double> points_;
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;
   std::uint64_t corners_ = 0;  ///< rows of all tets so far

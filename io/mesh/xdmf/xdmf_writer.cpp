@@ -3,33 +3,27 @@
 // Writes a mesh as XDMF over HDF5, with tags as dolfinx reads them.
 #include "io/mesh/xdmf/xdmf_writer.h"
 
-#include <algorithm>
-
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/vtkhdf/hdf5_column.h"
 
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMaxChunkRows = 1 << 16;
-
-/// Small meshes are small files.
-hsize_t chunk_of(std::uint64_t rows) {
-  return std::clamp<std::uint64_t>(rows, 1, kMaxChunkRows);
-}
-
-Hdf5Type index_type() {
-  return {H5T_STD_I64LE, H5T_NATIVE_INT64};
-}
-
-Hdf5Type tag_type() {
-  return {H5T_STD_I32LE, H5T_NATIVE_INT32};
+/// A column with room for all of its numbers.
+template <class T>
+Hdf5Column<T> column_of(Hdf5Output& output, std::uint64_t numbers) {
+  return {output, output.reserve(numbers * sizeof(T))};
 }
 
 template <class T, class Row>
 void add_row(Hdf5Column<T>& column, const Row& row) {
   for (const auto number : row) column.add(number);
-  column.end_row();
+}
+
+std::uint64_t facets_of(const std::vector<NumberedFacets>& runs) {
+  std::uint64_t count = 0;
+  for (const NumberedFacets& run : runs) count += run.facets.size();
+  return count;
 }
 
 XdmfFacts facts_of(const GroupedMesh& mesh, const LabelNumbers& numbers,
@@ -65,85 +59,88 @@ XdmfWriter::XdmfWriter(const std::filesystem::path& path)
 void XdmfWriter::write(GroupedMesh& mesh) {
   const LabelNumbers numbers(mesh.table(), {.least = 0});
   const std::vector<NumberedFacets> runs = number_facets(mesh);
-  numbers_.open();
-  {
-    const Hdf5Handle meshes = numbers_.make_group(numbers_.file(), "Mesh");
-    const Hdf5Handle tags = numbers_.make_group(numbers_.file(), "MeshTags");
-    const Hdf5Handle cells = numbers_.make_group(meshes.get(), "mesh");
-    write_nodes(mesh, cells.get());
-    write_tets(mesh, cells.get());
-    write_tags(mesh, numbers, numbers_.make_group(tags.get(), "cell_tags").get());
-    write_facets(mesh, runs, numbers_.make_group(tags.get(), "facet_tags").get());
-  }
+  const Hdf5Group meshes{
+      .name = "Mesh",
+      .groups = {{.name = "mesh", .sets = {nodes(mesh), topology(mesh), labels(mesh)}}}};
+  const Hdf5Group tags{
+      .name = "MeshTags",
+      .groups = {{.name = "cell_tags", .sets = {cell_tags(mesh, numbers)}},
+                 {.name = "facet_tags", .sets = {facets(mesh, runs), facet_tags(runs)}}}};
   const XdmfFacts facts = facts_of(mesh, numbers, runs, path_);
   cells_.append(xdmf_cells_text(facts));
   file_.append(xdmf_text(facts));
-  numbers_.commit();
+  numbers_.commit({.groups = {meshes, tags}});
   write_label_table(path_, mesh.table(), mesh.names(), numbers);
   write_facet_table(path_, mesh.table(), runs);
   cells_.commit();
   file_.commit();
 }
 
-void XdmfWriter::write_nodes(GroupedMesh& mesh, hid_t group) {
-  Hdf5Column<double> nodes(group, "geometry", {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE},
-                           chunk_of(mesh.node_count()), 3);
-  for (std::uint64_t row = 0; row < mesh.node_count(); ++row) add_row(nodes, mesh.node(row));
-  numbers_.require(nodes.finish());
+Hdf5DataSet XdmfWriter::nodes(GroupedMesh& mesh) {
+  auto column = column_of<double>(numbers_, 3 * mesh.node_count());
+  for (std::uint64_t row = 0; row < mesh.node_count(); ++row) add_row(column, mesh.node(row));
+  return column.finish("geometry", Hdf5Kind::kFloat64, {mesh.node_count(), 3});
 }
 
-void XdmfWriter::write_tets(GroupedMesh& mesh, hid_t group) {
-  const hsize_t chunk = chunk_of(mesh.tet_count());
-  const Hdf5Type label =
-      mesh.table().is_signed() ? index_type() : Hdf5Type{H5T_STD_U64LE, H5T_NATIVE_UINT64};
-  Hdf5Column<std::uint64_t> tets(group, "topology", index_type(), chunk,
-                                 node_count(mesh.element()));
-  Hdf5Column<std::uint64_t> labels(group, "label", label, chunk);
+Hdf5DataSet XdmfWriter::topology(GroupedMesh& mesh) {
+  const std::uint64_t nodes = node_count(mesh.element());
+  auto column = column_of<std::uint64_t>(numbers_, nodes * mesh.tet_count());
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const RowRange range = mesh.label_tets()[rank];
     for (std::uint64_t tet = range.begin; tet < range.end; ++tet) {
       if (mesh.element() == Element::kTet10) {
-        add_row(tets, ten_rows(mesh, tet));
+        add_row(column, ten_rows(mesh, tet));
       } else {
-        add_row(tets, mesh.tet(tet));
+        add_row(column, mesh.tet(tet));
       }
-      labels.add(mesh.table().raw(rank));
-      labels.end_row();
     }
   }
-  numbers_.require(tets.finish() && labels.finish());
+  return column.finish("topology", Hdf5Kind::kInt64, {mesh.tet_count(), nodes});
 }
 
-void XdmfWriter::write_tags(GroupedMesh& mesh, const LabelNumbers& numbers, hid_t group) {
-  Hdf5Column<std::int32_t> tags(group, "Values", tag_type(), chunk_of(mesh.tet_count()));
+Hdf5DataSet XdmfWriter::labels(const GroupedMesh& mesh) {
+  const LabelTable& table = mesh.table();
+  auto column = column_of<RawLabel>(numbers_, mesh.tet_count());
+  for (Label rank = 0; rank < table.size(); ++rank) {
+    for (std::uint64_t i = 0; i < mesh.label_tets()[rank].size(); ++i) column.add(table.raw(rank));
+  }
+  return column.finish("label", table.is_signed() ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64,
+                       {mesh.tet_count()});
+}
+
+Hdf5DataSet XdmfWriter::cell_tags(const GroupedMesh& mesh, const LabelNumbers& numbers) {
+  auto column = column_of<std::int32_t>(numbers_, mesh.tet_count());
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     for (std::uint64_t i = 0; i < mesh.label_tets()[rank].size(); ++i) {
-      tags.add(static_cast<std::int32_t>(numbers[rank]));
-      tags.end_row();
+      column.add(static_cast<std::int32_t>(numbers[rank]));
     }
   }
-  numbers_.require(tags.finish());
+  return column.finish("Values", Hdf5Kind::kInt32, {mesh.tet_count()});
 }
 
-void XdmfWriter::write_facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs,
-                              hid_t group) {
+Hdf5DataSet XdmfWriter::facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs) {
   const bool ten = mesh.element() == Element::kTet10;
-  const hsize_t chunk = chunk_of(mesh.facet_count());
-  Hdf5Column<std::uint64_t> facets(group, "topology", index_type(), chunk, ten ? 6 : 3);
-  Hdf5Column<std::int32_t> tags(group, "Values", tag_type(), chunk);
+  const std::uint64_t nodes = ten ? 6 : 3, count = facets_of(runs);
+  auto column = column_of<std::uint64_t>(numbers_, nodes * count);
   for (const NumberedFacets& run : runs) {
     for (std::uint64_t i = run.facets.begin; i < run.facets.end; ++i) {
       const Facet facet = mesh.facet(i);
-      for (const std::uint64_t row : facet.rows) facets.add(row);
-      if (ten) {
-        for (const std::uint64_t row : mesh.facet_middles(facet)) facets.add(row);
-      }
-      facets.end_row();
-      tags.add(static_cast<std::int32_t>(run.number));
-      tags.end_row();
+      add_row(column, facet.rows);
+      if (ten) add_row(column, mesh.facet_middles(facet));
     }
   }
-  numbers_.require(facets.finish() && tags.finish());
+  return column.finish("topology", Hdf5Kind::kInt64, {count, nodes});
+}
+
+Hdf5DataSet XdmfWriter::facet_tags(const std::vector<NumberedFacets>& runs) {
+  const std::uint64_t count = facets_of(runs);
+  auto column = column_of<std::int32_t>(numbers_, count);
+  for (const NumberedFacets& run : runs) {
+    for (std::uint64_t i = 0; i < run.facets.size(); ++i) {
+      column.add(static_cast<std::int32_t>(run.number));
+    }
+  }
+  return column.finish("Values", Hdf5Kind::kInt32, {count});
 }
 
 }  // namespace mw::io

@@ -31,10 +31,13 @@ class XdmfWriter : public GroupedWriter {
   void write(GroupedMesh& mesh) override;
 
  private:
-  void write_nodes(GroupedMesh& mesh, hid_t group);
-  void write_tets(GroupedMesh& mesh, hid_t group);
-  void write_tags(GroupedMesh& mesh, const LabelNumbers& numbers, hid_t group);
-  void write_facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs, hid_t group);
+  // Data sets, written.
+  [[nodiscard]] Hdf5DataSet nodes(GroupedMesh& mesh);
+  [[nodiscard]] Hdf5DataSet topology(GroupedMesh& mesh);
+  [[nodiscard]] Hdf5DataSet labels(const GroupedMesh& mesh);
+  [[nodiscard]] Hdf5DataSet cell_tags(const GroupedMesh& mesh, const LabelNumbers& numbers);
+  [[nodiscard]] Hdf5DataSet facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs);
+  [[nodiscard]] Hdf5DataSet facet_tags(const std::vector<NumberedFacets>& runs);
 
   std::filesystem::path path_;
   AtomicFile file_;

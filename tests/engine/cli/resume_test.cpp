@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // --memory, --workdir and --resume as a user meets them.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/engine/cli/run_program.h"
@@ -72,6 +73,39 @@ TEST_F(ResumeProgramTest, OutputMayChangeBeforeItGoesOn) {
               other + " --memory 900MiB --report r.json");
   EXPECT_GT(json::parse(read("r.json"))["engine"]["windows_resumed"], 0);
   EXPECT_EQ(read("other.vtu"), read("whole.vtu"));
+}
+
+/// Work that is damaged cannot be gone on from: the message says one thing.
+TEST_F(ResumeProgramTest, AdvisesOneThingAfterDamage) {
+  make_noise();
+  interrupt("", "n.vtu.work");
+  std::string blocks = read("n.vtu.work/blocks");
+  for (std::size_t i = 0; i < blocks.size(); i += 512) blocks[i] = static_cast<char>(~blocks[i]);
+  write("n.vtu.work/blocks", blocks);
+  const ProgramRun damaged = run("mesh n.npy -o n.vtu --window 8 --resume");
+  EXPECT_EQ(damaged.code, 3) << damaged.err;
+  EXPECT_NE(damaged.err.find("n.vtu.work is damaged: delete that folder and start again"),
+            std::string::npos)
+      << damaged.err;
+  EXPECT_EQ(damaged.err.find("--resume"), std::string::npos) << damaged.err;
+  EXPECT_TRUE(files().contains("n.vtu.work"));
+}
+
+/// The partial output of a killed run goes with the next run that writes the same file.
+TEST_F(ResumeProgramTest, RemovesWhatAKilledRunLeft) {
+  make_noise();
+  const ProgramRun killed = run("mesh n.npy -o n.vtu --window 8 --save-every 0 --report r.json",
+                                "timeout --foreground -s KILL 0.8");
+  ASSERT_EQ(killed.code, 137) << killed.err;
+  const auto partials = [&] {
+    const std::set<std::string> all = files();
+    return std::count_if(all.begin(), all.end(), [](const std::string& name) {
+      return name.find(".partial-") != name.npos;
+    });
+  };
+  EXPECT_EQ(partials(), 2) << "mesh and report";
+  expect_done("mesh n.npy -o n.vtu --window 8 --resume --report r.json");
+  EXPECT_EQ(partials(), 0);
 }
 
 TEST_F(ResumeProgramTest, StartsWhenThereIsNothingToResume) {

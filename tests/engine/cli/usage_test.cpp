@@ -89,8 +89,11 @@ TEST_F(UsageTest, RefusesBadInput) {
   write("what.bin", "what is this");
   expect_failure(3, "mesh missing.npy -o v.vtu", "missing.npy");
   write("long.raw", std::string(1 << 20, 'a'));
-  expect_failure(3, "mesh long.raw --shape 1048576,1,1 --dtype u8 -o v.vtu",
-                 "1048576 voxels along an axis");
+  expect_failure(
+      3, "mesh long.raw --shape 1048576,1,1 --dtype u8 -o v.vtu",
+      "1048576 voxels along an axis; fewer than 524288 can be meshed at once: mesh parts "
+      "of it with --crop");
+  expect_failure(3, "mesh long.raw --shape 1048577,1,1 --dtype u8 -o v.vtu", "is above 1048576");
   expect_failure(3, "mesh short.npy -o v.vtu", "short.npy");
   expect_failure(3, "mesh float.npy -o v.vtu", "float.npy");
   expect_failure(3, "mesh empty.npy -o v.vtu --report r.json", "empty");

@@ -74,13 +74,14 @@ class HeldRun {
     BlockStore& blocks = store_.march(number);
     WindowVisitor visitor(labels, Metric({1, 1, 1}), settings_, grid, blocks);
     visitor.seed_with(tbb_for);
-    const StartSizeOf start_size = [&](Index3 block) { return visitor.start_size(block); };
+    const WindowNeeds needs{.start_size = [&](Index3 b) { return visitor.start_size(b); },
+                            .max_distance = settings_.max_distance};
     const WindowOrder order(grid, settings_.order);
     if (number + 1 == layout_.marches()) visitor.polish(order);
     double worst = 0.0;
     for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
       const Index3 window = order.window(rank);
-      const std::uint64_t bound = window_bytes(grid, window, blocks, start_size);
+      const std::uint64_t bound = window_bytes(grid, window, blocks, needs);
       const std::uint64_t taken = peak_of([&] { visitor.visit(window); });
       EXPECT_LE(taken, bound) << "window " << window.x << " " << window.y << " " << window.z;
       worst = std::max(worst, static_cast<double>(taken) / static_cast<double>(bound));
@@ -133,6 +134,25 @@ TEST(WindowMemory, BoundsTheWorstVolumesClosely) {
       HeldRun run(trial);
       const double share = run.march();
       EXPECT_GT(share, 0.4);
+    }
+  }
+}
+
+/// A large bound lets meshes become coarse, while labels are read ever farther around them: then
+/// labels take more than the content.
+TEST(WindowMemory, BoundsTheLabelsThatLargeDistancesRead) {
+  std::mt19937 random(4014);
+  for (const double distance : {3.0, 6.0, 16.0}) {
+    for (const VolumeKind kind : {VolumeKind::kBlobs, VolumeKind::kSheets}) {
+      const auto edge = [&] { return static_cast<std::int64_t>(16 + below(random, 12)); };
+      Trial trial{
+          .volume = random_volume_of(random, kind, {edge(), edge(), edge()}, 2 + below(random, 4)),
+          .settings = {.window = below(random, 2) == 0 ? 8 : 16},
+          .frame = {}};
+      trial.settings.max_distance = distance;
+      HeldRun run(trial);
+      run.march();
+      EXPECT_FALSE(testing::Test::HasFailure()) << trial.text();
     }
   }
 }

@@ -3,6 +3,7 @@
 // The work folder is one run's at a time, and saved work is neither lost nor mixed up.
 #include "engine/store/workdir.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "engine/store/journal.h"
@@ -74,6 +75,37 @@ TEST_F(WorkdirTest, NamesEachDifference) {
                  "start was octree and is dense; window was 32 and is 8");
   expect_refused(true, "window = 32\n", "start was octree and is (not there)");
   EXPECT_TRUE(Workdir(path(), true, kSettings).resumes());
+}
+
+/// Whatever a damaged file holds, the terminal gets plain text, and not much of it.
+TEST_F(WorkdirTest, DoesNotEchoDamagedSettings) {
+  for (const std::string& damage :
+       {std::string("window = \x1b[2J\x07\n"), std::string(1 << 20, 'x'), std::string(),
+        std::string("window = 32\nstart = octree\nstar"), std::string(100, '\0')}) {
+    leave_work();
+    std::ofstream(path() / "settings.txt", std::ios::binary) << damage;
+    expect_refused(true, kSettings, "delete the folder to start again");
+    try {
+      const Workdir workdir(path(), true, kSettings);
+    } catch (const Error& e) {
+      const std::string message = e.what();
+      EXPECT_LT(message.size(), 1000U);
+      EXPECT_TRUE(std::all_of(message.begin(), message.end(), [](char c) {
+        return c >= ' ' && c <= '~';
+      })) << message;
+    }
+    fs::remove_all(path());
+  }
+}
+
+TEST_F(WorkdirTest, ShowsLongValuesInPart) {
+  const std::string sizes(5000, '7');
+  const std::string told = differences("size = " + sizes + "\n", "size = " + sizes + "8\n");
+  EXPECT_NE(told.find("size was 777"), std::string::npos) << told;
+  EXPECT_LT(told.size(), 400U);
+  std::string before, now;
+  for (int i = 0; i < 50; ++i) before += "s" + std::to_string(i) + " = a\n";
+  EXPECT_NE(differences(before, now).find("; and 42 more"), std::string::npos);
 }
 
 /// A run killed before anything was saved, at whatever moment, is in nobody's way.

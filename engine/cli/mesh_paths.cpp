@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which names of a run collide.
+#include "engine/cli/mesh_paths.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/mesh/open_mesh.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored) || a.lexically_normal() == b.lexically_normal();
+}
+
+[[noreturn]] void refuse(const std::string& flag, const fs::path& path, const std::string& why) {
+  throw Error(ErrorKind::kUsage, flag + " " + path.string() + ": " + why);
+}
+
+void require_output_apart(const MeshRequest& request) {
+  for (const fs::path& output : io::mesh_files(request.output)) {
+    if (is_same_file(request.volume.path, output)) refuse("-o", output, "this is the input");
+    if (is_same_file(request.volume.names, output)) refuse("-o", output, "this is --names");
+  }
+  if (is_same_file(request.size_file, request.output)) {
+    refuse("-o", request.output, "this is --size-file");
+  }
+}
+
+void require_names_used_once(const MeshRequest& request) {
+  std::vector<fs::path> taken{request.volume.path, request.volume.names, request.size_file,
+                              request.output};
+  const std::pair<const char*, fs::path> written[] = {
+      {"--report", request.report}, {"--trace", request.trace}, {"--html", request.html}};
+  for (const auto& [flag, path] : written) {
+    if (path.empty()) continue;
+    const auto is_it = [&](const fs::path& other) { return is_same_file(path, other); };
+    if (std::any_of(taken.begin(), taken.end(), is_it)) refuse(flag, path, "name used twice");
+    taken.push_back(path);
+  }
+}
+
+/// The path with its links followed as far as it is there, without '/' at its end.
+fs::path whole_path(const fs::path& path) {
+  std::error_code ignored;
+  fs::path whole = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  if (whole.empty()) whole = fs::absolute(path, ignored).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+/// Equal, or somewhere below it.
+bool is_at_or_in(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
+using Named = std::pair<std::string, fs::path>;
+
+std::vector<Named> files_of(const MeshRequest& request) {
+  std::vector<Named> out{{"the input", request.volume.path},
+                         {"--names", request.volume.names},
+                         {"--size-file", request.size_file},
+                         {"--report", request.report},
+                         {"--html", request.html},
+                         {"--trace", request.trace}};
+  for (const fs::path& file : io::mesh_files(request.output)) out.emplace_back("the output", file);
+  std::erase_if(out, [](const Named& file) { return file.second.empty(); });
+  return out;
+}
+
+/// Who has the mesh written into a folder of slices may have the work there as well.
+bool is_input_around_all(const fs::path& file, const MeshRequest& request) {
+  return file == whole_path(request.volume.path) && is_at_or_in(whole_path(request.output), file);
+}
+
+void require_workdir_apart(const MeshRequest& request) {
+  const fs::path workdir = whole_path(request.workdir);
+  for (const auto& [name, file] : files_of(request)) {
+    const fs::path whole = whole_path(file);
+    const bool is_in_file = is_at_or_in(workdir, whole), has_file = is_at_or_in(whole, workdir);
+    if (!has_file && (!is_in_file || is_input_around_all(whole, request))) continue;
+    const std::string why = is_in_file && has_file ? "this is " + name
+                            : is_in_file           ? "lies in " + file.string() + ", " + name
+                                                   : "has " + file.string() + " in it, " + name;
+    refuse("--workdir", request.workdir, why + "; give a folder of its own");
+  }
+}
+
+}  // namespace
+
+void require_paths_apart(const MeshRequest& request) {
+  require_output_apart(request);
+  require_names_used_once(request);
+  require_workdir_apart(request);
+}
+
+}  // namespace mw::cli
