@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that are missing and builds build/release.  Quiet unless it fails.
-# Usage: setup.sh [program|all].  program: without tests and benchmarks, and what only they need.
+# Usage: setup.sh [program|all|packages].  program: without tests and benchmarks, and what only they
+# need; packages: builds nothing.
 set -euo pipefail
 
 what="${1:-all}"
@@ -76,6 +77,6 @@ build() {
   quietly cmake --build --preset release --parallel 2 || die "the build failed (see above)"
 }
 
-[[ "$what" == program || "$what" == all ]] || die "'$what' is neither program nor all"
+[[ "$what" =~ ^(program|all|packages)$ ]] || die "'$what' is none of program, all and packages"
 install_packages
-build
+[[ "$what" == packages ]] || build

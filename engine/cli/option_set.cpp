@@ -109,6 +109,8 @@ void OptionSet::read_config(const std::filesystem::path& path) {
     found->text = *text;
     found->place = place + " = " + *text;
     if (text->empty()) refuse(place, ": empty; leave the key out instead");
+    // Names of files would end there.
+    if (text->find('\0') != text->npos) refuse(place, ": has a zero byte in it");
   }
 }
 

@@ -101,7 +101,7 @@ class TetMesh {
   }
 
   /// Contracts edge (keep, drop): drop vanishes, keep goes to position with the given quadric.
-  /// REQUIRES: both free, joined by an edge, and the contraction found valid.
+  /// REQUIRES: both free, joined by an edge, a valid contraction; position on planes of keep alone.
   void contract(LocalVertex keep, LocalVertex drop, Point position, const Quadric& quadric);
 
   /// Moves v; its quadric stays the same function.  REQUIRES: v free; all tets stay positive.

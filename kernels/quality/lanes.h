@@ -10,10 +10,10 @@
 
 #include "kernels/core/metric.h"
 
-/// Compiles a function for processors with wide registers too; the loader picks.  Lanes never mix
-/// and nothing is fused, so all versions give the same bits.  (Sanitizers cannot instrument what
-/// the loader runs.)
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+/// Compiles a function for wide registers too; the loader picks.  Lanes never mix and nothing is
+/// fused: all versions give the same bits.  (Clang and sanitizers cannot do it.)
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define MW_WIDE __attribute__((target_clones("avx2", "default")))
 #else
 #define MW_WIDE

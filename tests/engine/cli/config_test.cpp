@@ -82,6 +82,7 @@ TEST_F(ConfigTest, NamesFileLineAndKey) {
   };
   expect_refused("# one\nwindow = 40\nwindwo = 3\n", "c.toml:3: windwo: unknown key");
   expect_refused("[mesh]\nwindow = 40\n", "c.toml:1: mesh: unknown key");
+  expect_refused("output = \"a\\u0000b.vtu\"\n", "c.toml:1: output: has a zero byte in it");
   expect_refused("\nwindow = \"40\"\n", "c.toml:2: window: wrong type; expected an integer");
   expect_refused("window = 40.5\n", "c.toml:1: window: wrong type");
   expect_refused("window = 41\n", "c.toml:1: window = 41: window must be");

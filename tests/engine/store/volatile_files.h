@@ -86,7 +86,10 @@ class VolatileFiles : public WorkFiles {
       content_.durable.resize(content_.now.size());
       for (const auto& [offset, size] : std::exchange(content_.written, {})) {
         const std::size_t end = std::min(offset + size, content_.now.size());
-        for (std::size_t i = offset; i < end; ++i) content_.durable[i] = content_.now[i];
+        if (offset >= end) continue;  // cut off since
+        std::copy(content_.now.begin() + static_cast<long>(offset),
+                  content_.now.begin() + static_cast<long>(end),
+                  content_.durable.begin() + static_cast<long>(offset));
       }
     }
 

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Every target by its function; what each checks is said where it is defined.
+#pragma once
+
+#include "tests/fuzz/target.h"
+
+namespace mw::fuzz {
+
+// volume_files.cpp
+void fuzz_npy(Bytes bytes);
+void fuzz_npz(Bytes bytes);
+void fuzz_nrrd(Bytes bytes);
+void fuzz_nifti(Bytes bytes);
+void fuzz_metaimage(Bytes bytes);
+void fuzz_inr(Bytes bytes);
+void fuzz_tiff(Bytes bytes);
+void fuzz_png(Bytes bytes);
+void fuzz_vti(Bytes bytes);
+void fuzz_raw(Bytes bytes);
+void fuzz_gzip(Bytes bytes);
+// volume_folders.cpp
+void fuzz_zarr(Bytes bytes);
+void fuzz_n5(Bytes bytes);
+void fuzz_precomputed(Bytes bytes);
+// mesh_files.cpp
+void fuzz_vtu(Bytes bytes);
+void fuzz_medit(Bytes bytes);
+void fuzz_gmsh(Bytes bytes);
+void fuzz_abaqus(Bytes bytes);
+void fuzz_febio(Bytes bytes);
+void fuzz_tetgen(Bytes bytes);
+void fuzz_xdmf(Bytes bytes);
+// names.cpp
+void fuzz_names(Bytes bytes);
+void fuzz_label_table(Bytes bytes);
+// options.cpp
+void fuzz_values(Bytes bytes);
+void fuzz_config(Bytes bytes);
+// codecs.cpp
+void fuzz_codecs(Bytes bytes);
+void fuzz_segmentation(Bytes bytes);
+// store.cpp
+void fuzz_block(Bytes bytes);
+void fuzz_journal(Bytes bytes);
+// mesh_steps.cpp
+void fuzz_collapse(Bytes bytes);
+void fuzz_simplify(Bytes bytes);
+void fuzz_optimise(Bytes bytes);
+// coarsening.cpp
+void fuzz_coarsen(Bytes bytes);
+
+}  // namespace mw::fuzz

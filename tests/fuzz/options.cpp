@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Values of options, and config files.
+#include <CLI/CLI.hpp>
+
+#include "engine/cli/mesh_request.h"
+#include "engine/cli/option_set.h"
+#include "engine/cli/option_text.h"
+#include "engine/cli/size_options.h"
+#include "engine/cli/values.h"
+#include "tests/fuzz/all_targets.h"
+#include "tests/temp_folder.h"
+
+namespace mw::fuzz {
+namespace {
+
+/// Options of `mwmesh mesh`; set up once, for it takes a hundred times as long as a file.
+class MeshOptions {
+ public:
+  MeshOptions() {
+    cli::add_mesh_options(options_, request_);
+    options_.add_flags(program_);
+  }
+  std::string effective(const std::filesystem::path& config) {
+    options_.resolve(config);
+    return options_.toml();
+  }
+
+ private:
+  CLI::App program_;
+  cli::MeshRequest request_;
+  cli::OptionSet options_;
+};
+
+}  // namespace
+
+/// Each kind of value: its canonical text is a value again, and the same one.
+void fuzz_values(Bytes bytes) {
+  using cli::ValueKind;
+  // Values end at a zero byte: arguments of programs have none, and config files none in a value.
+  const std::string text(text_of(bytes).substr(0, text_of(bytes).find('\0')));
+  for (const ValueKind kind :
+       {ValueKind::kText, ValueKind::kInteger, ValueKind::kNumber, ValueKind::kNumberOrNone,
+        ValueKind::kNumbers, ValueKind::kShape, ValueKind::kBox, ValueKind::kLabels,
+        ValueKind::kSize, ValueKind::kSwitch, ValueKind::kIntegerOrText}) {
+    std::string once;
+    if (!ends_well([&] { once = cli::canonical_text(kind, text); })) continue;
+    require(cli::canonical_text(kind, once) == once, "canonical text stays as it is");
+    static_cast<void>(cli::toml_of_text(kind, once));
+  }
+  ends_well([&] { static_cast<void>(cli::parse_element(text)); });
+  ends_well([&] { static_cast<void>(cli::parse_sizes(text)); });
+  ends_well([&] { static_cast<void>(cli::parse_size_table(text, "fuzzed sizes")); });
+}
+
+/// A config file is refused, or what --print-config prints of it gives the same once more.
+void fuzz_config(Bytes bytes) {
+  static MeshOptions options;
+  const test::TempFolder folder;
+  const std::filesystem::path config = folder.path() / "c.toml";
+  const std::filesystem::path printed = folder.path() / "printed.toml";
+  std::ofstream(config, std::ios::binary) << text_of(bytes);
+  std::string once;
+  if (!ends_well([&] { once = options.effective(config); })) return;
+  std::ofstream(printed, std::ios::binary) << once;
+  require(options.effective(printed) == once, "the printed config gives the same values");
+}
+
+}  // namespace mw::fuzz
