@@ -8,6 +8,7 @@
 #include "engine/cli/option_text.h"
 #include "engine/cli/size_options.h"
 #include "engine/cli/values.h"
+#include "engine/size_text.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/temp_folder.h"
 
@@ -49,7 +50,7 @@ void fuzz_values(Bytes bytes) {
     static_cast<void>(cli::toml_of_text(kind, once));
   }
   ends_well([&] { static_cast<void>(cli::parse_element(text)); });
-  ends_well([&] { static_cast<void>(cli::parse_sizes(text)); });
+  ends_well([&] { static_cast<void>(engine::parse_sizes(text)); });
   ends_well([&] { static_cast<void>(cli::parse_size_table(text, "fuzzed sizes")); });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Volumes in one file.
+#include "io/file/inflated_source.h"
 #include "io/file/open_bytes.h"
 #include "io/volume/inr/open_inr.h"
 #include "io/volume/metaimage/open_metaimage.h"
@@ -94,11 +95,11 @@ void fuzz_raw(Bytes bytes) {
 /// What comes out has a size that deflate can reach, and can be read.
 void fuzz_gzip(Bytes bytes) {
   ends_well([&] {
-    const ByteFile packed(bytes);
-    if (!io::is_gzip(packed)) return;
-    const auto plain = io::inflate_bytes(packed, 0);
-    require(plain->size() <= 1032 * bytes.size(), "deflate packs no tighter than 1 to 1032");
-    static_cast<void>(io::read_prefix(*plain, 64));
+    auto packed = std::make_unique<ByteFile>(bytes);
+    if (!io::is_gzip(*packed)) return;
+    const io::InflatedSource plain(std::move(packed), 0);
+    static_cast<void>(io::read_prefix(plain, 64));
+    require(plain.size() <= 1032 * bytes.size(), "deflate packs no tighter than 1 to 1032");
   });
 }
 
