@@ -47,10 +47,10 @@ CertificatePlan plan_certificate(const MeshRequest& request) {
     throw Error(ErrorKind::kUsage, "--certify on: " + why_not);
   }
   if (!why_not.empty()) return {.why_not = why_not};
-  const std::uint64_t memory = *request.memory / 4;
-  const auto most =
-      static_cast<int>(std::min<std::uint64_t>((memory - kShared) / kPerThread, 1024));
-  return {.threads = std::min(threads_or_all(request.threads), most), .memory_bytes = memory};
+  const std::uint64_t most = (*request.memory / 4 - kShared) / kPerThread;
+  const auto threads =
+      std::min<std::uint64_t>(most, static_cast<std::uint64_t>(threads_or_all(request.threads)));
+  return {.threads = static_cast<int>(threads), .memory_bytes = kShared + threads * kPerThread};
 }
 
 Certifier::Certifier(const CertificatePlan& plan, const MeshRequest& request,

@@ -13,7 +13,7 @@
 
 namespace mw::cli {
 
-/// What a certificate may take of a run's budget: a quarter.
+/// What a certificate takes of a run's budget: a quarter at most.
 struct CertificatePlan {
   std::string why_not;  ///< empty: it is made
   int threads = 0;

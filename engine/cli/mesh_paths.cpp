@@ -63,12 +63,9 @@ bool is_at_or_in(const fs::path& path, const fs::path& folder) {
 using Named = std::pair<std::string, fs::path>;
 
 std::vector<Named> files_of(const MeshRequest& request) {
-  std::vector<Named> out{{"the input", request.volume.path},
-                         {"--names", request.volume.names},
-                         {"--size-file", request.size_file},
-                         {"--report", request.report},
-                         {"--html", request.html},
-                         {"--trace", request.trace}};
+  std::vector<Named> out{{"the input", request.volume.path}, {"--names", request.volume.names},
+                         {"--size-file", request.size_file}, {"--report", request.report},
+                         {"--html", request.html},           {"--trace", request.trace}};
   for (const fs::path& file : io::mesh_files(request.output)) out.emplace_back("the output", file);
   std::erase_if(out, [](const Named& file) { return file.second.empty(); });
   return out;

@@ -10,6 +10,7 @@
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/shape_facts.h"
 #include "engine/cli/speck_facts.h"
+#include "engine/cli/verify_report.h"
 
 namespace mw::cli {
 namespace {
@@ -155,18 +156,6 @@ ordered_json certificate_json(const FinishedRun& run) {
           {"checks", std::move(checks)}};
 }
 
-ordered_json betti_json(const audit::RegionBetti& betti) {
-  const auto numbers = [](const audit::Betti& b) { return ordered_json{b.b0, b.b1, b.b2}; };
-  return {{"closed", numbers(betti.closed)}, {"open", numbers(betti.open)}};
-}
-
-/// Adds to the row of a label what was counted on both sides.
-void add_topology(Label label, const FinishedRun& run, ordered_json& row) {
-  if (run.certificate == nullptr) return;
-  row["betti_of_volume"] = betti_json(run.certificate->voxels[label]);
-  row["betti_of_mesh"] = betti_json(run.certificate->mesh[label]);
-}
-
 }  // namespace
 
 double vertex_fraction(std::uint64_t vertices, Index3 shape) {
@@ -209,7 +198,7 @@ void write_run_report(io::AtomicFile& file, const FinishedRun& run,
     each_volume(run, [&](const audit::VolumeRow& row) {
       ordered_json out = volume_row_json(row, run.labels, run.volume.names);
       add_size(row.label, run, out);
-      add_topology(row.label, run, out);
+      if (run.certificate != nullptr) add_topology(row.label, *run.certificate, out);
       take(out);
     });
   };

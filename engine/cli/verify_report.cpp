@@ -90,9 +90,15 @@ ordered_json volume_json(const Verdict& verdict) {
   ordered_json rows = ordered_json::array();
   for (const audit::VolumeRow& row : volumes.per_label) {
     rows.push_back(volume_row_json(row, verdict.table, verdict.names));
+    add_topology(row.label, verdict.audit, rows.back());
   }
   out["per_label"] = std::move(rows);
   return out;
+}
+
+ordered_json betti_json(const audit::RegionBetti& betti) {
+  const auto numbers = [](const audit::Betti& b) { return ordered_json{b.b0, b.b1, b.b2}; };
+  return {{"closed", numbers(betti.closed)}, {"open", numbers(betti.open)}};
 }
 
 ordered_json asked_json(const Bounds& bounds) {
@@ -134,6 +140,11 @@ void print_verdict(const Verdict& verdict) {
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const audit::Check& check) { return !check.passed; });
   std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail") << "\n";
+}
+
+void add_topology(Label label, const audit::AuditReport& report, ordered_json& row) {
+  row["betti_of_volume"] = betti_json(report.voxels[label]);
+  row["betti_of_mesh"] = betti_json(report.mesh[label]);
 }
 
 ordered_json verdict_json(const Verdict& verdict) {

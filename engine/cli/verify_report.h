@@ -26,6 +26,9 @@ struct Verdict {
 
 void print_verdict(const Verdict& verdict);
 
+/// Adds to the row of a label its Betti numbers on both sides.  REQUIRES: both were counted.
+void add_topology(Label label, const audit::AuditReport& report, nlohmann::ordered_json& row);
+
 /// What was checked and found, without settings and performance.
 [[nodiscard]] nlohmann::ordered_json verdict_json(const Verdict& verdict);
 
