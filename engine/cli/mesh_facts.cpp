@@ -12,19 +12,6 @@ namespace mw::cli {
 
 using nlohmann::ordered_json;
 
-std::vector<Label> dense_labels(const io::MeshData& mesh, const io::LabelTable& table) {
-  std::vector<Label> dense;
-  dense.reserve(mesh.labels.size());
-  for (const RawLabel raw : mesh.labels) {
-    dense.push_back(table.contains(raw) ? table.dense(raw) : audit::kUnknown);
-  }
-  return dense;
-}
-
-audit::AuditMesh audit_view(const io::MeshData& mesh, std::span<const Label> labels) {
-  return {.vertices = mesh.vertices, .tets = mesh.tets, .labels = labels};
-}
-
 ordered_json quality_json(const audit::QualityReport& quality) {
   return {{"radius_ratio_min", quality.radius_ratio_min},
           {"radius_ratio_mean", quality.radius_ratio_mean},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What can be said of a mesh in memory, and how reports say it.
+// What can be said of a mesh, and how reports say it.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,6 @@
 #include "kernels/audit/quality.h"
 
 namespace mw::cli {
-
-/// Labels of the tets as audit wants them; one that is not in the table is audit::kUnknown.
-[[nodiscard]] std::vector<Label> dense_labels(const io::MeshData& mesh,
-                                              const io::LabelTable& table);
-
-/// A view of mesh; labels may be empty where nobody looks at them.
-[[nodiscard]] audit::AuditMesh audit_view(const io::MeshData& mesh, std::span<const Label> labels);
 
 /// "quality" of a report.
 [[nodiscard]] nlohmann::ordered_json quality_json(const audit::QualityReport& quality);

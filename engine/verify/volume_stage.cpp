@@ -165,7 +165,6 @@ class VolumeStage {
     audit::DistanceTask task{
         .voxels = {lattice.view(), layered_shape(grid_.shape(), layers_), lattice_loaded, {}},
         .pieces = pieces,
-        .piece_radius = pieces_->radius(),
         .label_count = names.size(),
         .kept = names.own(task_.options.kept),
         .samples = lattice_box,

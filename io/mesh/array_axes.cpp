@@ -47,10 +47,4 @@ Position array_position(const VolumeSpace& space, const Position& p, Index3 laye
   return out;
 }
 
-void turn_to_array(MeshData& mesh, const VolumeSpace& space, Index3 layers) {
-  for (Position& p : mesh.vertices) p = array_position(space, p, layers);
-  if (!is_mirrored(space)) return;
-  for (TetRows& tet : mesh.tets) std::swap(tet[2], tet[3]);
-}
-
 }  // namespace mw::io

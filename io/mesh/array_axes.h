@@ -1,23 +1,19 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A mesh in the world, brought back to the axes of the array that it was made from.
+// A vertex in the world, brought back to the axes of the array that it was made from.
 #pragma once
 
-#include "io/mesh/mesh_data.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/volume/volume_space.h"
 
 namespace mw::io {
 
-/// One vertex of such a mesh; see turn_to_array().
-[[nodiscard]] Position array_position(const VolumeSpace& space, const Position& p, Index3 layers);
-
-/// Undoes the space of a volume: vertices become spacing * corner, tets that the world sees in a
-/// mirror are turned as well, so that positive ones stay positive.
+/// Undoes the space of a volume for a vertex: spacing * corner.  (Of tets that the world sees in a
+/// mirror two corners change places as well, so that positive ones stay positive.)
 /// A vertex that was written from a point of the lattice (1/1024 of a voxel that is cut into
 /// `layers`) comes back as that point exactly: it is taken for one when the point's place in the
 /// world is the vertex to within rounding, some 10 units in the last place of the largest number
 /// that its coordinate is the sum of.  Others come back as the inverse has them, rounded.
-/// REQUIRES: tets name vertices that there are, or they are left to whoever checks them.
-void turn_to_array(MeshData& mesh, const VolumeSpace& space, Index3 layers);
+[[nodiscard]] Position array_position(const VolumeSpace& space, const Position& p, Index3 layers);
 
 }  // namespace mw::io

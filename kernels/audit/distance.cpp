@@ -98,7 +98,6 @@ DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_cou
   }
   const auto rows = measure_distances({.voxels = whole(volume),
                                        .pieces = pieces,
-                                       .piece_radius = most,
                                        .label_count = label_count,
                                        .kept = kept,
                                        .samples = {{0, 0, 0}, volume.shape},

@@ -41,9 +41,8 @@ struct LabelDistances {
 /// first corner.
 struct DistanceTask {
   VoxelTile voxels;
-  /// Pieces of at most piece_radius.  Those whose centroid is in the box of `samples` are measured.
+  /// Those whose centroid is in the box of `samples` are measured.
   std::span<const InterfaceTriangle> pieces;
-  double piece_radius = kPieceRadius;
   std::size_t label_count = 0;
   KeptLabels kept;
   /// Voxels whose lower faces, and the pieces in which, are measured.

@@ -42,9 +42,4 @@ Check kept_orientation(const Offenders& changed) {
           changed.text() + " change their sign by the rounding of coordinates"};
 }
 
-Check check_kept_orientation(const AuditMesh& turned, std::span<const Position> written,
-                             bool mirrored) {
-  return kept_orientation(changed_orientations({.mesh = turned}, written, mirrored));
-}
-
 }  // namespace mw::audit

@@ -8,16 +8,13 @@
 
 namespace mw::audit {
 
-/// "P2 orientation in the world": every tet has the sign in the file's coordinates that it has in
-/// the array's axes, exactly; so rounding turned none over and made none flat.
+/// Of the tets that a tile owns, those that have another sign in the file's coordinates than in the
+/// array's axes, exactly: rounding turned them over or made them flat.
 /// written: positions as the file has them; mirrored: the world sees the array in a mirror.
 /// REQUIRES: the tets name vertices of both lists, as many in each.
-/// The same of the tets that a tile owns.
 [[nodiscard]] Offenders changed_orientations(const MeshTile& turned,
                                              std::span<const Position> written, bool mirrored);
+/// "P2 orientation in the world": there are none in any tile.
 [[nodiscard]] Check kept_orientation(const Offenders& changed);
-
-[[nodiscard]] Check check_kept_orientation(const AuditMesh& turned,
-                                           std::span<const Position> written, bool mirrored);
 
 }  // namespace mw::audit
