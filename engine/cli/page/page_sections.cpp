@@ -101,26 +101,44 @@ Verdict resume_verdict(const ordered_json& report) {
                        : with_commas(resumed) + " windows were done before it was interrupted"};
 }
 
+/// What the certificate says of a promise; without one, how to check it.
+Verdict certified(const ordered_json& report, const char* name, const char* promise,
+                  const char* how) {
+  const ordered_json& certificate = report["certificate"];
+  if (!certificate["made"].get<bool>()) return unchecked(name, promise, how);
+  bool holds = true;
+  for (const ordered_json& check : certificate["checks"]) {
+    const bool is_of = check["name"].get<std::string>().starts_with(name);
+    holds = holds && (!is_of || check["passed"].get<bool>());
+  }
+  return judged(name, promise, holds, "checked in the mesh before it got its name");
+}
+
 Verdict bound_verdict(const ordered_json& report) {
   const ordered_json& bound = report["settings"]["max_distance"];
-  return unchecked(
-      "P4", "No boundary moves farther than the bound, both ways.",
-      bound == "none" ? "the run had no bound"
-                      : "bound " + flag_text(bound) + " voxels of the lattice; verify measures it");
+  constexpr const char* kPromise = "No boundary moves farther than the bound, both ways.";
+  if (bound == "none") return unchecked("P4", kPromise, "the run had no bound");
+  Verdict out = certified(report, "P4", kPromise, "verify measures it");
+  const ordered_json& most = report["distance"]["max_voxels"];
+  out.evidence = "bound " + flag_text(bound) + " voxels of the lattice; " +
+                 (most.is_null() ? out.evidence : format_fixed(most.get<double>(), 2) + " at most");
+  return out;
 }
 
 std::vector<Verdict> verdicts(const ordered_json& report) {
-  return {unchecked("P1", "Every label keeps its topology, background and exterior included.",
-                    "kept by every step; verify counts Betti numbers of voxels and mesh"),
-          unchecked("P2", "Tets are strictly positive, the mesh is conforming, the box is whole.",
-                    "kept by every step; verify decides it by exact arithmetic"),
-          shape_verdict(report),
-          bound_verdict(report),
-          unchecked("P5", "The mesh is a function of volume and settings alone.",
-                    "the same run anywhere gives " + report["digest"].get<std::string>()),
-          memory_verdict(report),
-          resume_verdict(report),
-          volume_verdict(report)};
+  return {
+      certified(report, "P1", "Every label keeps its topology, background and exterior included.",
+                "kept by every step; verify counts Betti numbers of voxels and mesh"),
+      certified(report, "P2",
+                "Tets are strictly positive, the mesh is conforming, the box is whole.",
+                "kept by every step; verify decides it by exact arithmetic"),
+      shape_verdict(report),
+      bound_verdict(report),
+      unchecked("P5", "The mesh is a function of volume and settings alone.",
+                "the same run anywhere gives " + report["digest"].get<std::string>()),
+      memory_verdict(report),
+      resume_verdict(report),
+      volume_verdict(report)};
 }
 
 std::string promise_row(const Verdict& verdict) {
