@@ -38,7 +38,7 @@ class VolumesTest : public ProgramTest {
   }
 };
 
-/// The run measures block by block, verify with the whole mesh in memory, info with sorted files.
+/// The run measures block by block, verify tile by tile, info with sorted files.
 TEST_F(VolumesTest, Promise8RunVerifyAndInfoAgree) {
   for (const std::string mesh : {"v.vtkhdf", "v.vtu", "v.mesh"}) {
     SCOPED_TRACE(mesh);
