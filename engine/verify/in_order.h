@@ -22,7 +22,7 @@ void each_in_order(int threads, std::uint32_t count,
                    const std::function<void(std::uint32_t, Result&&)>& merge) {
   struct Done {
     std::uint32_t tile = 0;
-    std::unique_ptr<Result> result;
+    Result result;
   };
   std::uint32_t next = 0;
   const auto start = [&](tbb::flow_control& control) {
@@ -30,10 +30,10 @@ void each_in_order(int threads, std::uint32_t count,
     return next == count ? count : next++;
   };
   const auto finish = [&](std::shared_ptr<Done> done) {
-    merge(done->tile, std::move(*done->result));
+    merge(done->tile, std::move(done->result));
   };
   const auto run = [&](std::uint32_t tile) {
-    return std::make_shared<Done>(Done{tile, std::make_unique<Result>(work(tile))});
+    return std::make_shared<Done>(Done{tile, work(tile)});
   };
   Crew crew(threads);
   crew.run([&] {
