@@ -44,9 +44,17 @@ void BlockTable::restore(const JournalBlock& from) {
                         .sum = from.sum,
                         .memory_kib = static_cast<std::uint32_t>(from.memory_bytes / 1024),
                         .recorded = true};
-  const BlockKey key = layout_.key(from.slot);
+  forget_parts(layout_.key(from.slot));
+}
+
+/// All the way down: a part that came and went within one group is in no record, and what it was
+/// made of is in an earlier one.
+void BlockTable::forget_parts(const BlockKey& key) {
   if (key.march == 0) return;
-  for (const BlockKey& part : layout_.parts(key)) blocks_[layout_.slot(part)] = {};
+  for (const BlockKey& part : layout_.parts(key)) {
+    blocks_[layout_.slot(part)] = {};
+    forget_parts(part);
+  }
 }
 
 void BlockTable::take_extents() {

@@ -74,6 +74,7 @@ class BlockTable {
   using Turn = std::pair<std::uint64_t, std::uint64_t>;  ///< next use, slot
 
   [[nodiscard]] Turn turn(std::uint64_t slot) const;
+  void forget_parts(const BlockKey& key);
   void write(StoredBlock& block);
 
   const RunLayout& layout_;

@@ -174,6 +174,37 @@ TEST(RunStore, GoesOnFromWhatWasSaved) {
   }
 }
 
+/// On small volumes a group may hold all of a march: a block that was recorded before it is then a
+/// part of a part of one in the group, and is gone as well.  Its space is used again.
+TEST(RunStore, GoesOnFromAGroupThatHoldsAMarch) {
+  std::mt19937 random(349);
+  const RunLayout layout = fake_layout({17, 13, 9}, 4);
+  const FinalBytes expected = reference_run(layout);
+  const auto windows = [&](std::uint32_t m) {
+    return static_cast<std::uint64_t>(layout.grid(m).windows().product());
+  };
+  struct Stop {};
+  for (int trial = 0; trial < 20; ++trial) {
+    VolatileFiles files;
+    const std::uint64_t first = 1 + random() % windows(0);
+    const std::uint64_t second = windows(0) + windows(1) + 1 + random() % windows(2);
+    std::uint64_t done = 0;
+    const auto save_and_stop = [&](RunStore& store) {
+      if (++done == first || done >= second) store.save();
+      if (done + 1 == layout.windows()) throw Stop{};
+    };
+    MemoryBudget budget(index_bytes(layout) + kTightBytes);
+    {
+      RunStore store(layout, budget, &files, kNever);
+      EXPECT_THROW(fake_run(layout, store, random, [&] { save_and_stop(store); }), Stop);
+    }
+    RunStore store(layout, budget, &files, kNever);
+    EXPECT_EQ(store.facts().resumed_windows, done);
+    fake_run(layout, store, random);
+    EXPECT_EQ(final_bytes(layout, store), expected);
+  }
+}
+
 /// The disk fails at any operation (the write that fails arrives by half), then the power is cut,
 /// and that as often as the run is gone on with.
 TEST(RunStore, GoesOnAfterFailingDisksAndPowerCuts) {
