@@ -4,9 +4,9 @@
 #include "engine/cli/certificate.h"
 
 #include "engine/cli/interrupt.h"
-#include "engine/cli/resource_options.h"
 #include "engine/cli/values.h"
 #include "engine/cli/verdict.h"
+#include "engine/march/march.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -48,8 +48,8 @@ CertificatePlan plan_certificate(const MeshRequest& request) {
   }
   if (!why_not.empty()) return {.why_not = why_not};
   const std::uint64_t most = (*request.memory / 4 - kShared) / kPerThread;
-  const auto threads =
-      std::min<std::uint64_t>(most, static_cast<std::uint64_t>(threads_or_all(request.threads)));
+  const auto threads = std::min<std::uint64_t>(
+      most, static_cast<std::uint64_t>(engine::thread_count(request.threads)));
   return {.threads = static_cast<int>(threads), .memory_bytes = kShared + threads * kPerThread};
 }
 

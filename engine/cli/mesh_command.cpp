@@ -197,6 +197,7 @@ int threads_at_hand(int asked) {
 
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
+  const CertificatePlan plan = plan_certificate(request);
   const ResourceMeter meter;
   MeshFiles files(request);
   spdlog::info("reading {}", request.volume.path.string());
@@ -216,11 +217,10 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   run.labels_seconds = meter.read().wall_seconds;
   spdlog::info("meshing {} labels", table.size());
   const io::DenseVolume labels(volume, table);
-  const CertificatePlan plan = plan_certificate(request);
   if (plan.why_not.empty()) files.certifier.emplace(plan, request, labels, files.uncertified());
-  run.engine = mesh_or_keep(request, labels, files, fingerprint.text(),
-                            *request.memory - input.held_bytes());
   run.fingerprint = fingerprint.text();
+  run.engine =
+      mesh_or_keep(request, labels, files, run.fingerprint, *request.memory - input.held_bytes());
   run.why_no_certificate = plan.why_not;
   if (files.certifier) run.certificate = &files.certifier->report();
   if (files.trace) files.trace->finish();

@@ -3,8 +3,6 @@
 // Options about the machine.
 #include "engine/cli/resource_options.h"
 
-#include <tbb/info.h>
-
 #include <algorithm>
 
 #include "engine/cli/values.h"
@@ -47,10 +45,6 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
 std::uint64_t cache_bytes(std::uint64_t memory) {
   constexpr std::uint64_t kMost = 1ULL << 30U;
   return std::min(memory / 4, kMost);
-}
-
-int threads_or_all(int threads) {
-  return threads > 0 ? threads : tbb::info::default_concurrency();
 }
 
 }  // namespace mw::cli

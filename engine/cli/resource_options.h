@@ -18,7 +18,4 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
 /// What a chunked volume may keep of its file while labels are read: nothing else needs much then.
 [[nodiscard]] std::uint64_t cache_bytes(std::uint64_t memory);
 
-/// The number of threads that 0 stands for.
-[[nodiscard]] int threads_or_all(int threads);
-
 }  // namespace mw::cli

@@ -145,15 +145,11 @@ ordered_json topology_json(const FinishedRun& run) {
 
 ordered_json certificate_json(const FinishedRun& run) {
   if (run.certificate == nullptr) return {{"made", false}, {"why", run.why_no_certificate}};
-  ordered_json checks = ordered_json::array();
-  for (const audit::Check& check : run.certificate->checks) {
-    checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
-  }
   return {{"made", true},
           {"label_fingerprint", run.fingerprint},
           {"volume", run.certificate->validity.volume},
           {"box_volume", run.certificate->validity.box_volume},
-          {"checks", std::move(checks)}};
+          {"checks", checks_json(*run.certificate)}};
 }
 
 }  // namespace

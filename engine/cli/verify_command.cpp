@@ -6,9 +6,9 @@
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/mesh_facts.h"
-#include "engine/cli/resource_options.h"
 #include "engine/cli/verdict.h"
 #include "engine/label_scan.h"
+#include "engine/march/march.h"
 #include "io/file/nameless_file.h"
 #include "io/mesh/open_mesh.h"
 
@@ -33,7 +33,7 @@ Verdict judge(const VerifyRequest& request) {
   io::copy_mesh(request.mesh, mesh);
   verdict.bounds = bounds_of(request, mesh.header().record);
   engine::VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space),
-                          .threads = threads_or_all(request.threads),
+                          .threads = engine::thread_count(request.threads),
                           .memory_bytes = *request.memory / 2,
                           .folder = folder};
   task.options.max_volume_error = request.max_volume_error;

@@ -54,14 +54,6 @@ void print_bounds(const Bounds& bounds) {
             << (bounds.of_run ? " (what is not given is what the run promised)\n" : "\n");
 }
 
-ordered_json checks_json(const audit::AuditReport& audit) {
-  ordered_json out = ordered_json::array();
-  for (const audit::Check& check : audit.checks) {
-    out.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
-  }
-  return out;
-}
-
 ordered_json topology_json(const Verdict& verdict) {
   if (!verdict.looked_at()) return {{"checked", false}, {"labels_changed", nullptr}};
   ordered_json out{{"checked", true},
@@ -140,6 +132,14 @@ void print_verdict(const Verdict& verdict) {
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const audit::Check& check) { return !check.passed; });
   std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail") << "\n";
+}
+
+ordered_json checks_json(const audit::AuditReport& audit) {
+  ordered_json out = ordered_json::array();
+  for (const audit::Check& check : audit.checks) {
+    out.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
+  }
+  return out;
 }
 
 void add_topology(Label label, const audit::AuditReport& report, ordered_json& row) {

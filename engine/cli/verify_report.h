@@ -26,6 +26,9 @@ struct Verdict {
 
 void print_verdict(const Verdict& verdict);
 
+/// Name, verdict and detail of each.
+[[nodiscard]] nlohmann::ordered_json checks_json(const audit::AuditReport& audit);
+
 /// Adds to the row of a label its Betti numbers on both sides.  REQUIRES: both were counted.
 void add_topology(Label label, const audit::AuditReport& report, nlohmann::ordered_json& row);
 

@@ -86,9 +86,10 @@ class MeshStage {
     const audit::MeshTile view = loaded.view();
     const audit::MeshStars stars(view);
     TileFindings out{.names = loaded.names};
-    audit::ValidityTask validity = validity_;
-    validity.wanted = loaded.names.own(validity_.wanted);
-    out.validity = audit::tally_validity(stars, validity);
+    out.validity = audit::tally_validity(stars, {.frame = validity_.frame,
+                                                 .shape = validity_.shape,
+                                                 .wanted = loaded.names.own(validity_.wanted),
+                                                 .has_gaps = validity_.has_gaps});
     if (!loaded.written.empty()) {
       out.turned = audit::changed_orientations(view, loaded.written, mesh_.is_mirrored());
     }

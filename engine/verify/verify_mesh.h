@@ -12,7 +12,8 @@ namespace mw::engine {
 /// it, is all that a thread has in memory.  The whole mesh is in memory only where labels were left
 /// out (task.options.kept), mesh and volume where interfaces are counted (count_places).
 /// Memory: besides, 24 bytes a part of a label in a tile, and 8 for each other one that it touches.
-/// ENSURES: the report depends on mesh and volume only; sums are rounded in the order of the tiles.
+/// ENSURES: the report depends on mesh and volume only, but for distances farther than memory lets
+/// it look (DistanceReport::far_samples); sums are rounded in the order of the tiles.
 /// ERRORS: kResource when a temporary file cannot be written.
 /// REQUIRES: mesh is finished, and of that volume.
 [[nodiscard]] audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& mesh,
