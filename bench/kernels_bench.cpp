@@ -6,13 +6,13 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "engine/tbb_for.h"
-#include "kernels/coarsen/coarsen.h"
-#include "kernels/lattice/graded_start.h"
+#include "engine/system/tbb_for.h"
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
+#include "kernels/start/coarsen.h"
+#include "kernels/start/graded_start.h"
 #include "kernels/synth/synth.h"
-#include "tests/kernels/lattice/level_maps.h"
+#include "tests/kernels/start/level_maps.h"
 
 namespace mw {
 namespace {

@@ -8,17 +8,17 @@
 #include <memory>
 #include <mutex>
 
+#include "engine/forecast/run_forecast.h"
+#include "engine/labels/prepared_labels.h"
+#include "engine/labels/voxel_lattice.h"
 #include "engine/march/timed_visit.h"
-#include "engine/prepared_labels.h"
-#include "engine/resident_memory.h"
-#include "engine/run_forecast.h"
-#include "engine/stopwatch.h"
 #include "engine/store/damaged_work.h"
 #include "engine/store/run_identity.h"
 #include "engine/store/workdir.h"
-#include "engine/tbb_for.h"
-#include "engine/voxel_lattice.h"
-#include "engine/window_memory.h"
+#include "engine/system/resident_memory.h"
+#include "engine/system/stopwatch.h"
+#include "engine/system/tbb_for.h"
+#include "engine/window/window_memory.h"
 #include "io/file/errors.h"
 
 namespace mw::engine {
@@ -50,17 +50,17 @@ class Marches {
            const WindowVisitor& visitor) {
     forecast_.begin_march([&](Index3 w) { return store.is_done(w); });
     const std::uint64_t budget = hooks_.store.memory;
-    const bool roomy = is_roomy(budget, order.grid(), thread_count(hooks_.threads));
-    if (!roomy) return_large_pieces_at_once();
+    const bool is_ample = budget_is_ample(budget, order.grid(), thread_count(hooks_.threads));
+    if (!is_ample) return_large_pieces_at_once();
     const WindowNeeds needs{.start_size =
                                 [&](Index3 block) {
-                                  return roomy ? most_start_size(order.grid(), block)
-                                               : visitor.start_size(block);
+                                  return is_ample ? most_start_size(order.grid(), block)
+                                                  : visitor.start_size(block);
                                 },
                             .max_distance = visitor.max_distance()};
     const AdmitWindow admit = [&](Index3 window) -> Admission {
       const std::uint64_t bytes = window_bytes(order.grid(), window, store, needs);
-      if (!roomy && bytes < budget) return_free_memory_above(budget - bytes);
+      if (!is_ample && bytes < budget) return_free_memory_above(budget - bytes);
       if (!store.admit(window, bytes)) return nullptr;
       return std::make_shared<Index3>(window);
     };

@@ -7,11 +7,11 @@
 #include <functional>
 
 #include "engine/codt/worker_pool.h"
-#include "engine/finish.h"
 #include "engine/march/march.h"
-#include "engine/settings.h"
+#include "engine/output/finish.h"
+#include "engine/settings/settings.h"
 #include "engine/store/store_options.h"
-#include "engine/window_visitor.h"
+#include "engine/window/window_visitor.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
 

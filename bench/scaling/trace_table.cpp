@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "engine/window_grid.h"
+#include "engine/window/window_grid.h"
 #include "kernels/core/each_index.h"
 #include "kernels/core/error.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/cli/option_set.h"
-#include "engine/label_selection.h"
+#include "engine/output/label_selection.h"
 
 namespace mw::cli {
 

@@ -10,7 +10,6 @@
 #include "engine/cli/certificate.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/fingerprint.h"
 #include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh_facts.h"
@@ -20,10 +19,11 @@
 #include "engine/cli/speck_facts.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
-#include "engine/crew.h"
-#include "engine/label_scan.h"
-#include "engine/resident_memory.h"
-#include "engine/voxel_lattice.h"
+#include "engine/labels/fingerprint.h"
+#include "engine/labels/label_scan.h"
+#include "engine/labels/voxel_lattice.h"
+#include "engine/system/crew.h"
+#include "engine/system/resident_memory.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
@@ -208,7 +208,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
                                 {.memory = *request.memory / 4});
   engine::return_free_memory_above(0);  // the search for specks has let go of more than is held
   const io::LabelVolume& volume = input.volume();
-  const FingerprintVolume fingerprint(volume);
+  const engine::FingerprintVolume fingerprint(volume);
   const io::LabelTable table = engine::collect_labels(fingerprint, request.threads);
   FinishedRun run{.volume = volume.info(),
                   .labels = table,

@@ -8,7 +8,7 @@
 #include "engine/cli/label_choice.h"
 #include "engine/cli/progress.h"
 #include "engine/cli/volume_options.h"
-#include "engine/settings.h"
+#include "engine/settings/settings.h"
 #include "io/mesh/element.h"
 
 namespace mw::cli {

@@ -3,7 +3,7 @@
 // The settings of the engine as options.
 #include "engine/cli/setting_options.h"
 
-#include "engine/setting_table.h"
+#include "engine/settings/setting_table.h"
 
 namespace mw::cli {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/cli/option_set.h"
-#include "engine/settings.h"
+#include "engine/settings/settings.h"
 
 namespace mw::cli {
 

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "engine/size_text.h"
+#include "engine/settings/size_text.h"
 #include "io/file/errors.h"
 #include "io/file/open_bytes.h"
 #include "io/names/csv_records.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/cli/option_set.h"
-#include "engine/settings.h"
+#include "engine/settings/settings.h"
 
 namespace mw::cli {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/number_text.h"
+#include "engine/settings/number_text.h"
 #include "io/mesh/element.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"

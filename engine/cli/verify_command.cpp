@@ -7,7 +7,7 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/mesh_facts.h"
 #include "engine/cli/verdict.h"
-#include "engine/label_scan.h"
+#include "engine/labels/label_scan.h"
 #include "engine/march/march.h"
 #include "io/file/nameless_file.h"
 #include "io/mesh/open_mesh.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/cli/volume_options.h"
-#include "engine/label_regions.h"
+#include "engine/labels/label_regions.h"
 
 namespace mw::cli {
 

@@ -3,7 +3,7 @@
 // A volume as a mesh is held against it by `info` and `stats`.
 #include "engine/cli/voxel_counts.h"
 
-#include "engine/label_regions.h"
+#include "engine/labels/label_regions.h"
 
 namespace mw::cli {
 

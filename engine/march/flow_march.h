@@ -3,8 +3,8 @@
 // The march with many threads, on a oneTBB flow graph.
 #pragma once
 
-#include "engine/crew.h"
 #include "engine/march/march.h"
+#include "engine/system/crew.h"
 
 namespace mw::engine {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/march/march.h"
-#include "engine/stopwatch.h"
+#include "engine/system/stopwatch.h"
 
 namespace mw::engine {
 

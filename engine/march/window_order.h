@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/settings.h"
-#include "engine/window_grid.h"
+#include "engine/settings/settings.h"
+#include "engine/window/window_grid.h"
 
 namespace mw::engine {
 

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "engine/setting_table.h"
+#include "engine/settings/setting_table.h"
 #include "io/file/errors.h"
 
 namespace mw::engine {

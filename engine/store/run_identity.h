@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "engine/settings.h"
+#include "engine/settings/settings.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::engine {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "engine/settings.h"
+#include "engine/settings/settings.h"
 #include "engine/store/block_codec.h"
-#include "engine/window_grid.h"
+#include "engine/window/window_grid.h"
 
 namespace mw::engine {
 

@@ -8,9 +8,9 @@
 
 #include "engine/store/damaged_work.h"
 #include "engine/store/workdir.h"
-#include "engine/window.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
+#include "kernels/mesh/merge_blocks.h"
 
 namespace mw::engine {
 namespace {
@@ -147,7 +147,7 @@ std::optional<BlockMesh> RunStore::assemble(const std::vector<Source>& sources) 
   if (sources.size() == 1) return read(sources.front());
   std::vector<BlockMesh> parts;
   for (const Source& source : sources) parts.push_back(read(source));
-  return merge(std::move(parts));
+  return merge_blocks(std::move(parts));
 }
 
 std::vector<std::optional<BlockMesh>> RunStore::take(const WindowKey& key) const {

@@ -8,8 +8,8 @@
 #include <map>
 #include <mutex>
 
-#include "engine/block_store.h"
 #include "engine/store/block_table.h"
+#include "engine/window/block_store.h"
 
 namespace mw::engine {
 

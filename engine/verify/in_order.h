@@ -9,7 +9,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/crew.h"
+#include "engine/system/crew.h"
 
 namespace mw::engine {
 

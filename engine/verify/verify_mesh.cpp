@@ -3,7 +3,7 @@
 // The two halves, put together.
 #include "engine/verify/verify_mesh.h"
 
-#include "engine/reading_tiles.h"
+#include "engine/labels/reading_tiles.h"
 #include "engine/verify/mesh_stage.h"
 #include "engine/verify/volume_stage.h"
 #include "kernels/audit/kept_orientation.h"

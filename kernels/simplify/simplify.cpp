@@ -12,7 +12,7 @@
 #include "kernels/simplify/shape_filter.h"
 #include "kernels/simplify/vertex_queue.h"
 #include "kernels/size/edge_limits.h"
-#include "kernels/topology/collapse_test.h"
+#include "kernels/topology/link_condition.h"
 
 namespace mw {
 namespace {
@@ -230,7 +230,7 @@ class Simplifier {
   ShapeFilter shape_;
   EdgeLimits limits_;
   InnerFilter inner_;
-  CollapseTest topology_;
+  LinkCondition topology_;
   BendFilter bends_;
   SimplifyStats stats_;
 };

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "engine/labels/voxel_lattice.h"
 #include "engine/store/run_identity.h"
-#include "engine/voxel_lattice.h"
 #include "kernels/audit/betti.h"
 #include "kernels/audit/quality.h"
 #include "kernels/audit/validity.h"

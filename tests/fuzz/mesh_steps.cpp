@@ -8,7 +8,7 @@
 #include "kernels/optimise/optimise.h"
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/simplify/simplify.h"
-#include "kernels/topology/collapse_test.h"
+#include "kernels/topology/link_condition.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/small_inputs.h"
 #include "tests/kernels/surface/interface_triangles.h"
@@ -54,7 +54,7 @@ LocalVertex choose_neighbour(const TetMesh& mesh, LocalVertex p, Choices& choice
 }
 
 /// Tries one contraction; none when the choice is no free edge.
-void try_contraction(TetMesh& mesh, CollapseTest& collapse_test, Choices& choices) {
+void try_contraction(TetMesh& mesh, LinkCondition& link_condition, Choices& choices) {
   const LocalVertex p = choices.below(mesh.vertex_count());
   if (!mesh.is_alive(p) || !mesh.is_free(p)) return;
   const LocalVertex q = choose_neighbour(mesh, p, choices);
@@ -62,8 +62,8 @@ void try_contraction(TetMesh& mesh, CollapseTest& collapse_test, Choices& choice
   const std::uint32_t at = choices.below(3);
   const std::optional<Point> x = test::contraction_target(mesh, p, q, at);
   if (!x || !test::stays_positive(mesh, p, q, *x)) return;
-  const bool kept = collapse_test.keeps_topology(mesh, p, q);
-  require(kept == collapse_test.keeps_topology(mesh, q, p), "the verdict is the same both ways");
+  const bool kept = link_condition.keeps_topology(mesh, p, q);
+  require(kept == link_condition.keeps_topology(mesh, q, p), "the verdict is the same both ways");
   // Who survives must be on all planes of the box that the place is on.
   const LocalVertex keep = at == 1 ? q : p;
   if (kept) mesh.contract(keep, p + q - keep, *x, mesh.quadric(keep));
@@ -114,8 +114,9 @@ void fuzz_collapse(Bytes bytes) {
   TetMesh mesh = test::dense_mesh(volume);
   const std::int64_t before = positive_volume6(mesh);
   const audit::test::PlacesBetti places_before = places(mesh, volume.label_count);
-  CollapseTest collapse_test(mesh, interfaces ? KeptTopology::kInterfaces : KeptTopology::kLabels);
-  for (int i = 0; i < 200 && !choices.at_end(); ++i) try_contraction(mesh, collapse_test, choices);
+  LinkCondition link_condition(mesh,
+                               interfaces ? KeptTopology::kInterfaces : KeptTopology::kLabels);
+  for (int i = 0; i < 200 && !choices.at_end(); ++i) try_contraction(mesh, link_condition, choices);
   require(positive_volume6(mesh) == before, "tets fill the box");
   require(test::betti(mesh, volume.label_count) == test::betti(volume), "Betti numbers stay");
   require(!interfaces || places(mesh, volume.label_count) == places_before,

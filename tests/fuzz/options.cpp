@@ -8,7 +8,7 @@
 #include "engine/cli/option_text.h"
 #include "engine/cli/size_options.h"
 #include "engine/cli/values.h"
-#include "engine/size_text.h"
+#include "engine/settings/size_text.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/temp_folder.h"
 

@@ -82,6 +82,39 @@ bool io_may(const Include& include) {
                          "zstd_errors.h"});
 }
 
+/// A room of the engine, and what it sees of the others.
+struct Room {
+  std::string_view folder;
+  Names sees;
+};
+
+/// What lies in engine/ itself, on top, sees all rooms.
+const Room kRooms[] = {
+    {"engine/system/", {}},
+    {"engine/settings/", {}},
+    {"engine/codt/", {}},
+    {"engine/march/", {"engine/settings/", "engine/system/", "engine/window/window_grid.h"}},
+    // The store keeps blocks for windows, but knows nothing of what a window does.
+    {"engine/store/",
+     {"engine/settings/", "engine/march/window_order.h", "engine/window/block_store.h",
+      "engine/window/window_grid.h"}},
+    {"engine/labels/", {"engine/settings/", "engine/system/", "engine/march/march.h"}},
+    {"engine/window/",
+     {"engine/settings/", "engine/system/", "engine/labels/", "engine/march/window_order.h"}},
+    {"engine/forecast/",
+     {"engine/settings/", "engine/labels/", "engine/march/", "engine/store/run_layout.h"}},
+    {"engine/output/", {"engine/window/window_grid.h"}},
+    {"engine/verify/", {"engine/labels/", "engine/system/"}},
+};
+
+bool room_may(const std::string& file, const std::string& name) {
+  for (const Room& room : kRooms) {
+    if (!file.starts_with(room.folder)) continue;
+    return name.starts_with(room.folder) || is_below(name, room.sees);
+  }
+  return folder_of(file) == "engine/";
+}
+
 bool engine_may(const std::string& file, const Include& include) {
   const std::string& name = include.name;
   if (!include.quoted) {
@@ -91,7 +124,8 @@ bool engine_may(const std::string& file, const Include& include) {
   if (is_below(name, {"engine/cli/"}) || is_concrete_io(name)) return false;
   if (is_below(name, {"engine/codt/worker/"}) && !is_below(file, {"engine/codt/worker/"}))
     return false;
-  return is_below(name, {"kernels/", "io/", "engine/"});
+  if (name.starts_with("engine/")) return room_may(file, name);
+  return is_below(name, {"kernels/", "io/"});
 }
 
 bool cli_may(const Include& include) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "engine/label_contacts.h"
+#include "engine/labels/label_contacts.h"
 
 namespace mw::cli {
 

@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "tests/engine/cli/run_program.h"
-#include "tests/engine/setting_samples.h"
+#include "tests/engine/settings/setting_samples.h"
 
 namespace mw::cli {
 namespace {

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Promise 6, of the merge: what it says that it remembers, and what is set aside for one block, is
 // no less than what it allocates, all figures of a report included.
-#include "engine/finish.h"
+#include "engine/output/finish.h"
 
 #include "engine/march/window_order.h"
 #include "engine/store/run_store.h"
-#include "engine/window_memory.h"
-#include "engine/window_visitor.h"
+#include "engine/window/window_memory.h"
+#include "engine/window/window_visitor.h"
 #include "tests/engine/memory/counted_memory.h"
 #include "tests/engine/memory_run.h"
 

@@ -3,12 +3,12 @@
 // Promise 6, piece by piece: what a run sets aside for windows, for the making of labels and for
 // the merge is no less than what these allocate, whatever the volume, the start mesh and the
 // settings.
-#include "engine/window_memory.h"
+#include "engine/window/window_memory.h"
 
 #include "engine/march/window_order.h"
 #include "engine/store/run_store.h"
-#include "engine/tbb_for.h"
-#include "engine/window_visitor.h"
+#include "engine/system/tbb_for.h"
+#include "engine/window/window_visitor.h"
 #include "tests/engine/memory/counted_memory.h"
 #include "tests/engine/memory_run.h"
 

@@ -9,7 +9,7 @@
 
 #include "engine/march/march.h"
 #include "engine/store/run_store.h"
-#include "engine/window.h"
+#include "kernels/mesh/merge_blocks.h"
 #include "tests/engine/store/random_blocks.h"
 
 namespace mw::engine::test {
@@ -82,7 +82,7 @@ using FinalBytes = std::vector<std::vector<std::byte>>;
       each_index(layout.grid(m).blocks(), [&](Index3 b) {
         std::vector<BlockMesh> parts;
         for (const BlockKey& part : layout.parts({m, b})) parts.push_back(find(part).value());
-        blocks[layout.slot({m, b})] = merge(parts);
+        blocks[layout.slot({m, b})] = merge_blocks(parts);
       });
     }
     each_index(layout.grid(m).windows(), [&](Index3 w) {

@@ -197,10 +197,10 @@ MemoryVolume dusty() {
 
 TEST(DespeckledVolume, RefusesMoreSpecksThanMemoryHolds) {
   const MemoryVolume volume = dusty();
-  const DespeckledVolume roomy(volume, {2, false}, {.memory = 1 << 20});
-  EXPECT_EQ(roomy.facts().components, 2000U);
-  EXPECT_GE(roomy.held_bytes(), 2000U * sizeof(SpeckRun));
-  EXPECT_LE(roomy.held_bytes(), 1U << 17U);
+  const DespeckledVolume budget_is_ample(volume, {2, false}, {.memory = 1 << 20});
+  EXPECT_EQ(budget_is_ample.facts().components, 2000U);
+  EXPECT_GE(budget_is_ample.held_bytes(), 2000U * sizeof(SpeckRun));
+  EXPECT_LE(budget_is_ample.held_bytes(), 1U << 17U);
   // The runs alone, then their contacts, then two planes of the volume.
   for (const std::uint64_t memory : {75'000U, 100'000U}) {
     expect_error(ErrorKind::kResource, {"--drop-specks 2", "2000 components", "--memory"}, [&] {

@@ -7,7 +7,7 @@
 
 #include "kernels/core/each_index.h"
 #include "kernels/optimise/flips.h"
-#include "kernels/topology/collapse_test.h"
+#include "kernels/topology/link_condition.h"
 #include "tests/kernels/surface/interface_triangles.h"
 
 namespace mw::test {
@@ -127,7 +127,7 @@ LocalVertex random_move(GuardedMesh& guarded, std::mt19937& random) {
 }
 
 /// Tries to contract a random interface edge.
-bool random_contraction(GuardedMesh& guarded, CollapseTest& topology, std::mt19937& random) {
+bool random_contraction(GuardedMesh& guarded, LinkCondition& topology, std::mt19937& random) {
   TetMesh& mesh = guarded.mesh;
   const auto [p, q] = random_edge(mesh, random);
   if (p == q || !mesh.on_interface(p) || !mesh.on_interface(q)) return false;
@@ -157,7 +157,7 @@ TEST(Promise4Distance, SamplesSurviveRandomChanges) {
     const std::vector<Sample> samples = samples_of(volume);
     GuardedMesh guarded(volume, bound);
     expect_carried(guarded, samples, bound);
-    CollapseTest topology(guarded.mesh);
+    LinkCondition topology(guarded.mesh);
     const Metric metric;
     Flipper flipper(guarded.mesh, metric, 0.0, &guarded.guard);
     for (int round = 0; round < 5; ++round) {
@@ -287,7 +287,7 @@ TEST(DistanceGuard, KeepsTheSidesOfASheetApart) {
     });
     const std::vector<Sample> samples = samples_of(volume);
     GuardedMesh guarded(volume, 3.0);
-    CollapseTest topology(guarded.mesh);
+    LinkCondition topology(guarded.mesh);
     int changes = 0;
     for (int k = 0; k < 2000; ++k) {
       changes += random_move(guarded, random) != guarded.mesh.infinity() ? 1 : 0;

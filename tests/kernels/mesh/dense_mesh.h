@@ -8,9 +8,9 @@
 #include <optional>
 #include <set>
 
-#include "kernels/lattice/graded_start.h"
 #include "kernels/mesh/tet_mesh.h"
-#include "tests/kernels/lattice/level_maps.h"
+#include "kernels/start/graded_start.h"
+#include "tests/kernels/start/level_maps.h"
 #include "tests/oracle/cell_complex.h"
 #include "tests/oracle/small_volumes.h"
 

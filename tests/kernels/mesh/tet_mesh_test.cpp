@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/topology/collapse_test.h"
+#include "kernels/topology/link_condition.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::test {
@@ -157,7 +157,7 @@ TEST(TetMesh, ContractingEqualsRebuildingFromTheContractedTets) {
     const SmallVolume volume = random_volume(random);
     TetMesh mesh = i % 3 == 0 ? random_part(volume, random, 1) : dense_mesh(volume);
     disturb(mesh, random);
-    CollapseTest topology(mesh);
+    LinkCondition topology(mesh);
     for (int k = 0; k < 60; ++k) {
       const auto [p, q] = random_edge(mesh, random);
       if (p == q) continue;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/simplify/simplify.h"
-#include "kernels/topology/collapse_test.h"
+#include "kernels/topology/link_condition.h"
 #include "tests/kernels/surface/interface_triangles.h"
 
 namespace mw::test {
@@ -23,7 +23,7 @@ TEST(BendFilter, ComparesTheContractedMeshWithThePresentOne) {
     disturb(mesh, random);
     if (i % 4 < 2) simplify(mesh, metric, {.quality_floor = 0.02});
     BendFilter filter(mesh, metric);
-    CollapseTest topology(mesh);
+    LinkCondition topology(mesh);
     for (int k = 0; k < 150 && !HasFailure(); ++k) {
       const auto [p, q] = random_edge(mesh, random);
       if (p == q || !mesh.on_interface(p) || !mesh.on_interface(q)) continue;

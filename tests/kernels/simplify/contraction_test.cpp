@@ -7,7 +7,7 @@
 
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/simplify/shape_filter.h"
-#include "kernels/topology/collapse_test.h"
+#include "kernels/topology/link_condition.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::test {
@@ -283,7 +283,7 @@ TEST(Sec54Filters, JudgeAlikeAfterContractions) {
     disturb(mesh, random);
     const SimplifyOptions options{.quality_floor = 0.3, .inner_quality = 0.4};
     ShapeFilter filter(mesh, metric, options);
-    CollapseTest topology(mesh);
+    LinkCondition topology(mesh);
     StarBatch star;
     for (int k = 0; k < 100; ++k) {
       const auto [p, q] = random_edge(mesh, random);

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "kernels/simplify/simplify.h"
-#include "kernels/topology/collapse_test.h"
+#include "kernels/topology/link_condition.h"
 #include "tests/kernels/surface/interface_triangles.h"
 
 namespace mw::test {
@@ -228,7 +228,7 @@ TEST(SurfaceStar, MergedIsThatOfTheContractedMesh) {
   for (int i = 0; i < 80 && !HasFailure(); ++i) {
     const Metric metric = random_metric(random);
     TetMesh mesh = random_mesh(random, metric);
-    CollapseTest topology(mesh);
+    LinkCondition topology(mesh);
     for (int k = 0; k < 150 && !HasFailure(); ++k) {
       const auto [p, q] = random_edge(mesh, random);
       if (p == q || !mesh.on_interface(p) || !mesh.on_interface(q)) continue;

@@ -5,7 +5,7 @@
 
 #include "kernels/optimise/flips.h"
 #include "kernels/simplify/simplify.h"
-#include "kernels/topology/collapse_test.h"
+#include "kernels/topology/link_condition.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::test {
@@ -65,7 +65,7 @@ class Trial {
     if (p == q) return;
     const auto x = contraction_target(mesh_, p, q, below(random_, 3));
     if (!x || !stays_positive(mesh_, p, q, *x)) return;
-    CollapseTest interfaces(mesh_, KeptTopology::kInterfaces), labels(mesh_);
+    LinkCondition interfaces(mesh_, KeptTopology::kInterfaces), labels(mesh_);
     const bool accepted = interfaces.keeps_topology(mesh_, p, q);
     EXPECT_EQ(interfaces.keeps_topology(mesh_, q, p), accepted);
     count(p, q, accepted, labels.keeps_topology(mesh_, p, q));

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How long the rest of a run will take.
+#include "engine/forecast/run_forecast.h"
+
+#include "kernels/core/each_index.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr double kSecondsPerWork = 1e-6;  // the unit of MarchWork
+
+std::vector<MarchWork> marches_of(const BoundaryFaces& faces, const RunLayout& layout,
+                                  const MeshSettings& settings) {
+  std::vector<MarchWork> out;
+  for (std::uint32_t i = 0; i < layout.marches(); ++i) {
+    const bool is_last = i + 1 == layout.marches();
+    out.emplace_back(faces, WindowOrder(layout.grid(i), settings.order), settings,
+                     MarchPlace{.is_first = i == 0, .is_last = is_last});
+  }
+  return out;
+}
+
+}  // namespace
+
+RunForecast::RunForecast(const BoundaryFaces& faces, const RunLayout& layout,
+                         const MeshSettings& settings, int threads)
+    : faces_(faces),
+      layout_(layout),
+      marches_(marches_of(faces, layout, settings)),
+      left_(work_of_parts(), kSecondsPerWork / threads) {}
+
+void RunForecast::begin_march(const IsFinished& finished_before) {
+  const MarchWork& march = marches_[begun_];
+  double skipped = 0;
+  each_index(layout_.grid(static_cast<std::uint32_t>(begun_)).windows(), [&](Index3 window) {
+    if (finished_before(window)) skipped += march.of(window);
+  });
+  left_.begin(now(), skipped);
+  ++begun_;
+}
+
+void RunForecast::visited(Index3 window) {
+  left_.done(now(), marches_[begun_ - 1].of(window));
+}
+
+void RunForecast::begin_output() {
+  left_.begin(now(), 0);
+}
+
+void RunForecast::reading(Index3 block) {
+  left_.done(now(), output_work(faces_, output_box(block)));
+}
+
+std::vector<double> RunForecast::work_of_parts() const {
+  std::vector<double> work;
+  for (const MarchWork& march : marches_) work.push_back(march.of_all());
+  double output = 0;
+  each_index(layout_.grid(layout_.marches() - 1).blocks(),
+             [&](Index3 block) { output += 2 * output_work(faces_, output_box(block)); });
+  work.push_back(output);
+  return work;
+}
+
+Box3 RunForecast::output_box(Index3 block) const {
+  return layout_.grid(layout_.marches() - 1).block_box(block);
+}
+
+double RunForecast::now() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+}  // namespace mw::engine

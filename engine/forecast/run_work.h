@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What windows cost, told before they are visited.
+#pragma once
+
+#include "engine/labels/boundary_faces.h"
+#include "engine/march/window_order.h"
+#include "engine/settings/settings.h"
+
+namespace mw::engine {
+
+/// Of a march among those of its run.
+struct MarchPlace {
+  bool is_first = true;
+  bool is_last = true;
+};
+
+/// The work of one march's windows in microseconds of one core, as measured for balls, grains,
+/// noise, CT and EM volumes with one thread (within a factor of 1.5 of one another; other machines,
+/// settings and volumes differ by factors that a run measures by itself).  A window costs what
+/// interfaces it holds, more where they are dense, and more again for a block that it is the first
+/// to see.
+class MarchWork {
+ public:
+  /// REQUIRES: the faces outlive this.
+  MarchWork(const BoundaryFaces& faces, const WindowOrder& order, const MeshSettings& settings,
+            MarchPlace place);
+
+  [[nodiscard]] double of(Index3 window) const;
+  [[nodiscard]] double of_all() const;
+
+ private:
+  [[nodiscard]] bool sees_first(Index3 window, Index3 block) const;
+
+  const BoundaryFaces& faces_;
+  WindowOrder order_;
+  double per_face_;
+  double per_new_face_;
+  double per_new_voxel_;
+  double density_factor_;
+};
+
+/// The same of writing a block of the last march, which is read twice: of one of these times.
+[[nodiscard]] double output_work(const BoundaryFaces& faces, const Box3& block);
+
+}  // namespace mw::engine

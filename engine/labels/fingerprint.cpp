@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Whether two volumes hold the same labels, told by a number.
+#include "engine/labels/fingerprint.h"
+
+#include <array>
+#include <cstdio>
+
+#include "kernels/core/each_index.h"
+
+namespace mw::engine {
+namespace {
+
+/// The finaliser of SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): every bit reaches every bit.
+std::uint64_t mixed(std::uint64_t v) {
+  v = (v ^ v >> 30) * 0xBF58476D1CE4E5B9ULL;
+  v = (v ^ v >> 27) * 0x94D049BB133111EBULL;
+  return v ^ v >> 31;
+}
+
+}  // namespace
+
+void FingerprintVolume::read(const Box3& box, std::span<RawLabel> out) const {
+  below().read(box, out);
+  const Box3 all{{0, 0, 0}, info().shape};
+  std::uint64_t sum = 0;
+  std::size_t next = 0;
+  each_index(box, [&](Index3 voxel) {
+    const auto place = static_cast<std::uint64_t>(all.offset(voxel));
+    sum += mixed(mixed(out[next++] + 1) + place);
+  });
+  sum_ += sum;
+}
+
+std::string FingerprintVolume::text() const {
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx",
+                static_cast<unsigned long long>(sum_.load()));
+  return digits.data();
+}
+
+}  // namespace mw::engine

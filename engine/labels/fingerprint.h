@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Whether two volumes hold the same labels, told by a number.
+#pragma once
+
+#include <atomic>
+
+#include "io/volume/volume_view.h"
+
+namespace mw::engine {
+
+/// A volume that takes a fingerprint of what is read through it: a sum over voxels, so the same
+/// whatever boxes they are read in.  Content rather than name, size and time of the file: a copy
+/// or a conversion is the same input, a file edited in place is not; and all labels are read once
+/// at the start of a run anyway.  It guards against mistakes, not against malice.
+class FingerprintVolume : public io::VolumeView {
+ public:
+  using VolumeView::VolumeView;
+  void read(const Box3& box, std::span<RawLabel> out) const override;
+
+  /// 16 hexadecimal digits.  REQUIRES: every voxel has been read exactly once.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  mutable std::atomic<std::uint64_t> sum_ = 0;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Runs of one label along x, added up by label.
+#include "engine/labels/label_regions.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "engine/labels/reading_tiles.h"
+#include "kernels/core/each_index.h"
+
+namespace mw::engine {
+namespace {
+
+class RegionCount {
+ public:
+  /// REQUIRES: labels are those of box, x fastest.
+  void add(const Box3& box, std::span<const RawLabel> labels) {
+    const auto length = static_cast<std::size_t>(box.shape().x);
+    for (Index3 v = box.lo; v.z < box.hi.z; ++v.z) {
+      for (v.y = box.lo.y; v.y < box.hi.y; ++v.y) {
+        add_row(v, labels.first(length));
+        labels = labels.subspan(length);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<LabelRegion> regions() const {
+    std::vector<LabelRegion> out;
+    out.reserve(regions_.size());
+    for (const auto& [label, region] : regions_) out.push_back(region);
+    return out;
+  }
+
+ private:
+  void add_row(Index3 first, std::span<const RawLabel> row) {
+    for (std::size_t begin = 0, end = 0; begin < row.size(); begin = end) {
+      while (end < row.size() && row[end] == row[begin]) ++end;
+      const auto x = first.x + static_cast<std::int64_t>(begin);
+      const auto after = first.x + static_cast<std::int64_t>(end);
+      add_run(row[begin], {{x, first.y, first.z}, {after, first.y + 1, first.z + 1}});
+    }
+  }
+
+  void add_run(RawLabel label, const Box3& run) {
+    const auto [found, is_new] = regions_.try_emplace(label, LabelRegion{label, 0, run});
+    LabelRegion& region = found->second;
+    region.voxels += static_cast<std::uint64_t>(run.voxels());
+    if (is_new) return;
+    Index3& lo = region.box.lo;
+    Index3& hi = region.box.hi;
+    lo = {std::min(lo.x, run.lo.x), std::min(lo.y, run.lo.y), std::min(lo.z, run.lo.z)};
+    hi = {std::max(hi.x, run.hi.x), std::max(hi.y, run.hi.y), std::max(hi.z, run.hi.z)};
+  }
+
+  std::unordered_map<RawLabel, LabelRegion> regions_;
+};
+
+}  // namespace
+
+std::vector<LabelRegion> label_regions(const io::LabelVolume& volume) {
+  const ReadingTiles tiles(volume.info());
+  RegionCount count;
+  std::vector<RawLabel> labels;
+  each_index(tiles.count(), [&](Index3 tile) {
+    const Box3 box = tiles.box(tile);
+    labels.resize(static_cast<std::size_t>(box.voxels()));
+    volume.read(box, labels);
+    count.add(box, labels);
+  });
+  std::vector<LabelRegion> out = count.regions();
+  const RawLabel flip = has_signed_labels(volume.info()) ? RawLabel{1} << 63U : 0;
+  std::sort(out.begin(), out.end(), [flip](const LabelRegion& a, const LabelRegion& b) {
+    return (a.label ^ flip) < (b.label ^ flip);
+  });
+  return out;
+}
+
+}  // namespace mw::engine

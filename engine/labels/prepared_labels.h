@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The labels that windows work from, made once before the march.
+#pragma once
+
+#include "engine/labels/boundary_faces.h"
+#include "engine/settings/settings.h"
+#include "io/labels/brick_volume.h"
+#include "io/labels/label_table.h"
+#include "kernels/core/label_box.h"
+#include "kernels/inner/inner_demand.h"
+#include "kernels/size/size_field.h"
+#include "kernels/start/level_map.h"
+
+namespace mw::engine {
+
+/// The input's labels, the labels that the start mesh takes its shape from, and its large cells.
+/// A pure function of the volume and the settings.
+/// Thread safety: const members may be called from many threads.
+class PreparedLabels {
+ public:
+  /// Reads the volume once, drops its buffers, and coarsens it when the start mesh asks for that.
+  /// folder: where temporary files go.  threads: they change nothing.
+  /// ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
+  /// Memory while it works: preparation_bytes() a thread; 8 bytes a label stay.
+  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
+                 const std::filesystem::path& folder = io::scratch_folder());
+
+  /// Boxes may reach outside the volume; voxels there are kExterior.
+  [[nodiscard]] LabelBox original(const Box3& box) const;
+  [[nodiscard]] LabelBox shape(const Box3& box) const;
+  [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
+  [[nodiscard]] const LevelMap& levels() const { return levels_; }
+  /// Where there is much to do.
+  [[nodiscard]] const BoundaryFaces& faces() const { return faces_; }
+  /// Limits on edges; null: none.
+  [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
+  /// Labels whose tets should have an inner vertex; null: none.
+  [[nodiscard]] const InnerDemand* inner() const { return inner_ ? &*inner_ : nullptr; }
+  /// How many voxels of the input have each dense label.
+  [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return label_voxels_; }
+
+ private:
+  void read_bricks(const io::DenseVolume& volume, int threads);
+  void read_tile(const io::DenseVolume& volume, const Box3& tile);
+  void count(Index3 brick, std::span<const Label> voxels);
+  void coarsen_tiles(double max_distance, int threads);
+  void coarsen_tile(const Box3& tile, double max_distance);
+  void find_levels(int threads);
+  [[nodiscard]] bool all_may_be_large(const Box3& cubes) const;
+  [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
+
+  io::BrickVolume original_;
+  std::optional<io::BrickVolume> coarse_;
+  LevelMap levels_;
+  BoundaryFaces faces_;
+  SizeField sizes_;
+  std::optional<InnerDemand> inner_;
+  std::vector<std::uint64_t> label_voxels_;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Layers, and what can be promised on them.
+#include "engine/labels/voxel_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/file/errors.h"
+#include "kernels/core/face_sample.h"
+#include "kernels/core/lattice.h"
+#include "kernels/core/layers.h"
+#include "kernels/start/start_quality.h"
+
+namespace mw::engine {
+namespace {
+
+/// What ids and samples can number, and positions hold.
+void check_shape(Index3 shape, Index3 layers) {
+  const Index3 lattice = layered_shape(shape, layers);
+  const std::int64_t longest = std::max({lattice.x, lattice.y, lattice.z});
+  if (longest < kMaxSampledVoxels) return;
+  const bool cut = layers != Index3{1, 1, 1};
+  throw Error(ErrorKind::kInput,
+              io::text("the volume has ", longest, " voxels along an axis",
+                       cut ? io::text(" once they are cut into ", layers.x, " x ", layers.y, " x ",
+                                      layers.z, " layers, as their spacing differs")
+                           : "",
+                       "; fewer than ", kMaxSampledVoxels,
+                       " can be meshed at once: mesh parts of it with --crop",
+                       cut ? ", or set --surface voxel" : ""));
+}
+
+/// The floor that the start mesh keeps.
+double kept_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const Index3 layers = layers_of(volume, settings.surface);
+  const Metric metric(layered_spacing(volume.space.spacing, layers));
+  return least_start_ratio(metric, largest_cell_level(settings));
+}
+
+/// Other settings under which the floor can be promised, in words.
+std::string ways_out(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  MeshSettings cut = settings, dense = settings;
+  cut.surface = Surface::kSmooth;
+  dense.start = StartMesh::kDense;
+  std::string out;
+  if (kept_floor(volume, cut) >= settings.quality_floor) {
+    out += ", or set --surface smooth, which cuts thick slices into layers";
+  }
+  if (kept_floor(volume, dense) >= settings.quality_floor) out += ", or set --start dense";
+  return out;
+}
+
+/// No step makes a tet below the floor; only the start mesh could have one.
+void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const double kept = kept_floor(volume, settings);
+  if (kept >= settings.quality_floor) return;
+  // Rounded down, so that what is told can be promised.
+  const double told = std::floor(1000 * kept) / 1000;
+  const std::array<double, 3> voxel =
+      layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
+  throw Error(ErrorKind::kUsage, io::text("quality-floor ", settings.quality_floor,
+                                          " cannot be promised for voxels of ", voxel[0], " x ",
+                                          voxel[1], " x ", voxel[2], "; --quality-floor ", told,
+                                          " can be", ways_out(volume, settings)));
+}
+
+/// Start meshes have edges as long as the diagonal of a voxel, and no step cuts an edge.
+void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const auto& labels = settings.sizes.labels;
+  if (labels.empty()) return;
+  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
+  const double least = std::sqrt(x * x + y * y + z * z);
+  const auto shortest = std::min_element(
+      labels.begin(), labels.end(),
+      [](const LabelSize& a, const LabelSize& b) { return a.longest_edge < b.longest_edge; });
+  if (shortest->longest_edge >= least) return;
+  // Rounded up, so that what is told can be kept.
+  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(least)));
+  throw Error(ErrorKind::kUsage,
+              io::text("size ", shortest->longest_edge, " is less than the diagonal of a voxel (",
+                       x, " x ", y, " x ", z, "), the longest edge of the finest start mesh; ",
+                       std::ceil(scale * least) / scale, " can be kept"));
+}
+
+/// Largest absolute coordinate of the box.
+double farthest_coordinate(const io::VolumeInfo& volume) {
+  double farthest = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto end = [&](int axis, std::int64_t voxels) {
+      return (corner >> axis & 1) != 0 ? static_cast<double>(voxels) : 0.0;
+    };
+    const io::Vector3 place = to_world(
+        volume.space, {end(0, volume.shape.x), end(1, volume.shape.y), end(2, volume.shape.z)});
+    // A NaN stays, whatever comes behind it.
+    for (const double x : place) farthest = std::abs(x) <= farthest ? farthest : std::abs(x);
+  }
+  return farthest;
+}
+
+/// Meshes are written in double: points of the lattice must stay apart there with room for the
+/// shapes of tets between them, and volumes of lengths must be numbers.
+void check_coordinates(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  constexpr double kSmallest = 1e-30;
+  constexpr double kLargest = 1e30;
+  constexpr double kUnitsInLastPlace = 256;
+  const double farthest = farthest_coordinate(volume);
+  const auto voxel = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
+  const double least = std::min({voxel[0], voxel[1], voxel[2]});
+  if (!(farthest <= kLargest) || least < kSmallest) {
+    throw Error(ErrorKind::kInput,
+                io::text("spacing and origin give coordinates up to ", farthest, " and voxels of ",
+                         least, "; they can be from ", kSmallest, " to ", kLargest,
+                         ": set --spacing and --origin, or another unit"));
+  }
+  const double step = least / static_cast<double>(kUnitsPerVoxel);
+  const double most = step / (kUnitsInLastPlace * std::numeric_limits<double>::epsilon());
+  if (farthest <= most) return;
+  throw Error(ErrorKind::kInput, io::text("coordinates reach ", farthest,
+                                          ", where numbers are too far apart for voxels of ", least,
+                                          "; with these they can reach ", most,
+                                          ": set --origin nearer to 0, or a larger --spacing"));
+}
+
+}  // namespace
+
+Index3 layers_of(const io::VolumeInfo& volume, Surface surface) {
+  return surface == Surface::kSmooth ? mw::layers_of(volume.space.spacing) : Index3{1, 1, 1};
+}
+
+VoxelLattice::VoxelLattice(const io::DenseVolume& volume, Surface surface)
+    : volume_(volume),
+      layers_(layers_of(volume.info(), surface)),
+      layered_(volume.raw(), layers_),
+      labels_(layered_, volume.table()) {}
+
+void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  check(settings);
+  check_shape(volume.shape, layers_of(volume, settings.surface));
+  check_coordinates(volume, settings);
+  check_floor(volume, settings);
+  check_sizes(volume, settings);
+}
+
+void check(const io::LabelTable& labels, const MeshSettings& settings) {
+  for (const LabelSize& s : settings.sizes.labels) {
+    if (labels.contains(s.label)) continue;
+    const std::string name = labels.is_signed() ? std::to_string(static_cast<std::int64_t>(s.label))
+                                                : std::to_string(s.label);
+    throw Error(ErrorKind::kUsage, "size: the volume has no label " + name);
+  }
+}
+
+}  // namespace mw::engine

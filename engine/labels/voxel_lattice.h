@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The lattice that a volume is meshed on: its voxels, or layers of them where slices are thick.
+#pragma once
+
+#include "engine/settings/settings.h"
+#include "io/labels/label_table.h"
+#include "io/labels/layered_volume.h"
+
+namespace mw::engine {
+
+/// Layers that a volume's voxels are cut into: layers_of() its spacing for smooth surfaces, else
+/// none.
+[[nodiscard]] Index3 layers_of(const io::VolumeInfo& volume, Surface surface);
+
+/// A volume and the lattice that it is meshed on.  The volume must outlive it.
+class VoxelLattice {
+ public:
+  VoxelLattice(const io::DenseVolume& volume, Surface surface);
+  VoxelLattice(const VoxelLattice&) = delete;
+  VoxelLattice& operator=(const VoxelLattice&) = delete;
+
+  [[nodiscard]] const io::DenseVolume& volume() const { return volume_; }
+  /// The same labels on the lattice.
+  [[nodiscard]] const io::DenseVolume& labels() const { return labels_; }
+  [[nodiscard]] const io::VolumeInfo& info() const { return labels_.info(); }
+  [[nodiscard]] Index3 layers() const { return layers_; }
+
+ private:
+  io::DenseVolume volume_;
+  Index3 layers_;
+  io::LayeredVolume layered_;
+  io::DenseVolume labels_;
+};
+
+/// What a run asks of a volume, told before any work.
+/// ERRORS: those of check(settings); kInput when the lattice has too many voxels along an axis;
+///         kUsage when the quality floor cannot be kept at this spacing, with the floor that can,
+///         or when a size is less than the diagonal of a voxel of the lattice.
+void check(const io::VolumeInfo& volume, const MeshSettings& settings);
+
+/// What a run asks of a volume's labels.
+/// ERRORS: kUsage when a size is given for a label that the volume does not have.
+void check(const io::LabelTable& labels, const MeshSettings& settings);
+
+}  // namespace mw::engine

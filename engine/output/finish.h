@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The end of a run: final blocks become one mesh with global rows, in bounded memory (promise P6).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/output/hold_memory.h"
+#include "engine/output/label_selection.h"
+#include "engine/window/window_grid.h"
+#include "io/mesh/mesh_sink.h"
+#include "kernels/audit/quality.h"
+#include "kernels/audit/shape.h"
+#include "kernels/core/index.h"
+#include "kernels/core/int128.h"
+#include "kernels/mesh/block_mesh.h"
+
+namespace mw::engine {
+
+/// The blocks after the last march.  Reading leaves them as they are, so it may happen more than
+/// once.
+class FinalBlocks {
+ public:
+  virtual ~FinalBlocks() = default;
+  /// A copy of the block.  Only vertices (id, position) and tets are looked at.
+  [[nodiscard]] virtual BlockMesh load(Index3 block) = 0;
+};
+
+/// What is written and told of the mesh.
+struct OutputOptions {
+  WantedLabel wanted;                        ///< empty: every label
+  bool measure_quality = false;              ///< about 0.1 us a tet
+  bool measure_shape = false;                ///< volumes, area and bends; about 1 us a tet
+  bool measure_edges = false;                ///< the longest of each label
+  HoldMemory hold;                           ///< optional
+  std::optional<io::MeshPromises> promises;  ///< to be told in the file; set by mesh_volume()
+  Index3 layers{1, 1, 1};  ///< that the volume's voxels were cut into; set by mesh_volume()
+};
+
+/// The finished mesh.
+struct FinishedMesh {
+  std::uint64_t vertices = 0;
+  std::uint64_t tets = 0;
+  std::optional<audit::QualityReport> quality;
+  std::optional<audit::ShapeReport> shape;
+  /// With measure_shape, by dense label: six times the volume that is written, exact, in cubic
+  /// units of the lattice.
+  std::vector<Int128> label_volumes6;
+  /// With measure_edges, by dense label; physical units, 0 where nothing is written.
+  std::vector<double> longest_edges;
+  std::size_t most_remembered = 0;     ///< see VertexRows; 16 bytes each
+  std::uint64_t most_shape_bytes = 0;  ///< see InterfaceShape
+};
+
+/// Reads every block twice in raster order, first for counts and uses of vertices, then to write.
+/// Vertices ascend by the first block that references them, then by id; tets by block and canonical
+/// order inside it.  Coordinates are those of the volume's space (to_world), on corners of its
+/// voxels whatever the layers; tets are positive in them. grid: of the lattice, layers times the
+/// volume's shape. Memory: one block, what VertexRows and InterfaceShape remember, 16 bytes a label
+/// and the sink's buffers.
+FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::DenseVolume& volume,
+                    io::MeshSink& sink, const OutputOptions& options = {});
+
+}  // namespace mw::engine

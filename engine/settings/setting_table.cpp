@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The settings one by one: what each is called, what it may be, and its text.
+#include "engine/settings/setting_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "engine/settings/number_text.h"
+#include "engine/settings/size_text.h"
+#include "kernels/distance/distance_guard.h"
+
+namespace mw::engine {
+namespace {
+
+using Settings = MeshSettings;
+using Text = std::string;
+
+constexpr int kMaxMarches = 4;
+constexpr double kMaxQualityFloor = 0.5;
+constexpr double kMaxDistance = 16.0;
+constexpr int kMaxOdtIterations = 1000;
+constexpr double kMaxGradation = 10.0;
+constexpr const char* kNone = "none";
+
+/// The names of an enum's values.
+template <class T, std::size_t N>
+using Names = std::array<std::pair<const char*, T>, N>;
+
+constexpr Names<Order, 2> kOrders{{{"raster", Order::kRaster}, {"colour", Order::kColour}}};
+constexpr Names<KeptTopology, 2> kTopologies{
+    {{"labels", KeptTopology::kLabels}, {"interfaces", KeptTopology::kInterfaces}}};
+constexpr Names<Surface, 2> kSurfaces{{{"smooth", Surface::kSmooth}, {"voxel", Surface::kVoxel}}};
+constexpr Names<Optimizer, 3> kOptimizers{
+    {{"local", Optimizer::kLocal}, {"tetgen", Optimizer::kTetgen}, {kNone, Optimizer::kNone}}};
+constexpr Names<StartMesh, 3> kStarts{
+    {{"coarse", StartMesh::kCoarse}, {"octree", StartMesh::kOctree}, {"dense", StartMesh::kDense}}};
+
+template <class T, std::size_t N>
+std::vector<Text> words(const Names<T, N>& names) {
+  std::vector<Text> out;
+  for (const auto& [name, value] : names) out.emplace_back(name);
+  return out;
+}
+
+template <class T, std::size_t N>
+Text name_of(const Names<T, N>& names, T value) {
+  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == value; })
+      ->first;
+}
+
+template <class T, std::size_t N>
+T value_of(const Names<T, N>& names, const Text& text) {
+  Text expected = "one of";
+  for (const auto& [name, value] : names) {
+    if (text == name) return value;
+    expected += (name == names.front().first ? " " : ", ") + Text(name);
+  }
+  fail_expected(expected, text);
+}
+
+/// What an int cannot hold becomes its nearest, which no setting allows.
+int parse_int(const Text& text) {
+  using Limits = std::numeric_limits<int>;
+  return static_cast<int>(
+      std::clamp<std::int64_t>(parse_integer(text), Limits::min(), Limits::max()));
+}
+
+std::optional<double> parse_bound(const Text& text) {
+  return text == kNone ? std::nullopt : std::optional(parse_number(text));
+}
+
+Text bound_text(const std::optional<double>& bound) {
+  return bound ? format_number(*bound) : kNone;
+}
+
+Text range_text(double least, double most) {
+  return "from " + format_number(least) + " to " + format_number(most);
+}
+
+/// False for no number.
+bool is_within(double value, double least, double most) {
+  return value >= least && value <= most;
+}
+
+/// Positive and given once for a label.
+bool are_sizes(std::vector<LabelSize> sizes) {
+  const auto is_bad = [](const LabelSize& s) {
+    return !(s.longest_edge > 0.0) || !std::isfinite(s.longest_edge);
+  };
+  if (std::any_of(sizes.begin(), sizes.end(), is_bad)) return false;
+  const auto by_label = [](const LabelSize& a, const LabelSize& b) { return a.label < b.label; };
+  std::sort(sizes.begin(), sizes.end(), by_label);
+  return std::adjacent_find(sizes.begin(), sizes.end(), std::not_fn(by_label)) == sizes.end();
+}
+
+std::vector<Setting> march_settings() {
+  return {
+      {.name = "window",
+       .value = "N",
+       .help = "window edge in voxels of the lattice (see --surface), even",
+       .kind = SettingKind::kInteger,
+       .allowed = "an even number from 4 to " + std::to_string(kMaxWindow),
+       .text = [](const Settings& s) { return std::to_string(s.window); },
+       .read = [](Settings& s, const Text& t) { s.window = parse_int(t); },
+       .is_allowed =
+           [](const Settings& s) {
+             return is_within(s.window, 4, kMaxWindow) && s.window % 2 == 0;
+           }},
+      {.name = "marches",
+       .value = "N",
+       .help = "marches over the volume, each with windows twice as large",
+       .kind = SettingKind::kInteger,
+       .allowed = range_text(1, kMaxMarches),
+       .text = [](const Settings& s) { return std::to_string(s.marches); },
+       .read = [](Settings& s, const Text& t) { s.marches = parse_int(t); },
+       .is_allowed = [](const Settings& s) { return is_within(s.marches, 1, kMaxMarches); }},
+      {.name = "order",
+       .help = "march order: raster, the paper's; colour, far wider on small volumes",
+       .kind = SettingKind::kChoice,
+       .choices = words(kOrders),
+       .text = [](const Settings& s) { return name_of(kOrders, s.order); },
+       .read = [](Settings& s, const Text& t) { s.order = value_of(kOrders, t); }},
+      {.name = "start",
+       .help = "start mesh: coarse (labels coarsened first, larger cells inside them), octree "
+               "(larger cells only), dense (the paper's)",
+       .kind = SettingKind::kChoice,
+       .choices = words(kStarts),
+       .text = [](const Settings& s) { return name_of(kStarts, s.start); },
+       .read = [](Settings& s, const Text& t) { s.start = value_of(kStarts, t); }},
+  };
+}
+
+std::vector<Setting> bound_settings() {
+  return {
+      {.name = "edge-variance",
+       .value = "T|none",
+       .help = "bound on the variance of edge lengths, Eq (3)",
+       .kind = SettingKind::kNumberOrNone,
+       .allowed = "positive, or none",
+       .text = [](const Settings& s) { return bound_text(s.edge_variance); },
+       .read = [](Settings& s, const Text& t) { s.edge_variance = parse_bound(t); },
+       .is_allowed = [](const Settings& s) { return !s.edge_variance || *s.edge_variance > 0.0; }},
+      {.name = "quality-floor",
+       .value = "R",
+       .help = "no tet below this radius ratio, refused where spacing does not allow it; 0: no "
+               "demand on shapes, as in the paper",
+       .kind = SettingKind::kNumber,
+       .allowed = range_text(0, kMaxQualityFloor),
+       .text = [](const Settings& s) { return format_number(s.quality_floor); },
+       .read = [](Settings& s, const Text& t) { s.quality_floor = parse_number(t); },
+       .is_allowed =
+           [](const Settings& s) { return is_within(s.quality_floor, 0, kMaxQualityFloor); }},
+      {.name = "max-distance",
+       .value = "D|none",
+       .help = "bound in voxels of the lattice, two-sided, between input and output interfaces",
+       .kind = SettingKind::kNumberOrNone,
+       .allowed =
+           range_text(0.71, kMaxDistance) + " voxels, or none (the samples are 0.71 voxels apart)",
+       .text = [](const Settings& s) { return bound_text(s.max_distance); },
+       .read = [](Settings& s, const Text& t) { s.max_distance = parse_bound(t); },
+       .is_allowed =
+           [](const Settings& s) {
+             return !s.max_distance ||
+                    is_within(*s.max_distance, DistanceGuard::least_distance(), kMaxDistance);
+           }},
+      {.name = "target-reduction",
+       .value = "F|none",
+       .help = "each window stops collapsing at this fraction of the lattice's voxel corners",
+       .kind = SettingKind::kNumberOrNone,
+       .allowed = "between 0 and 1, or none",
+       .text = [](const Settings& s) { return bound_text(s.target_reduction); },
+       .read = [](Settings& s, const Text& t) { s.target_reduction = parse_bound(t); },
+       .is_allowed =
+           [](const Settings& s) {
+             return !s.target_reduction || (*s.target_reduction > 0.0 && *s.target_reduction < 1.0);
+           }},
+  };
+}
+
+std::vector<Setting> method_settings() {
+  return {
+      {.name = "topology",
+       .help = "what is kept: labels, or interfaces as well",
+       .kind = SettingKind::kChoice,
+       .choices = words(kTopologies),
+       .text = [](const Settings& s) { return name_of(kTopologies, s.topology); },
+       .read = [](Settings& s, const Text& t) { s.topology = value_of(kTopologies, t); }},
+      {.name = "surface",
+       .help =
+           "what interfaces are: smooth, with the labels' volumes kept, on a lattice where slices "
+           "much thicker than the smallest spacing are cut into layers; voxel, as the paper's "
+           "quadrics leave them, on the voxels as they are",
+       .kind = SettingKind::kChoice,
+       .choices = words(kSurfaces),
+       .text = [](const Settings& s) { return name_of(kSurfaces, s.surface); },
+       .read = [](Settings& s, const Text& t) { s.surface = value_of(kSurfaces, t); }},
+      {.name = "optimizer",
+       .help = "what improves tets after collapse: local, none, or tetgen (local, and the paper's "
+               "constrained ODT in the last march)",
+       .kind = SettingKind::kChoice,
+       .choices = words(kOptimizers),
+       .text = [](const Settings& s) { return name_of(kOptimizers, s.optimizer); },
+       .read = [](Settings& s, const Text& t) { s.optimizer = value_of(kOptimizers, t); }},
+      {.name = "odt-iterations",
+       .value = "N",
+       .help = "iterations of --optimizer tetgen in a window, at most",
+       .kind = SettingKind::kInteger,
+       .allowed = range_text(1, kMaxOdtIterations),
+       .text = [](const Settings& s) { return std::to_string(s.odt_iterations); },
+       .read = [](Settings& s, const Text& t) { s.odt_iterations = parse_int(t); },
+       .is_allowed =
+           [](const Settings& s) { return is_within(s.odt_iterations, 1, kMaxOdtIterations); }},
+  };
+}
+
+std::vector<Setting> size_settings() {
+  return {
+      {.name = "size",
+       .value = "LABEL=H,..",
+       .help = "edges of these labels' tets are no longer than H, physical units; not below the "
+               "diagonal of a voxel of the lattice",
+       .kind = SettingKind::kSizes,
+       .allowed = "positive, and given once for a label",
+       .text = [](const Settings& s) { return format_sizes(s.sizes.labels); },
+       .read = [](Settings& s, const Text& t) { s.sizes.labels = parse_sizes(t); },
+       .is_allowed = [](const Settings& s) { return are_sizes(s.sizes.labels); }},
+      {.name = "gradation",
+       .value = "G",
+       .help = "limits on edges grow by G times the distance to those labels, 0 to 10; 0: the "
+               "least holds everywhere",
+       .kind = SettingKind::kNumber,
+       .allowed = range_text(0, kMaxGradation),
+       .text = [](const Settings& s) { return format_number(s.sizes.gradation); },
+       .read = [](Settings& s, const Text& t) { s.sizes.gradation = parse_number(t); },
+       .is_allowed =
+           [](const Settings& s) { return is_within(s.sizes.gradation, 0, kMaxGradation); }},
+      {.name = "inner-vertices",
+       .help = "gives tets with all corners on interfaces a vertex inside their label, where the "
+               "quality floor allows it; those of the labels of --size, else all",
+       .kind = SettingKind::kSwitch,
+       .text = [](const Settings& s) -> Text { return s.sizes.inner_vertices ? "true" : "false"; },
+       .read = [](Settings& s, const Text& t) { s.sizes.inner_vertices = parse_switch(t); }},
+  };
+}
+
+}  // namespace
+
+const std::vector<Setting>& setting_table() {
+  static const std::vector<Setting> table = [] {
+    std::vector<Setting> out;
+    for (const auto& group :
+         {march_settings(), bound_settings(), method_settings(), size_settings()}) {
+      out.insert(out.end(), group.begin(), group.end());
+    }
+    return out;
+  }();
+  return table;
+}
+
+void check(const Setting& setting, const MeshSettings& settings) {
+  if (setting.is_allowed == nullptr || setting.is_allowed(settings)) return;
+  throw Error(ErrorKind::kUsage, setting.name + " must be " + setting.allowed);
+}
+
+void set(const Setting& setting, MeshSettings& settings, const std::string& text) {
+  setting.read(settings, text);
+  check(setting, settings);
+}
+
+}  // namespace mw::engine

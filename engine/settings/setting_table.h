@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The settings one by one: what each is called, what it may be, and its text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/settings/settings.h"
+
+namespace mw::engine {
+
+/// What the text of a setting is.
+enum class SettingKind {
+  kInteger,
+  kNumber,
+  kNumberOrNone,
+  kChoice,
+  kSwitch,  ///< "true" or "false"
+  kSizes,   ///< parse_sizes()
+};
+
+/// A field of MeshSettings.  Flag, config key, environment variable, default, help, check() and
+/// the identity of a run all come from here.
+struct Setting {
+  std::string name;   ///< of the flag without dashes, and in the identity
+  std::string value;  ///< what help calls the value; nothing for choices and switches
+  std::string help;
+  SettingKind kind = SettingKind::kInteger;
+  std::vector<std::string> choices;  ///< of kChoice
+  std::string allowed;               ///< after "must be"
+  /// ENSURES: read() makes the same value of it, and different values have different texts; empty
+  /// only for kSizes without any.
+  std::string (*text)(const MeshSettings&) = nullptr;
+  /// ERRORS: mw::Error(kUsage) saying what was expected, for text that is not of the kind.
+  void (*read)(MeshSettings&, const std::string&) = nullptr;
+  /// Whether the value, which is of the kind, is in its range; null: all are.
+  bool (*is_allowed)(const MeshSettings&) = nullptr;
+};
+
+/// Every field of MeshSettings once, in the order of the documentation.  Thread-safe.
+[[nodiscard]] const std::vector<Setting>& setting_table();
+
+/// ERRORS: mw::Error(kUsage): "NAME must be ALLOWED".
+void check(const Setting& setting, const MeshSettings& settings);
+
+/// Takes the value over.  ERRORS: those of Setting::read and check(); settings is then spoilt.
+void set(const Setting& setting, MeshSettings& settings, const std::string& text);
+
+}  // namespace mw::engine

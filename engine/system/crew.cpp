@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Helpers wait in the arena for something that never comes, and work meanwhile.
+#include "engine/system/crew.h"
+
+#include <oneapi/tbb/task_group.h>
+#include <pthread.h>
+
+namespace mw::engine {
+namespace {
+
+/// As oneTBB gives its own threads, whatever `ulimit -s` says.
+constexpr std::size_t kStackBytes = std::size_t{4} << 20U;
+
+}  // namespace
+
+/// A thread that takes part until this goes.
+class Crew::Helper {
+ public:
+  explicit Helper(oneapi::tbb::task_arena& arena) : arena_(arena), leave_(group_.defer([] {})) {}
+  Helper(const Helper&) = delete;
+  Helper& operator=(const Helper&) = delete;
+  ~Helper() {
+    leave_ = {};
+    if (started_) ::pthread_join(thread_, nullptr);
+  }
+
+  /// Whether the system gave a thread.
+  [[nodiscard]] bool start() {
+    pthread_attr_t attributes;
+    if (::pthread_attr_init(&attributes) != 0) return false;
+    started_ = ::pthread_attr_setstacksize(&attributes, kStackBytes) == 0 &&
+               ::pthread_create(&thread_, &attributes, &Helper::help, this) == 0;
+    ::pthread_attr_destroy(&attributes);
+    return started_;
+  }
+
+ private:
+  static void* help(void* self) {
+    auto& helper = *static_cast<Helper*>(self);
+    try {
+      helper.arena_.execute([&] { helper.group_.wait(); });
+    } catch (...) {
+      // No memory to take part: the others do the work.
+    }
+    return nullptr;
+  }
+
+  oneapi::tbb::task_arena& arena_;
+  oneapi::tbb::task_group group_;
+  oneapi::tbb::task_handle leave_;  ///< while it is there, the group has a task to wait for
+  pthread_t thread_{};
+  bool started_ = false;
+};
+
+// All slots are for threads that come by themselves, so there is none that oneTBB would man.
+Crew::Crew(int threads) : arena_(threads, static_cast<unsigned>(threads)) {
+  arena_.initialize();
+  for (int i = 1; i < threads; ++i) {
+    auto helper = std::make_unique<Helper>(arena_);
+    if (!helper->start()) return;
+    helpers_.push_back(std::move(helper));
+  }
+}
+
+Crew::~Crew() = default;
+
+}  // namespace mw::engine

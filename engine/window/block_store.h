@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where blocks rest between the visits of windows (Sec 4.2).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/window/window_grid.h"
+#include "kernels/mesh/block_mesh.h"
+
+namespace mw::engine {
+
+/// Holds the blocks that the windows of one march have written.  The store knows nothing of what a
+/// window does.
+///
+/// Thread safety: windows that share no block may take and commit at the same time; load(),
+/// is_done() and the others may be called at any time for blocks that no such window holds.
+/// ERRORS (all members): mw::Error(kResource) when memory or disk do not suffice; kInput when what
+/// was stored comes back damaged.
+class BlockStore {
+ public:
+  virtual ~BlockStore() = default;
+
+  /// Sets memory aside for a window in flight, until it commits; blocks are spilled to make room.
+  /// ENSURES: false when that does not suffice before other windows have committed.
+  /// ERRORS: mw::Error(kResource) with the least that works when there are no others.
+  [[nodiscard]] virtual bool admit(Index3 window, std::uint64_t bytes) = 0;
+  /// The blocks of a window, in the order of grid.blocks_of(window), as the last window that
+  /// committed them or the march before left them; empty where there was none: such a block is
+  /// made from voxels.
+  [[nodiscard]] virtual std::vector<std::optional<BlockMesh>> take(Index3 window) = 0;
+  /// All of a window's results become visible at once, and the window is done.
+  /// Memory for them comes out of what admit() set aside; the rest of that is given back.
+  /// REQUIRES: canonical, one for each block of the window, in the order of take().
+  virtual void commit(Index3 window, std::vector<BlockMesh> blocks) = 0;
+
+  /// A block as it is now; it stays in the store.  REQUIRES: it was committed, or the march before
+  /// left it.
+  [[nodiscard]] virtual BlockMesh load(Index3 block) const = 0;
+
+  /// Whether the window has been committed, now or in the run that this one goes on from; the set
+  /// of such windows is closed under predecessors.
+  [[nodiscard]] virtual bool is_done(Index3 window) const = 0;
+  /// Memory that take() of this window will need for its result.
+  [[nodiscard]] virtual std::uint64_t taken_bytes(Index3 window) const = 0;
+  /// Memory that load() of this block will need for its result.
+  [[nodiscard]] virtual std::uint64_t loaded_bytes(Index3 block) const = 0;
+};
+
+}  // namespace mw::engine

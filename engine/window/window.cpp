@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Gather and scatter between blocks and the mesh of a window.
+#include "engine/window/window.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kernels/core/error.h"
+#include "kernels/mesh/merge_blocks.h"
+
+namespace mw::engine {
+namespace {
+
+void check_extent(const BlockTet& t, std::span<const BlockVertex> vertices) {
+  const auto spread = [&](auto coordinate) {
+    std::int64_t lo = coordinate(vertices[t.vertices[0]].position), hi = lo;
+    for (std::uint32_t v : t.vertices) {
+      lo = std::min<std::int64_t>(lo, coordinate(vertices[v].position));
+      hi = std::max<std::int64_t>(hi, coordinate(vertices[v].position));
+    }
+    return hi - lo;
+  };
+  if (spread([](Point p) { return p.x; }) > kMaxTetExtent ||
+      spread([](Point p) { return p.y; }) > kMaxTetExtent ||
+      spread([](Point p) { return p.z; }) > kMaxTetExtent) {
+    throw Error(ErrorKind::kInternal, "a tetrahedron outgrew the range of exact arithmetic");
+  }
+}
+
+std::int32_t lattice(std::int64_t voxels) {
+  return static_cast<std::int32_t>(voxels * kUnitsPerVoxel);
+}
+
+/// Tets and samples of one block to be, still with rows of the window.
+struct Share {
+  std::vector<BlockTet> tets;
+  std::vector<BlockSample> samples;
+};
+
+/// row: scratch of a number for each vertex of the mesh, all 0, and so again afterwards.
+BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row) {
+  BlockMesh out;
+  std::size_t used = 0;
+  for (const BlockTet& t : share.tets) {
+    for (LocalVertex v : t.vertices) used += std::exchange(row[v], 1U) == 0 ? 1U : 0U;
+  }
+  out.vertices.reserve(used);
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (row[v] == 0) continue;
+    row[v] = static_cast<std::uint32_t>(out.vertices.size());
+    out.vertices.push_back(mesh.vertex(v));
+  }
+  for (BlockTet& t : share.tets) {
+    for (std::uint32_t& v : t.vertices) v = row[v];
+  }
+  for (BlockSample& s : share.samples) {
+    for (std::uint32_t& v : s.triangle) v = row[v];
+  }
+  make_canonical(share.samples, used);
+  out.tets = std::move(share.tets);
+  out.samples = std::move(share.samples);
+  std::fill(row.begin(), row.end(), 0U);
+  return out;
+}
+
+/// Takes along the samples on the faces of a tet that is on their side.
+void take_samples(const WindowContent& content, const BlockTet& tet, Share& share) {
+  if (content.samples.empty()) return;
+  const auto& v = tet.vertices;
+  const std::array<TriangleKey, 4> faces{
+      {{v[1], v[2], v[3]}, {v[0], v[2], v[3]}, {v[0], v[1], v[3]}, {v[0], v[1], v[2]}}};
+  const auto may_carry = [&](LocalVertex w) {
+    return !content.mesh.is_free(w) || content.mesh.on_interface(w);
+  };
+  for (const TriangleKey& face : faces) {
+    if (!may_carry(face[0]) || !may_carry(face[1]) || !may_carry(face[2])) continue;
+    if (!content.samples.has(face, tet.label)) continue;
+    content.samples.each(face, [&](FaceSamples s) {
+      share.samples.push_back({face, tet.label, s});
+      return true;
+    });
+  }
+}
+
+/// Place in `blocks`, those of the window, of the one that owns a tet.
+std::uint8_t owner_place(const TetMesh& mesh, const BlockTet& tet, const WindowGrid& grid,
+                         Index3 window, const std::vector<Index3>& blocks) {
+  std::array<std::int64_t, 3> sum{};
+  for (LocalVertex v : tet.vertices) {
+    const Point p = mesh.position(v);
+    sum[0] += p.x;
+    sum[1] += p.y;
+    sum[2] += p.z;
+  }
+  const Index3 owner = grid.owner(window, sum);
+  return static_cast<std::uint8_t>(std::find(blocks.begin(), blocks.end(), owner) - blocks.begin());
+}
+
+}  // namespace
+
+Point lattice_corner(Index3 volume) {
+  return {lattice(volume.x), lattice(volume.y), lattice(volume.z)};
+}
+
+WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume) {
+  BlockMesh merged = merge_blocks(std::move(blocks));
+  for (const BlockTet& t : merged.tets) check_extent(t, merged.vertices);
+  CarriedSamples samples;
+  for (const BlockSample& s : merged.samples) samples.add(s.triangle, s.side, s.samples);
+  merged.samples = {};
+  const bool one_label =
+      std::all_of(merged.tets.begin(), merged.tets.end(),
+                  [&](const BlockTet& t) { return t.label == merged.tets[0].label; });
+  return {TetMesh(merged.vertices, merged.tets, lattice_corner(volume)), std::move(samples),
+          one_label};
+}
+
+std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,
+                               Index3 window) {
+  const TetMesh& mesh = content.mesh;
+  const std::vector<Index3> blocks = grid.blocks_of(window);
+  const std::vector<BlockTet> tets = mesh.sorted_tets();
+  std::vector<std::uint8_t> owners;
+  owners.reserve(tets.size());
+  for (const BlockTet& t : tets) owners.push_back(owner_place(mesh, t, grid, window, blocks));
+  std::vector<std::uint32_t> row(mesh.vertex_count());
+  std::vector<BlockMesh> out;
+  // One block after the other, so that only one list at a time is longer than it need be.
+  for (std::size_t place = 0; place < blocks.size(); ++place) {
+    Share share;
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+      if (owners[i] != place) continue;
+      share.tets.push_back(tets[i]);
+      take_samples(content, tets[i], share);
+    }
+    share.tets.shrink_to_fit();
+    out.push_back(pack(mesh, std::move(share), row));
+  }
+  return out;
+}
+
+Box3 voxels_around(const TetMesh& mesh, std::int64_t halo) {
+  Point lo = mesh.position(0), hi = lo;
+  for (LocalVertex v = 1; v < mesh.vertex_count(); ++v) {
+    const Point p = mesh.position(v);
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+  }
+  const auto floor_voxel = [](std::int32_t u) { return std::int64_t{u} / kUnitsPerVoxel; };
+  const Index3 around{halo, halo, halo};
+  return {Index3{floor_voxel(lo.x), floor_voxel(lo.y), floor_voxel(lo.z)} - around,
+          Index3{floor_voxel(hi.x) + 1, floor_voxel(hi.y) + 1, floor_voxel(hi.z) + 1} + around};
+}
+
+}  // namespace mw::engine

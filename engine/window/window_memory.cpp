@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Bounds by measured factors.
+#include "engine/window/window_memory.h"
+
+#include <algorithm>
+
+#include "io/labels/brick_volume.h"
+#include "kernels/distance/label_reach.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr std::uint64_t kKibibyte = 1 << 10;
+constexpr std::uint64_t kMebibyte = 1 << 20;
+
+// The most that any visit took, from decoding to encoding, was 6.2 times the bytes of the content
+// it began with (a checkerboard whose only block has eight parts); most take 4.
+constexpr double kBytesPerContentByte = 6.5;
+// Labels around blocks that are made from voxels, before and after coarsening.
+constexpr std::uint64_t kBytesPerStartVoxel = 2 * sizeof(Label);
+constexpr std::int64_t kStartLabelHalo = 6;
+// Labels for the distance bound.  Content reaches out of its window by up to a block, though not to
+// all sides at once: the most was 0.5 of the window's edge along an axis, and a voxel at each end.
+constexpr std::uint64_t kBytesPerLabelVoxel = sizeof(Label);
+constexpr std::uint64_t kBytesPerWindow = 64 * kKibibyte;
+
+// Pages of code and libraries, the allocator's slack, and buffers of the reading of labels.
+constexpr std::uint64_t kProgramBytes = 20 * kMebibyte;
+constexpr std::uint64_t kBytesPerThread = kMebibyte;
+// The label table, and what is counted of each label in voxels and mesh.
+constexpr std::uint64_t kBytesPerLabel = 96;
+
+// Places of a brick of the input and of a coarsened one, its large cells and faces.
+constexpr std::uint64_t kBytesPerBrick = 22;
+// Limits on edges in eight cubes, while they are found.
+constexpr std::uint64_t kBytesPerSizedBrick = 8 * 16;
+// A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
+constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
+constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
+
+// Decoding, positions, tets with global rows; before them triangles, and what they tell of edges.
+constexpr std::uint64_t kBytesPerWrittenByte = 4;
+
+std::uint64_t content_bytes(const StartSize& size) {
+  return size.vertices * sizeof(BlockVertex) + size.tets * sizeof(BlockTet) +
+         size.samples * sizeof(BlockSample);
+}
+
+/// What the distance guard looks at; nothing without a bound.
+std::uint64_t distance_label_bytes(const WindowGrid& grid, Index3 window,
+                                   std::optional<double> max_distance) {
+  if (!max_distance) return 0;
+  const Index3 edges = grid.window_box(window).shape(), volume = grid.volume();
+  const std::int64_t around = 2 * (LabelReach::search_reach(*max_distance) + 1);
+  const auto along = [&](std::int64_t edge, std::int64_t all) {
+    return static_cast<std::uint64_t>(std::min(edge + (edge + 1) / 2 + around, all));
+  };
+  return kBytesPerLabelVoxel * along(edges.x, volume.x) * along(edges.y, volume.y) *
+         along(edges.z, volume.z);
+}
+
+std::uint64_t bricks_of(Index3 shape) {
+  constexpr std::int64_t kEdge = io::BrickVolume::kEdge;
+  const auto along = [](std::int64_t n) { return (n + kEdge - 1) / kEdge; };
+  return static_cast<std::uint64_t>(along(shape.x) * along(shape.y) * along(shape.z));
+}
+
+}  // namespace
+
+std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockStore& store,
+                           const WindowNeeds& needs) {
+  std::uint64_t content = store.taken_bytes(window);
+  for (Index3 block : grid.blocks_of(window)) {
+    if (store.loaded_bytes(block) == 0) content += content_bytes(needs.start_size(block));
+  }
+  const auto voxels =
+      static_cast<std::uint64_t>(grown(grid.window_box(window), kStartLabelHalo).voxels());
+  const std::uint64_t labels = std::max(kBytesPerStartVoxel * voxels,
+                                        distance_label_bytes(grid, window, needs.max_distance));
+  return static_cast<std::uint64_t>(kBytesPerContentByte * static_cast<double>(content)) + labels +
+         kBytesPerWindow;
+}
+
+/// Noise: a vertex a voxel corner, six tets a voxel where cells of two voxels fan out to all their
+/// corners, and three faces a voxel, each with all its samples apart.
+StartSize most_start_size(const WindowGrid& grid, Index3 block) {
+  const Box3 box = grid.block_box(block);
+  const auto voxels = static_cast<std::uint64_t>(box.voxels());
+  const auto corners = static_cast<std::uint64_t>(grown(box, 1).voxels());
+  return {.vertices = corners, .tets = 6 * voxels, .samples = 3 * kSamplesPerFace * corners};
+}
+
+bool budget_is_ample(std::uint64_t memory, const WindowGrid& grid, int threads) {
+  std::uint64_t content = 0;
+  for (Index3 block : grid.blocks_of({0, 0, 0})) {
+    content += content_bytes(most_start_size(grid, block));
+  }
+  const double bytes = kBytesPerContentByte * static_cast<double>(content);
+  return static_cast<double>(memory) > 2.0 * (threads + 1) * bytes;
+}
+
+std::uint64_t program_bytes(std::size_t labels, int threads) {
+  return kProgramBytes + kBytesPerThread * static_cast<std::uint64_t>(threads) +
+         kBytesPerLabel * labels;
+}
+
+std::uint64_t prepared_label_bytes(Index3 shape, bool sized) {
+  return (kBytesPerBrick + (sized ? kBytesPerSizedBrick : 0)) * bricks_of(shape);
+}
+
+std::uint64_t preparation_bytes(const MeshSettings& settings) {
+  return settings.start == StartMesh::kCoarse ? kCoarseningBytes : kReadingBytes;
+}
+
+std::uint64_t written_block_bytes(std::uint64_t loaded) {
+  return kBytesPerWrittenByte * loaded;
+}
+
+}  // namespace mw::engine

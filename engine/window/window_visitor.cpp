@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Gather, simplify, optimise, scatter.
+#include "engine/window/window_visitor.h"
+
+#include <algorithm>
+
+#include "engine/system/stopwatch.h"
+#include "kernels/inner/inner_vertices.h"
+#include "kernels/start/carrier_faces.h"
+
+namespace mw::engine {
+namespace {
+
+/// Without a floor nothing is asked of shapes, not around inner vertices either.
+SimplifyOptions simplify_options(const MeshSettings& settings) {
+  SimplifyOptions options{.quality_floor = settings.quality_floor,
+                          .edge_variance = settings.edge_variance,
+                          .topology = settings.topology,
+                          .keep_smooth = settings.surface == Surface::kSmooth};
+  if (settings.quality_floor == 0.0) options.inner_quality = 0.0;
+  return options;
+}
+
+/// Without a floor new vertices still leave no slivers.
+constexpr double kLeastInnerRatio = 0.1;
+
+std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings) {
+  if (settings.surface == Surface::kVoxel) return std::nullopt;
+  return SurfaceWeights{};
+}
+
+}  // namespace
+
+WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
+                             const MeshSettings& settings, const WindowGrid& grid,
+                             BlockStore& store)
+    : labels_(labels),
+      grid_(grid),
+      store_(store),
+      metric_(metric),
+      start_{.max_level = largest_cell_level(settings),
+             .coarse = labels.is_coarse(),
+             .with_samples = settings.max_distance.has_value(),
+             .max_distance = settings.max_distance.value_or(kMostCoarseDistance),
+             .weights = {},
+             .metric = metric,
+             .quality_floor = settings.quality_floor,
+             .sizes = labels.sizes()},
+      simplify_(simplify_options(settings)),
+      optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
+                .quality_floor = settings.quality_floor,
+                .surface = surface_weights(settings),
+                .demands = {.sizes = labels.sizes()}},
+      codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
+      max_distance_(settings.max_distance),
+      target_reduction_(settings.target_reduction) {
+  simplify_.demands = optimise_.demands;
+}
+
+void WindowVisitor::polish(const WindowOrder& order) {
+  constexpr int kSweeps = 3, kSmoothSweeps = 4;
+  constexpr double kFlipBelow = 0.7;
+  optimise_.sweeps *= optimise_.surface ? kSmoothSweeps : kSweeps;
+  optimise_.flip_below = kFlipBelow;
+  if (optimise_.surface) order_ = order;
+  simplify_.demands.inner = optimise_.demands.inner = labels_.inner();
+}
+
+void WindowVisitor::reconnect_with(Triangulate triangulate) {
+  triangulate_ = std::move(triangulate);
+  if (codt_.quality_floor == 0.0) optimise_.sweeps = 0;
+}
+
+VisitStats& VisitStats::operator+=(const VisitStats& other) {
+  windows += other.windows;
+  simplify += other.simplify;
+  optimise += other.optimise;
+  codt += other.codt;
+  inner_vertices += other.inner_vertices;
+  start_seconds += other.start_seconds;
+  simplify_seconds += other.simplify_seconds;
+  optimise_seconds += other.optimise_seconds;
+  codt_seconds += other.codt_seconds;
+  exchange_seconds += other.exchange_seconds;
+  return *this;
+}
+
+VisitStats WindowVisitor::visit(Index3 window) const {
+  VisitStats stats{.windows = 1};
+  Stopwatch watch;
+  const std::vector<Index3> blocks = grid_.blocks_of(window);
+  std::vector<std::optional<BlockMesh>> stored = store_.take(window);
+  std::vector<BlockMesh> content;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    content.push_back(stored[i] ? std::move(*stored[i]) : start(blocks[i]));
+  }
+  watch.lap(stats.start_seconds);
+  WindowContent window_content = gather(std::move(content), grid_.volume());
+  watch.lap(stats.exchange_seconds);
+  work_on(window, window_content, stats);
+  watch.restart();
+  store_.commit(window, scatter(window_content, grid_, window));
+  watch.lap(stats.exchange_seconds);
+  return stats;
+}
+
+void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& stats) const {
+  LabelBox labels;
+  std::optional<DistanceGuard> guard;
+  if (max_distance_ && !content.one_label) {
+    const std::int64_t halo = LabelReach::search_reach(*max_distance_);
+    const Box3 volume{{0, 0, 0}, grid_.volume()};
+    labels = labels_.original(intersection(voxels_around(content.mesh, halo), volume));
+    guard.emplace(labels, *max_distance_, content.samples);
+  }
+  DistanceGuard* const keep_distance = guard ? &*guard : nullptr;
+  Stopwatch watch;
+  SimplifyOptions options = simplify_;
+  if (target_reduction_) {
+    const auto voxels = static_cast<double>(grid_.window_box(window).voxels());
+    options.enough_vertices = static_cast<std::size_t>(*target_reduction_ * voxels);
+  }
+  if (optimise_.sweeps > 0) {
+    stats.optimise.moves += fit_interfaces(content.mesh, metric_, optimise_, keep_distance);
+  }
+  watch.lap(stats.optimise_seconds);
+  stats.simplify += simplify(content.mesh, metric_, options, keep_distance);
+  watch.lap(stats.simplify_seconds);
+  OptimiseOptions polish = optimise_;
+  polish.later = later_boxes(window);
+  stats.optimise += optimise(content.mesh, metric_, polish, keep_distance);
+  watch.lap(stats.optimise_seconds);
+  if (!triangulate_ && optimise_.demands.inner == nullptr) return;
+  if (triangulate_) reconnect(window, content, stats);
+  watch.lap(stats.codt_seconds);
+  if (optimise_.demands.inner != nullptr) add_inner(window, content, stats);
+  OptimiseOptions light = optimise_;
+  light.sweeps = std::min(light.sweeps, 1);
+  stats.optimise += optimise(content.mesh, metric_, light, keep_distance);
+  watch.lap(stats.optimise_seconds);
+}
+
+/// Empty but in the last march of smooth surfaces.
+std::vector<LatticeBox> WindowVisitor::later_boxes(Index3 window) const {
+  std::vector<LatticeBox> out;
+  if (!order_) return out;
+  for (const Index3 w : order_->later_neighbours(window)) {
+    const Box3 box = grid_.window_box(w);
+    out.push_back({lattice_corner(box.lo), lattice_corner(box.hi)});
+  }
+  return out;
+}
+
+SteinerIds WindowVisitor::ids_of(Index3 window) const {
+  return steiner_ids(raster(window, grid_.windows()),
+                     static_cast<std::uint64_t>(grid_.windows().product()));
+}
+
+void WindowVisitor::add_inner(Index3 window, WindowContent& content, VisitStats& stats) const {
+  const InnerOptions options{
+      .limits = {.least_ratio = std::max(optimise_.quality_floor, kLeastInnerRatio),
+                 .sizes = labels_.sizes()},
+      .later = later_boxes(window),
+      .ids = ids_of(window)};
+  stats.inner_vertices +=
+      add_inner_vertices(content.mesh, content.samples, lattice_corner(grid_.volume()), metric_,
+                         *optimise_.demands.inner, options);
+}
+
+void WindowVisitor::reconnect(Index3 window, WindowContent& content, VisitStats& stats) const {
+  CodtOptions options = codt_;
+  options.ids = ids_of(window);
+  stats.codt += codt(content.mesh, content.samples, lattice_corner(grid_.volume()), metric_,
+                     options, triangulate_);
+}
+
+template <typename Use>
+auto WindowVisitor::with_labels(Index3 block, Use use) const {
+  const Box3 box = grid_.block_box(block);
+  const Box3 wide = grown(box, kStartHalo);
+  const LabelBox original = labels_.original(wide);
+  if (!start_.coarse) return use(StartLabels{.shape = original, .original = original}, box);
+  const LabelBox shape = labels_.shape(wide);
+  return use(StartLabels{.shape = shape, .original = original}, box);
+}
+
+StartSize WindowVisitor::start_size(Index3 block) const {
+  return with_labels(block, [&](const StartLabels& labels, const Box3& box) {
+    return graded_start_size(labels, labels_.levels(), box, grid_.volume(), start_);
+  });
+}
+
+BlockMesh WindowVisitor::start(Index3 block) const {
+  BlockMesh mesh = with_labels(block, [&](const StartLabels& labels, const Box3& box) {
+    return graded_start(labels, labels_.levels(), box, grid_.volume(), start_);
+  });
+  mesh.vertices.shrink_to_fit();
+  mesh.tets.shrink_to_fit();
+  mesh.samples.shrink_to_fit();
+  return mesh;
+}
+
+}  // namespace mw::engine

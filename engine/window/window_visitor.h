@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What happens at one position of the window: blocks in, kernels, blocks out.
+#pragma once
+
+#include <optional>
+
+#include "engine/labels/prepared_labels.h"
+#include "engine/march/window_order.h"
+#include "engine/settings/settings.h"
+#include "engine/window/block_store.h"
+#include "engine/window/window.h"
+#include "io/labels/label_table.h"
+#include "kernels/odt/codt.h"
+#include "kernels/optimise/optimise.h"
+#include "kernels/simplify/simplify.h"
+#include "kernels/start/graded_start.h"
+
+namespace mw::engine {
+
+/// What visits did.  Counts add up to the same sums in any order; times are wall seconds, summed
+/// over threads.
+struct VisitStats {
+  std::uint64_t windows = 0;
+  SimplifyStats simplify;
+  OptimiseStats optimise;
+  CodtStats codt;
+  std::uint64_t inner_vertices = 0;  ///< added
+  double start_seconds = 0.0;
+  double simplify_seconds = 0.0;
+  double optimise_seconds = 0.0;
+  double codt_seconds = 0.0;
+  double exchange_seconds = 0.0;  ///< gather and scatter
+
+  VisitStats& operator+=(const VisitStats& other);
+};
+
+/// Visits windows of one march.  Blocks that were never stored are made from voxels.
+/// REQUIRES: windows are visited in an order that respects predecessors; the references outlive it.
+/// Thread safety: windows that share no block may be visited at the same time.
+class WindowVisitor {
+ public:
+  WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
+                const WindowGrid& grid, BlockStore& store);
+
+  /// Optimises longer and flips more, and adds the inner vertices that labels demand: for the last
+  /// march, when shape is all that is left to gain.
+  /// order: of its windows; the sweeps after the first are for what no later window will see.
+  void polish(const WindowOrder& order);
+  /// Adds constrained ODT with this triangulation, which many threads may ask at once.  Local
+  /// optimisation stays around it when there is a quality floor: tets of a Delaunay triangulation
+  /// are often below one, so patches that are good already come through, and one sweep more lifts
+  /// what CODT left.  Without a floor CODT stands alone, as in the paper.
+  void reconnect_with(Triangulate triangulate);
+  /// Lends threads to the filling of a window's queue; none by default.  The result is the same.
+  void seed_with(ParallelFor loop) { simplify_.seeding = std::move(loop); }
+
+  /// How far around a window's content a visit reads labels, in voxels; none: it does not.
+  [[nodiscard]] std::optional<double> max_distance() const { return max_distance_; }
+  /// The size of a block that is made from voxels.  Cost: about a hundredth of a visit.
+  [[nodiscard]] StartSize start_size(Index3 block) const;
+  /// Such a block.
+  [[nodiscard]] BlockMesh start(Index3 block) const;
+  /// Returns what this visit did.
+  VisitStats visit(Index3 window) const;
+
+ private:
+  [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
+  void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
+  void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;
+  void add_inner(Index3 window, WindowContent& content, VisitStats& stats) const;
+  [[nodiscard]] SteinerIds ids_of(Index3 window) const;
+  /// use(labels around the block, its box).
+  template <typename Use>
+  [[nodiscard]] auto with_labels(Index3 block, Use use) const;
+
+  const PreparedLabels& labels_;
+  const WindowGrid& grid_;
+  BlockStore& store_;
+  Metric metric_;
+  StartOptions start_;
+  SimplifyOptions simplify_;
+  OptimiseOptions optimise_;
+  CodtOptions codt_;
+  Triangulate triangulate_;
+  std::optional<WindowOrder> order_;  ///< of the last march, for smooth surfaces
+  std::optional<double> max_distance_;
+  std::optional<double> target_reduction_;
+};
+
+}  // namespace mw::engine

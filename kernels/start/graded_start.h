@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Start mesh on a graded octree: cells of one or two voxels where labels meet, larger ones inside.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/core/label_box.h"
+#include "kernels/mesh/block_mesh.h"
+#include "kernels/start/level_map.h"
+
+namespace mw {
+
+/// Weights of the quadrics of Sec 5.2; the paper's by default.
+struct QuadricWeights {
+  double plane = 1.0;           ///< Eq (1), for each interface voxel face at the vertex
+  double boundary_point = 1.0;  ///< Eq (2), vertices on an interface or on the box
+  double inner_point = 1.0;     ///< Eq (2), all others
+};
+
+struct StartOptions {
+  int max_level = 0;          ///< cells of at most 2^max_level voxels; 0: the paper's start mesh
+  bool coarse = false;        ///< shape labels may differ from the input's
+  bool with_samples = false;  ///< samples for the distance bound
+  double max_distance = 1.5;  ///< with samples: that bound, in voxels
+  QuadricWeights weights;
+  Metric metric;                     ///< of the quadrics, and of the shapes of cells
+  double quality_floor = 0.0;        ///< no tet below it, if the metric allows (start_quality.h)
+  const SizeField* sizes = nullptr;  ///< edges keep to these limits, if they are at least the
+                                     ///< diagonal of a voxel; null: none
+};
+
+/// Voxels around a block whose labels its start mesh depends on.
+inline constexpr std::int64_t kStartHalo = LevelMap::kHalo;
+
+/// What a start mesh is made from.  Both cover the same box.
+struct StartLabels {
+  const LabelBox& shape;     ///< labels of the cells: the input's, or coarsened ones (coarsen.h)
+  const LabelBox& original;  ///< the input's: quadrics and samples come from them
+};
+
+/// Start mesh of a block.
+///
+/// Leaves of CellLevels larger than a voxel are cut by cut_cell(): without hanging nodes, into the
+/// five tets of Sec 5.1 at their own scale.  With max_level 0 the voxels are cut so as well, which
+/// is the paper's start mesh; else eight of them that are partners become a mixed cell, the cone
+/// from its centre over its surface, whose tets take the labels of the voxels that they are in.
+/// SurfaceNodes says which middles of edges and faces are vertices, face_triangles() how a face is
+/// cut; both sides find the same, so cells and blocks conform.
+/// Eq (1) sums over interface triangles; here over interface voxel faces at the vertex, which is
+/// the same sum freed from the accident of the pattern.
+///
+/// Samples of an input face go to the triangles on the nearest face between the same two labels
+/// (CarrierFaces); without coarsening that is the face itself.
+///
+/// REQUIRES: labels cover `block` and kStartHalo around it; the block is inside the volume and
+///           starts at a multiple of 2^max_level; levels is of the shape labels and the sizes (not
+///           looked at for max_level <= 2).
+/// ENSURES: canonical; a local function of the labels: all blocks give a shared vertex the same id,
+///          position and quadric.  Each sample of each voxel face between two labels is with the
+///          one block that holds the tet on the smaller label's side of its triangle.
+[[nodiscard]] BlockMesh graded_start(const StartLabels& labels, const LevelMap& levels,
+                                     const Box3& block, Index3 volume, const StartOptions& options);
+
+/// How much a start mesh holds.
+struct StartSize {
+  std::uint64_t vertices = 0;
+  std::uint64_t tets = 0;
+  std::uint64_t samples = 0;
+};
+
+/// What graded_start() of the same arguments holds; samples at most.
+/// Cost: a third of graded_start(), without its quadrics, sorting and samples.
+[[nodiscard]] StartSize graded_start_size(const StartLabels& labels, const LevelMap& levels,
+                                          const Box3& block, Index3 volume,
+                                          const StartOptions& options);
+
+}  // namespace mw

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The topology test of an edge contraction (topology.md D.3, in place of the paper's Algorithm 1).
+#pragma once
+
+#include "kernels/topology/edge_ring.h"
+#include "kernels/topology/kept_topology.h"
+#include "kernels/topology/label_pairs.h"
+
+namespace mw {
+
+/// Decides whether contracting edge (p, q) keeps the homotopy type of the closed region of every
+/// label and of the closure of its complement, exterior included; by duality that fixes the Betti
+/// numbers of closed and open regions alike (promise P1).  KeptTopology::kInterfaces keeps more.
+///
+/// kLabels.  Source: Sec 5.3.3 asks for this in Case 3; its Algorithm 1 does not ensure it (it
+/// breaks Betti numbers on real data).  Here, for every label L with L at p and at q, and for both
+/// Y = closed region of L and Y = closure of all the rest:
+///   Lk_Y(p) n Lk_Y(q) = Lk_Y(pq), and pq in Y                                (link condition)
+///   each L-tet around pq keeps an L-tet across one of its two other faces            (purity)
+/// The second is the first for the complement, so nothing is tested twice.
+///
+/// kInterfaces also keeps the homotopy type, for every set S of labels, of the place M_S where all
+/// of S meet (in a triangle, edge or vertex), and for every pair A, B that of its interface I_AB =
+/// closure of the triangles between A and B.  Write L(s) for the labels of the tets at a simplex s,
+/// e = pq, and r for a vertex or edge of the ring or nothing:
+///   (1) L(er) = L(pr) or L(er) = L(qr), for every r
+///   (2) e in I_AB wherever p and q are.
+/// Proof.  L(er) is part of both, so by (1) it is their intersection and the other one is their
+/// union.  S in L(pr) and S in L(qr) then gives S in L(er): the link condition for M_S, so that the
+/// contraction f restricted to M_S is a homotopy equivalence onto f(M_S) (Attali et al. 2012).
+/// (1) for edges r is purity: of each dying tet, one outer face has its own label beyond it.  Hence
+/// each simplex of the new mesh has the labels of all its preimages together, which by (1) are
+/// those of one of them: f(M_S) is the new M_S.  Unions of regions follow by gluing, so kLabels
+/// is implied.  I_AB: its link condition is (2) for no r, follows from (1) for vertices and is void
+/// for edges; by purity a triangle that survives keeps its two labels; and a dying triangle er
+/// leaves its edge in the new I_AB, for L(pr), say, is {A, B}, so that an even number of A|B
+/// triangles lies around pr.  Hence f(I_AB) is the new I_AB.
+/// Cases 1 and 2 satisfy (1) and (2): all labels at an inner end are one.
+///
+/// REQUIRES: p, q free and joined by an edge; all surviving tets will be strictly positive.  That
+///           makes Lk(p) n Lk(q) lie in the ring around pq, so that bit masks over it suffice.
+/// ENSURES:  mesh unchanged; same verdict for (p, q) and (q, p); never true for a contraction that
+///           changes a Betti number; may be false for one that does not.
+/// Cost: O(stars + labels * ring); kInterfaces: O(stars + ring), rarely a sort of both stars.
+class LinkCondition {
+ public:
+  explicit LinkCondition(const TetMesh& mesh, KeptTopology kept = KeptTopology::kLabels)
+      : kept_(kept), slots_(mesh.vertex_count() + 1, kNoSlot) {}
+
+  [[nodiscard]] bool keeps_topology(const TetMesh& mesh, LocalVertex p, LocalVertex q);
+
+ private:
+  static constexpr std::uint8_t kNoSlot = 255;
+  static constexpr std::size_t kMaxRing = 64;
+  static constexpr std::size_t kMaxLabels = 64;
+  using Mask = std::uint64_t;
+
+  /// What one end of the edge sees of the ring.
+  struct Side {
+    Mask labels = 0;                           ///< labels at the end, by index into labels_
+    std::array<Mask, kMaxRing> vertex_labels;  ///< labels around edge (end, ring vertex i)
+    std::array<Label, kMaxRing> beyond;        ///< label across face (end, ring i, ring i + 1)
+  };
+
+  [[nodiscard]] bool look_from(const TetMesh& mesh, LocalVertex end, LocalVertex other, Side& side);
+  [[nodiscard]] int label_index(Label label);
+  [[nodiscard]] bool all_labels_allow() const;
+  [[nodiscard]] bool label_allows(std::size_t index) const;
+  [[nodiscard]] bool meetings_allow();
+  [[nodiscard]] bool interfaces_allow(const TetMesh& mesh, LocalVertex p, LocalVertex q);
+  void collect_pairs(const TetMesh& mesh, LocalVertex v, LabelPairs& pairs);
+
+  /// A tet at a triangle (v, a, b) of a star; its label by index into labels_.
+  struct FaceSide {
+    LocalVertex a = 0;
+    LocalVertex b = 0;
+    int label = 0;
+    friend auto operator<=>(const FaceSide&, const FaceSide&) = default;
+  };
+
+  KeptTopology kept_;
+  EdgeRing ring_;
+  std::vector<std::uint8_t> slots_;
+  std::vector<Label> labels_;
+  Side p_, q_;
+  LabelPairs edge_pairs_, pairs_p_, pairs_q_;
+  std::vector<FaceSide> sides_;
+};
+
+}  // namespace mw

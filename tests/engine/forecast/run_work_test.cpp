@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What windows cost: faces against brute force, and sums over windows.
+#include "engine/forecast/run_work.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "kernels/core/each_index.h"
+
+namespace mw::engine {
+namespace {
+
+LabelBox random_labels(std::mt19937& random, Index3 shape, Label labels) {
+  LabelBox out{{{0, 0, 0}, shape}, {}};
+  const auto run = 1 + random() % 40;
+  each_index(shape, [&](Index3 v) {
+    out.labels.push_back(static_cast<Label>(
+        (static_cast<std::uint64_t>(v.x + v.y + v.z) / run + (random() % 8 == 0 ? 1U : 0U)) %
+        labels));
+  });
+  return out;
+}
+
+std::uint64_t counted(const LabelBox& labels, const Box3& box) {
+  std::uint64_t faces = 0;
+  each_index(box, [&](Index3 v) {
+    for (const Index3 step : {Index3{1, 0, 0}, Index3{0, 1, 0}, Index3{0, 0, 1}}) {
+      const Index3 other = v + step;
+      if (labels.box.contains(other) && labels.at(v) != labels.at(other)) ++faces;
+    }
+  });
+  return faces;
+}
+
+Index3 random_shape(std::mt19937& random) {
+  const auto edge = [&] { return static_cast<std::int64_t>(1 + random() % 50); };
+  return {edge(), edge(), edge()};
+}
+
+BoundaryFaces faces_of(const LabelBox& labels) {
+  const Index3 shape = labels.box.shape();
+  BoundaryFaces out(shape);
+  const Index3 bricks{(shape.x + 15) / 16, (shape.y + 15) / 16, (shape.z + 15) / 16};
+  each_index(bricks, [&](Index3 brick) {
+    const Index3 lo{16 * brick.x, 16 * brick.y, 16 * brick.z};
+    std::set<Label> found;
+    each_index(intersection({lo, lo + Index3{16, 16, 16}}, labels.box),
+               [&](Index3 v) { found.insert(labels.at(v)); });
+    out.count(labels, brick, found.size() == 1);
+  });
+  return out;
+}
+
+TEST(BoundaryFaces, AreThoseOfEveryVoxel) {
+  std::mt19937 random(374);
+  for (int i = 0; i < 60; ++i) {
+    const LabelBox labels = random_labels(random, random_shape(random), i % 3 == 0 ? 1 : 5);
+    const BoundaryFaces faces = faces_of(labels);
+    EXPECT_NEAR(faces.in(labels.box), static_cast<double>(counted(labels, labels.box)), 1e-6);
+    const Box3 brick = intersection({{16, 16, 0}, {32, 32, 16}}, labels.box);
+    if (brick.lo.x >= brick.hi.x || brick.lo.y >= brick.hi.y) continue;
+    EXPECT_NEAR(faces.in(brick), static_cast<double>(counted(labels, brick)), 1e-6);
+  }
+}
+
+/// Uniform bricks have faces between them.
+TEST(BoundaryFaces, SeesBricksOfOneLabelEach) {
+  LabelBox labels{{{0, 0, 0}, {48, 32, 32}}, {}};
+  each_index(labels.box, [&](Index3 v) {
+    labels.labels.push_back(static_cast<Label>((v.x / 16 + v.y / 16 + v.z / 16) % 2));
+  });
+  EXPECT_EQ(faces_of(labels).in(labels.box), (2 * 4 + 3 * 2 + 3 * 2) * 256);
+}
+
+TEST(BoundaryFaces, PartsOfABoxAddUp) {
+  std::mt19937 random(375);
+  const LabelBox labels = random_labels(random, {50, 40, 30}, 4);
+  const BoundaryFaces faces = faces_of(labels);
+  for (std::int64_t at = 0; at <= 50; at += 7) {
+    const double parts = faces.in({{0, 0, 0}, {at, 40, 30}}) + faces.in({{at, 0, 0}, {50, 40, 30}});
+    EXPECT_NEAR(parts, faces.in(labels.box), 1e-6);
+  }
+  EXPECT_EQ(faces.in({{60, 0, 0}, {70, 10, 10}}), 0);
+}
+
+/// Whichever order, every window costs something, and more where there is more.
+TEST(MarchWork, FollowsTheInterfaces) {
+  LabelBox labels{{{0, 0, 0}, {48, 48, 96}}, {}};
+  std::mt19937 random(376);
+  each_index(labels.box, [&](Index3 v) {
+    labels.labels.push_back(v.z < 48 ? 0U : static_cast<Label>(random() % 3));
+  });
+  const BoundaryFaces faces = faces_of(labels);
+  for (const Order order : {Order::kRaster, Order::kColour}) {
+    const WindowOrder windows(WindowGrid(labels.box.shape(), 16), order);
+    const MarchWork work(faces, windows, {}, {});
+    double lower = 0, upper = 0;
+    each_index(windows.grid().windows(), [&](Index3 w) {
+      EXPECT_GT(work.of(w), 0);
+      (windows.grid().window_box(w).hi.z <= 48 ? lower : upper) += work.of(w);
+    });
+    EXPECT_NEAR(lower + upper, work.of_all(), 1e-6 * work.of_all());
+    EXPECT_GT(upper, 10 * lower);
+  }
+}
+
+}  // namespace
+}  // namespace mw::engine

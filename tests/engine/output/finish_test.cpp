@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Final blocks to one mesh: what a list of everything in memory would give, without one.
+#include "engine/output/finish.h"
+
+#include <map>
+
+#include "engine/output/interface_shape.h"
+#include "engine/store/run_store.h"
+#include "engine/window/window_visitor.h"
+#include "io/mesh/digest.h"
+#include "kernels/audit/volumes.h"
+#include "tests/engine/memory_run.h"
+#include "tests/kernels/mesh/dense_mesh.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::test::below;
+using audit::test::random_volume_of;
+using audit::test::VolumeKind;
+using test::MemorySink;
+using test::MemoryVolume;
+using test::random_trial;
+using test::Trial;
+
+/// The blocks after one march.
+class MarchedBlocks : public FinalBlocks {
+ public:
+  MarchedBlocks(const Trial& trial, const io::DenseVolume& volume)
+      : layout_({WindowGrid(trial.volume.shape, trial.settings.window)}, trial.settings.order),
+        store_(layout_, budget_, nullptr) {
+    const PreparedLabels labels(volume, trial.settings);
+    const Metric metric(trial.frame.spacing);
+    BlockStore& blocks = store_.march(0);
+    const WindowVisitor visitor(labels, metric, trial.settings, grid(), blocks);
+    march(WindowOrder(grid(), trial.settings.order), [&](Index3 window) {
+      EXPECT_TRUE(blocks.admit(window, 1 << 20));
+      visitor.visit(window);
+    });
+  }
+
+  [[nodiscard]] BlockMesh load(Index3 block) override { return store_.march(0).load(block); }
+  [[nodiscard]] const WindowGrid& grid() const { return layout_.grid(0); }
+
+ private:
+  RunLayout layout_;
+  MemoryBudget budget_;
+  RunStore store_;
+};
+
+/// All vertices ascending by id, all tets with wanted labels: the whole mesh in memory at once.
+io::MeshData list_of_everything(FinalBlocks& blocks, const WindowGrid& grid,
+                                const io::DenseVolume& volume, const WantedLabel& wanted) {
+  std::map<VertexId, Point> used;
+  std::vector<std::pair<std::array<VertexId, 4>, RawLabel>> tets;
+  each_index(grid.blocks(), [&](Index3 b) {
+    const BlockMesh block = blocks.load(b);
+    for (const BlockTet& t : block.tets) {
+      const RawLabel label = volume.table().raw(t.label);
+      if (wanted && !wanted(label)) continue;
+      tets.push_back({{}, label});
+      for (std::size_t i = 0; i < 4; ++i) {
+        const BlockVertex& v = block.vertices[t.vertices[i]];
+        EXPECT_EQ(used.try_emplace(v.id, v.position).first->second, v.position);
+        tets.back().first[i] = v.id;
+      }
+    }
+  });
+  io::MeshData out;
+  std::map<VertexId, std::uint64_t> row;
+  const io::VolumeInfo& info = volume.info();
+  for (const auto& [id, p] : used) {
+    row[id] = out.vertices.size();
+    out.vertices.push_back({info.space.origin[0] + info.space.spacing[0] * (p.x / 1024.0),
+                            info.space.origin[1] + info.space.spacing[1] * (p.y / 1024.0),
+                            info.space.origin[2] + info.space.spacing[2] * (p.z / 1024.0)});
+  }
+  for (const auto& [ids, label] : tets) {
+    out.tets.push_back({row[ids[0]], row[ids[1]], row[ids[2]], row[ids[3]]});
+    out.labels.push_back(label);
+  }
+  return out;
+}
+
+/// Six-fold signed volume in physical units.
+double volume6_of(const io::MeshData& mesh, const io::TetRows& t) {
+  std::array<std::array<double, 3>, 3> edge{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edge[i][k] = mesh.vertices[t[i + 1]][k] - mesh.vertices[t[0]][k];
+    }
+  }
+  const auto& [a, b, c] = edge;
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// Figures of the audit, which holds the whole mesh, are those that were measured on the way.
+void expect_same_shape(const FinishedMesh& finished, const io::MeshData& mesh, const Trial& trial,
+                       const WantedLabel& wanted) {
+  const test::SmallMesh small = test::small_mesh(mesh);
+  const audit::ShapeReport expected = audit::measure_shape(small.view());
+  const audit::ShapeReport& actual = finished.shape.value();
+  EXPECT_EQ(actual.triangles, expected.triangles);
+  EXPECT_NEAR(actual.area, expected.area, 1e-12 * expected.area);
+  EXPECT_NEAR(actual.bend_max_deg, expected.bend_max_deg, 1e-9);
+  EXPECT_NEAR(actual.sharp_share, expected.sharp_share, 1e-9);
+  // Rounding may put an edge at the bound of two bins into either.
+  EXPECT_NEAR(actual.bend_p50_deg, expected.bend_p50_deg, 0.11);
+  EXPECT_NEAR(actual.bend_p95_deg, expected.bend_p95_deg, 0.11);
+  EXPECT_NEAR(actual.bend_p99_deg, expected.bend_p99_deg, 0.11);
+  const audit::VolumeReport volumes = audit::measure_volumes(
+      trial.volume.view(), trial.volume.label_count, small.view(), trial.frame);
+  EXPECT_TRUE(volumes.exact);
+  ASSERT_EQ(volumes.per_label.size(), finished.label_volumes6.size());
+  for (std::size_t l = 0; l < volumes.per_label.size(); ++l) {
+    const audit::VolumeRow& row = volumes.per_label[l];
+    EXPECT_EQ(audit::volume_row(row.label, row.voxels, finished.label_volumes6[l]).error,
+              row.error);
+    const bool written = !wanted || wanted(test::raw_label(row.label));
+    EXPECT_EQ(finished.label_volumes6[l] > 0, written);
+  }
+}
+
+TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
+  std::mt19937 random(321);
+  for (std::uint32_t i = 0; i < 40 && !HasFailure(); ++i) {
+    const auto edge = [&] { return std::int64_t{1 + below(random, 15)}; };
+    const auto x = edge(), y = edge(), z = edge();
+    const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
+    Trial trial = random_trial(random, random_volume_of(random, kind, {x, y, z}, 1 + i % 5));
+    SCOPED_TRACE(trial.text());
+    const MemoryVolume file(trial.volume, trial.frame);
+    const io::LabelTable table = io::collect_labels(file);
+    const io::DenseVolume volume(file, table);
+    MarchedBlocks blocks(trial, volume);
+    const WindowGrid& grid = blocks.grid();
+    OutputOptions options{.wanted = {}, .measure_quality = true, .measure_shape = true};
+    if (i % 3 == 0) options.wanted = [](RawLabel label) { return test::test_label(label) != 0; };
+    MemorySink sink;
+    const FinishedMesh finished = finish(blocks, grid, volume, sink, options);
+    const io::MeshData& mesh = sink.mesh();
+    EXPECT_EQ(io::mesh_digest(mesh),
+              io::mesh_digest(list_of_everything(blocks, grid, volume, options.wanted)));
+    EXPECT_EQ(finished.vertices, mesh.vertices.size());
+    EXPECT_EQ(finished.tets, mesh.tets.size());
+    for (const io::TetRows& t : mesh.tets) EXPECT_GT(volume6_of(mesh, t), 0);
+    const audit::QualityReport quality =
+        audit::measure_quality({.vertices = mesh.vertices, .tets = mesh.tets, .labels = {}});
+    EXPECT_EQ(finished.quality->radius_ratio_min, quality.radius_ratio_min);
+    EXPECT_EQ(finished.quality->radius_ratio_mean, quality.radius_ratio_mean);
+    EXPECT_EQ(finished.quality->radius_ratio_histogram, quality.radius_ratio_histogram);
+    EXPECT_EQ(finished.quality->worst_tet, quality.worst_tet);
+    expect_same_shape(finished, mesh, trial, options.wanted);
+    MemorySink again;
+    const FinishedMesh second = finish(blocks, grid, volume, again, options);
+    EXPECT_EQ(second.shape->bend_p95_deg, finished.shape->bend_p95_deg);
+    EXPECT_EQ(second.shape->area, finished.shape->area);
+    EXPECT_EQ(second.shape->sharp_share, finished.shape->sharp_share);
+    EXPECT_TRUE(again.mesh().vertices == mesh.vertices && again.mesh().tets == mesh.tets);
+  }
+}
+
+/// Start blocks of a bar of noise, made when asked for.
+class Bar : public FinalBlocks {
+ public:
+  explicit Bar(std::int64_t length)
+      : volume_(mw::test::volume_from(
+            {8, 8, length}, 2, [](auto x, auto y, auto z) { return (x * 5 + y * 3 + z) % 2; })),
+        grid_(volume_.shape, 4) {}
+
+  [[nodiscard]] BlockMesh load(Index3 block) override {
+    return mw::test::dense_block(volume_, grid_.block_box(block));
+  }
+  [[nodiscard]] const audit::test::SmallVolume& volume() const { return volume_; }
+  [[nodiscard]] const WindowGrid& grid() const { return grid_; }
+
+ private:
+  audit::test::SmallVolume volume_;
+  WindowGrid grid_;
+};
+
+/// P6: what is remembered does not grow with the number of planes of blocks.
+TEST(Promise6BoundedMemory, OfTheFinalMerge) {
+  std::vector<std::size_t> most;
+  std::vector<std::uint64_t> most_shape;
+  for (const std::int64_t length : {12, 60, 240}) {
+    Bar bar(length);
+    const MemoryVolume file(bar.volume(), {});
+    const io::LabelTable table = io::collect_labels(file);
+    MemorySink sink;
+    const FinishedMesh finished =
+        finish(bar, bar.grid(), io::DenseVolume(file, table), sink, {.measure_shape = true});
+    EXPECT_EQ(finished.vertices, static_cast<std::uint64_t>(9 * 9 * (length + 1)));
+    most.push_back(finished.most_remembered);
+    most_shape.push_back(finished.most_shape_bytes);
+  }
+  // Two planes of blocks and a line, two voxels thick each, and the far side.
+  EXPECT_LE(most[0], 9U * 9U * 7U);
+  EXPECT_EQ(most[1], most[2]);
+  EXPECT_GT(most_shape[1], 0U);
+  EXPECT_EQ(most_shape[1], most_shape[2]);
+}
+
+/// The same, and nothing is left when the last block has come.
+TEST(InterfaceShape, RemembersTheFrontOnly) {
+  Bar bar(40);
+  const MemoryVolume file(bar.volume(), {});
+  const io::LabelTable table = io::collect_labels(file);
+  const LabelSelection all({}, table);
+  std::uint64_t held = 0;
+  InterfaceShape shape(bar.grid(), file.info(), all, [&](std::uint64_t bytes) { held = bytes; });
+  each_index(bar.grid().blocks(), [&](Index3 b) {
+    shape.add(bar.load(b));
+    EXPECT_LE(shape.remembered(), held);
+  });
+  EXPECT_EQ(shape.remembered(), 0U);
+  // A plane of blocks has 8 x 8 voxel faces of two triangles on one side, the row of blocks that
+  // is under way 4 x 8 and 2 x 4 more; three edges a triangle at most.
+  constexpr std::uint64_t kTriangles = 2 * (64 + 32 + 16);
+  EXPECT_LE(shape.most_remembered(), kTriangles * (32 + 3 * 56) + 64 * 160);
+}
+
+}  // namespace
+}  // namespace mw::engine

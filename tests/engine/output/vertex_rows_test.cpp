@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows of shared vertices: right for any reach, remembered no longer than needed.
+#include "engine/output/vertex_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tests/oracle/small_volumes.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::test::below;
+
+/// Vertices anywhere in a volume, each in a few blocks at most `reach` from its home.
+struct Scattered {
+  WindowGrid grid;
+  std::vector<std::vector<BlockVertex>> blocks;  ///< by raster number, ascending by id
+
+  [[nodiscard]] const std::vector<BlockVertex>& at(Index3 block) const {
+    return blocks[raster(block, grid.blocks())];
+  }
+};
+
+std::int32_t random_coordinate(std::mt19937& random, std::int64_t voxels) {
+  return static_cast<std::int32_t>(
+      below(random, static_cast<std::uint32_t>(voxels * kUnitsPerVoxel + 1)));
+}
+
+Scattered scatter_vertices(std::mt19937& random, Index3 shape, std::uint32_t reach,
+                           std::size_t count) {
+  Scattered out{.grid = WindowGrid(shape, 4), .blocks = {}};
+  const Index3 blocks = out.grid.blocks();
+  out.blocks.resize(static_cast<std::size_t>(blocks.product()));
+  const VertexUses homes(out.grid);
+  const auto near = [&](std::int64_t home, std::int64_t most) {
+    const std::int64_t offset = std::int64_t{below(random, 2 * reach + 1)} - reach;
+    return std::clamp<std::int64_t>(home + offset, 0, most - 1);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point p{random_coordinate(random, shape.x), random_coordinate(random, shape.y),
+                  random_coordinate(random, shape.z)};
+    // Ids in no order of place, each once.
+    const BlockVertex vertex{.id = i * 7919 % count, .position = p, .quadric = {}};
+    const Index3 home = homes.home(p);
+    std::map<std::size_t, bool> in;
+    for (std::uint32_t copies = 1 + below(random, 6); copies > 0; --copies) {
+      in[raster({near(home.x, blocks.x), near(home.y, blocks.y), near(home.z, blocks.z)}, blocks)] =
+          true;
+    }
+    for (const auto& [block, unused] : in) out.blocks[block].push_back(vertex);
+  }
+  for (auto& block : out.blocks) {
+    std::sort(block.begin(), block.end(),
+              [](const BlockVertex& a, const BlockVertex& b) { return a.id < b.id; });
+  }
+  return out;
+}
+
+VertexUses uses_of(const Scattered& scattered) {
+  VertexUses uses(scattered.grid);
+  each_index(scattered.grid.blocks(), [&](Index3 b) { uses.add(b, scattered.at(b)); });
+  return uses;
+}
+
+Index3 random_shape(std::mt19937& random) {
+  const auto edge = [&] { return std::int64_t{1 + below(random, 17)}; };
+  const auto x = edge(), y = edge(), z = edge();
+  return {x, y, z};
+}
+
+TEST(VertexRows, AreThoseOfAMapOfAllVertices) {
+  std::mt19937 random(311);
+  for (std::uint32_t i = 0; i < 200 && !HasFailure(); ++i) {
+    const Scattered scattered = scatter_vertices(random, random_shape(random), i % 5, 1 + i * 5);
+    VertexRows rows(uses_of(scattered));
+    std::map<VertexId, std::uint64_t> all;
+    each_index(scattered.grid.blocks(), [&](Index3 b) {
+      std::vector<std::uint64_t> expected;
+      for (const BlockVertex& v : scattered.at(b)) {
+        expected.push_back(all.try_emplace(v.id, all.size()).first->second);
+      }
+      EXPECT_EQ(rows.assign(b, scattered.at(b)), expected);
+    });
+    EXPECT_EQ(rows.count(), all.size());
+    EXPECT_EQ(rows.remembered(), 0U);
+  }
+}
+
+/// The bound that the header states, with vertices of homes counted by brute force.
+TEST(VertexRows, RememberNoMoreThanThePlanesInReach) {
+  std::mt19937 random(312);
+  for (std::uint32_t i = 0; i < 100 && !HasFailure(); ++i) {
+    const Scattered scattered = scatter_vertices(random, random_shape(random), i % 4, 400);
+    const Index3 blocks = scattered.grid.blocks();
+    const VertexUses uses = uses_of(scattered);
+    std::vector<std::size_t> of_line(static_cast<std::size_t>(blocks.y * blocks.z));
+    std::map<VertexId, bool> counted;
+    for (const auto& block : scattered.blocks) {
+      for (const BlockVertex& v : block) {
+        if (!counted.try_emplace(v.id, true).second) continue;
+        ++of_line[uses.line(uses.home(v.position))];
+      }
+    }
+    const std::size_t reach = i % 4;
+    const std::size_t lines = 2 * reach * (static_cast<std::size_t>(blocks.y) + 1) + 1;
+    std::size_t most = 0;
+    for (std::size_t first = 0; first < of_line.size(); ++first) {
+      std::size_t sum = 0;
+      for (std::size_t l = first; l < std::min(first + lines, of_line.size()); ++l) {
+        sum += of_line[l];
+      }
+      most = std::max(most, sum);
+    }
+    VertexRows rows(uses);
+    each_index(blocks, [&](Index3 b) { static_cast<void>(rows.assign(b, scattered.at(b))); });
+    EXPECT_LE(rows.most_remembered(), most);
+    EXPECT_GT(rows.most_remembered(), 0U);
+  }
+}
+
+TEST(VertexRows, HomeIsTheBlockAroundAPosition) {
+  for (const Index3 shape : {Index3{7, 4, 9}, Index3{1, 2, 3}, Index3{12, 1, 5}}) {
+    const WindowGrid grid(shape, 6);
+    const VertexUses uses(grid);
+    each_index(shape, [&](Index3 voxel) {
+      const auto middle = [](std::int64_t v) {
+        return static_cast<std::int32_t>(v * kUnitsPerVoxel + kUnitsPerVoxel / 2);
+      };
+      const Index3 home = uses.home({middle(voxel.x), middle(voxel.y), middle(voxel.z)});
+      EXPECT_TRUE(grid.block_box(home).contains(voxel));
+    });
+    const auto end = [](std::int64_t v) { return static_cast<std::int32_t>(v * kUnitsPerVoxel); };
+    EXPECT_EQ(uses.home({end(shape.x), end(shape.y), end(shape.z)}),
+              grid.blocks() - (Index3{1, 1, 1}));
+  }
+}
+
+}  // namespace
+}  // namespace mw::engine

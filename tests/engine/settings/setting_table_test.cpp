@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// One table of settings: none is left out, and each is named, read, refused and told apart.
+#include "engine/settings/setting_table.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <set>
+
+#include "engine/store/run_identity.h"
+#include "tests/engine/settings/setting_samples.h"
+
+namespace mw::engine {
+namespace {
+
+using test::samples;
+using testing::HasSubstr;
+
+MeshSettings with(const Setting& setting, const std::string& text) {
+  MeshSettings settings;
+  set(setting, settings, text);
+  return settings;
+}
+
+std::string message_of(const Setting& setting, const std::string& text) {
+  try {
+    (void)with(setting, text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    return error.what();
+  }
+  ADD_FAILURE() << setting.name << " took " << text;
+  return {};
+}
+
+std::string identity(const MeshSettings& settings) {
+  return identity_text(io::VolumeInfo{}, settings);
+}
+
+/// A field that MeshSettings gains does not compile here; named here, it fails until its entry in
+/// the table changes it.
+TEST(SettingTable, LeavesOutNoField) {
+  MeshSettings changed;
+  for (const Setting& setting : setting_table()) {
+    set(setting, changed, samples(setting).good.front());
+  }
+  const MeshSettings defaults;
+  const auto& [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a_sizes, a12] = changed;
+  const auto& [b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b_sizes, b12] = defaults;
+  const auto& [a_labels, a_gradation, a_inner_vertices] = a_sizes;
+  const auto& [b_labels, b_gradation, b_inner_vertices] = b_sizes;
+  EXPECT_NE(a0, b0);
+  EXPECT_NE(a1, b1);
+  EXPECT_NE(a2, b2);
+  EXPECT_NE(a3, b3);
+  EXPECT_NE(a4, b4);
+  EXPECT_NE(a5, b5);
+  EXPECT_NE(a6, b6);
+  EXPECT_NE(a7, b7);
+  EXPECT_NE(a8, b8);
+  EXPECT_NE(a9, b9);
+  EXPECT_NE(a10, b10);
+  EXPECT_NE(a12, b12);
+  EXPECT_NE(a_labels, b_labels);
+  EXPECT_NE(a_gradation, b_gradation);
+  EXPECT_NE(a_inner_vertices, b_inner_vertices);
+}
+
+TEST(SettingTable, NamesAreUnlikeAndPlain) {
+  std::set<std::string> names;
+  for (const Setting& setting : setting_table()) {
+    EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
+    for (const char c : setting.name) EXPECT_TRUE(std::islower(c) != 0 || c == '-');
+    EXPECT_FALSE(setting.help.empty());
+    EXPECT_EQ(setting.choices.empty(), setting.kind != SettingKind::kChoice);
+  }
+  EXPECT_EQ(names.size(), test::kSettingSamples.size());
+}
+
+TEST(SettingTable, DefaultsAreAllowed) {
+  EXPECT_NO_THROW(check(MeshSettings{}));
+  for (const Setting& setting : setting_table()) EXPECT_NO_THROW(check(setting, {}));
+}
+
+/// Text to settings to text; and the default's text is taken as well.
+TEST(SettingTable, TextsSurviveTheWayThere) {
+  for (const Setting& setting : setting_table()) {
+    std::vector<std::string> texts = samples(setting).good;
+    texts.push_back(setting.text(MeshSettings{}));
+    for (const std::string& text : texts) {
+      EXPECT_EQ(setting.text(with(setting, text)), text) << setting.name;
+    }
+  }
+}
+
+TEST(SettingTable, EveryChoiceCanBeMade) {
+  for (const Setting& setting : setting_table()) {
+    for (const std::string& choice : setting.choices) {
+      EXPECT_EQ(setting.text(with(setting, choice)), choice) << setting.name;
+    }
+  }
+}
+
+/// An entry changes its own field alone, and every other value is another run.
+TEST(SettingTable, EveryValueHasItsIdentity) {
+  const MeshSettings defaults;
+  std::set<std::string> identities{identity(defaults)};
+  for (const Setting& setting : setting_table()) {
+    for (const std::string& text : samples(setting).good) {
+      const MeshSettings settings = with(setting, text);
+      EXPECT_TRUE(identities.insert(identity(settings)).second) << setting.name << " = " << text;
+      EXPECT_THAT(identity(settings), HasSubstr("\n" + setting.name + " = " + text + "\n"));
+      for (const Setting& other : setting_table()) {
+        if (other.name == setting.name) continue;
+        EXPECT_EQ(other.text(settings), other.text(defaults)) << setting.name << " " << other.name;
+      }
+    }
+  }
+}
+
+TEST(SettingTable, OutOfRangeIsRefusedByNameWithWhatIsAllowed) {
+  for (const Setting& setting : setting_table()) {
+    EXPECT_EQ(samples(setting).outside.empty(),
+              setting.is_allowed == nullptr || setting.kind == SettingKind::kSizes)
+        << setting.name;
+    for (const std::string& text : samples(setting).outside) {
+      EXPECT_EQ(message_of(setting, text), setting.name + " must be " + setting.allowed) << text;
+    }
+  }
+}
+
+TEST(SettingTable, WhatIsNoValueIsRefused) {
+  for (const Setting& setting : setting_table()) {
+    for (const std::string& text : samples(setting).bad) {
+      EXPECT_FALSE(message_of(setting, text).empty()) << setting.name << " = " << text;
+    }
+  }
+}
+
+/// Settings of a program, which no text has been.
+TEST(SettingTable, CheckNamesSettingValueAndWhatIsAllowed) {
+  const auto refusal = [](const MeshSettings& settings) -> std::string {
+    try {
+      check(settings);
+      return "allowed";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal({.window = 41}), "window = 41: window must be an even number from 4 to 256");
+  EXPECT_EQ(refusal({.quality_floor = 0.75}),
+            "quality-floor = 0.75: quality-floor must be from 0 to 0.5");
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double size : {0.0, -1.0, kInfinity, kNan}) {
+    EXPECT_THAT(refusal({.sizes = {.labels = {{3, size}}}}), HasSubstr("size must be positive"));
+  }
+  EXPECT_THAT(refusal({.sizes = {.labels = {{3, 1.0}, {2, 1.0}, {3, 2.0}}}}), HasSubstr("once"));
+  EXPECT_EQ(refusal({.sizes = {.labels = {{3, 1.0}, {2, 1.0}}}}), "allowed");
+  EXPECT_THAT(refusal({.sizes = {.gradation = kNan}}), HasSubstr("gradation = nan: "));
+}
+
+TEST(SettingTable, SizesAreSortedByLabel) {
+  const auto& table = setting_table();
+  const auto size = std::find_if(table.begin(), table.end(),
+                                 [](const Setting& s) { return s.kind == SettingKind::kSizes; });
+  ASSERT_NE(size, table.end());
+  EXPECT_EQ(size->text(with(*size, "7=4,1=2.5")), "1=2.5,7=4");
+  EXPECT_EQ(size->text(with(*size, "-1=4")), "18446744073709551615=4");
+  EXPECT_THAT(message_of(*size, "3=1,2=1,3=1"), HasSubstr("label 3 has two sizes"));
+}
+
+}  // namespace
+}  // namespace mw::engine

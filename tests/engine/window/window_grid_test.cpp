@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sec 4.1: blocks tile the volume, windows cover them, and predecessors order all that touch.
+#include "engine/window/window_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+#include <set>
+
+#include "tests/engine/march/grids.h"
+
+namespace mw::engine {
+namespace {
+
+using test::grid_of;
+using test::Relation;
+using test::transitive_closure;
+
+bool are_neighbours(Index3 a, Index3 b) {
+  return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
+}
+
+Relation by_predecessors(const WindowGrid& grid) {
+  const auto count = static_cast<std::size_t>(grid.windows().product());
+  Relation out(count, std::vector<bool>(count, false));
+  each_index(grid.windows(), [&](Index3 w) {
+    for (Index3 p : grid.predecessors(w)) {
+      EXPECT_LT(raster(p, grid.windows()), raster(w, grid.windows()));
+      EXPECT_TRUE((Box3{{0, 0, 0}, grid.windows()}.contains(p)));
+      out[raster(w, grid.windows())][raster(p, grid.windows())] = true;
+    }
+  });
+  return out;
+}
+
+/// The 13 neighbours earlier in march order.
+Relation by_neighbours(const WindowGrid& grid) {
+  const auto count = static_cast<std::size_t>(grid.windows().product());
+  Relation out(count, std::vector<bool>(count, false));
+  each_index(grid.windows(), [&](Index3 w) {
+    each_index(grid.windows(), [&](Index3 v) {
+      const std::size_t a = raster(w, grid.windows()), b = raster(v, grid.windows());
+      if (b < a && are_neighbours(v, w)) out[a][b] = true;
+    });
+  });
+  return out;
+}
+
+TEST(Sec41MarchOrder, PredecessorsAreTheThirteenEarlierNeighboursClosedTransitively) {
+  each_index(Index3{5, 5, 4}, [](Index3 i) {
+    const WindowGrid grid = grid_of(i + Index3{1, 1, 1});
+    ASSERT_EQ(grid.windows(), (i + Index3{1, 1, 1}));
+    EXPECT_TRUE(transitive_closure(by_predecessors(grid)) ==
+                transitive_closure(by_neighbours(grid)));
+  });
+}
+
+std::vector<WindowGrid> assorted_grids() {
+  std::vector<WindowGrid> out;
+  for (int window : {2, 4, 6, 16}) {
+    for (const Index3 shape : {Index3{1, 1, 1}, {2, 3, 4}, {7, 9, 5}, {16, 17, 15}, {1, 20, 3}}) {
+      out.emplace_back(shape, window);
+    }
+  }
+  return out;
+}
+
+TEST(WindowGrid, BlocksTileTheVolume) {
+  for (const WindowGrid& grid : assorted_grids()) {
+    std::vector<int> covered(static_cast<std::size_t>(grid.volume().product()), 0);
+    each_index(grid.blocks(), [&](Index3 b) {
+      const Box3 box = grid.block_box(b);
+      EXPECT_GT(box.voxels(), 0);
+      each_index(box.shape(), [&](Index3 v) { ++covered[raster(box.lo + v, grid.volume())]; });
+    });
+    EXPECT_EQ(covered, std::vector<int>(covered.size(), 1));
+  }
+}
+
+/// Windows are at most 2 x 2 x 2 blocks, in raster order, and together cover all.
+TEST(WindowGrid, WindowsCoverTheBlocks) {
+  for (const WindowGrid& grid : assorted_grids()) {
+    std::set<std::size_t> covered;
+    each_index(grid.windows(), [&](Index3 w) {
+      std::size_t last = 0;
+      const auto blocks = grid.blocks_of(w);
+      const auto along = [](std::int64_t count) { return std::min<std::int64_t>(count, 2); };
+      const Index3 all = grid.blocks();
+      EXPECT_EQ(blocks.size(),
+                static_cast<std::size_t>(along(all.x) * along(all.y) * along(all.z)));
+      for (Index3 b : blocks) {
+        EXPECT_TRUE((Box3{w, w + Index3{2, 2, 2}}.contains(b)));
+        EXPECT_TRUE((Box3{{0, 0, 0}, all}.contains(b)));
+        const std::size_t at = raster(b, all);
+        EXPECT_TRUE(covered.empty() || b == blocks.front() || at > last);
+        last = at;
+        covered.insert(at);
+      }
+    });
+    EXPECT_EQ(covered.size(), static_cast<std::size_t>(grid.blocks().product()));
+  }
+}
+
+/// True when 4 * box, in lattice units, holds the sum of four positions; half-open.
+bool holds(const Box3& box, const std::array<std::int64_t, 3>& sum) {
+  const std::int64_t unit = 4 * kUnitsPerVoxel;
+  return sum[0] >= box.lo.x * unit && sum[0] < box.hi.x * unit && sum[1] >= box.lo.y * unit &&
+         sum[1] < box.hi.y * unit && sum[2] >= box.lo.z * unit && sum[2] < box.hi.z * unit;
+}
+
+std::int64_t gap(std::int64_t lo, std::int64_t hi, std::int64_t sum) {
+  const std::int64_t unit = 4 * kUnitsPerVoxel;
+  if (sum < lo * unit) return lo * unit - sum;
+  return sum < hi * unit ? 0 : sum - hi * unit + 1;
+}
+
+/// Per axis: how far the barycentre is from the block.
+std::array<std::int64_t, 3> distance(const Box3& box, const std::array<std::int64_t, 3>& sum) {
+  return {gap(box.lo.x, box.hi.x, sum[0]), gap(box.lo.y, box.hi.y, sum[1]),
+          gap(box.lo.z, box.hi.z, sum[2])};
+}
+
+TEST(Sec42Owner, IsTheBlockOfTheBarycentreOrTheNearestOfTheWindow) {
+  std::mt19937 random(851);
+  int inside = 0, outside = 0;
+  for (const WindowGrid& grid : assorted_grids()) {
+    each_index(grid.windows(), [&](Index3 w) {
+      const auto blocks = grid.blocks_of(w);
+      for (int i = 0; i < 40; ++i) {
+        // Inside the volume, every second time exactly on a voxel plane.
+        const auto along = [&](std::int64_t voxels) {
+          const auto sum = static_cast<std::int64_t>(random()) % (voxels * 4 * kUnitsPerVoxel);
+          return i % 2 == 0 ? sum : sum / (4 * kUnitsPerVoxel) * (4 * kUnitsPerVoxel);
+        };
+        const std::array<std::int64_t, 3> sum{along(grid.volume().x), along(grid.volume().y),
+                                              along(grid.volume().z)};
+        const Index3 owner = grid.owner(w, sum);
+        ASSERT_EQ(std::count(blocks.begin(), blocks.end(), owner), 1);
+        const auto away = distance(grid.block_box(owner), sum);
+        bool any = false;
+        for (Index3 b : blocks) {
+          any |= holds(grid.block_box(b), sum);
+          const auto other = distance(grid.block_box(b), sum);
+          for (std::size_t k = 0; k < 3; ++k) ASSERT_LE(away[k], other[k]);
+        }
+        ASSERT_EQ(holds(grid.block_box(owner), sum), any);
+        (any ? inside : outside) += 1;
+      }
+    });
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_GT(outside, 1000);
+}
+
+}  // namespace
+}  // namespace mw::engine

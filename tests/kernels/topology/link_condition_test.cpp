@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Promise 1 at its root: no contraction that the collapse test accepts changes a Betti number.
+#include "kernels/topology/link_condition.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernels/simplify/simplify.h"
+#include "tests/kernels/mesh/dense_mesh.h"
+
+namespace mw::test {
+namespace {
+
+/// Contractions with all survivors positive, by what the oracle and the test say about them.
+struct Counts {
+  int accepted = 0;            ///< all of them kept by the oracle, or the test fails
+  int refused_but_kept = 0;    ///< Betti numbers would not change, still refused
+  int refused_and_broken = 0;  ///< Betti numbers would change
+  int of_many_labels = 0;      ///< judged with more than four labels at the two ends
+
+  Counts& operator+=(const Counts& o) {
+    accepted += o.accepted;
+    refused_but_kept += o.refused_but_kept;
+    refused_and_broken += o.refused_and_broken;
+    of_many_labels += o.of_many_labels;
+    return *this;
+  }
+};
+
+std::size_t labels_at(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
+  std::set<Label> labels;
+  for (const LinkTriangle& t : mesh.star(p)) labels.insert(t.label);
+  for (const LinkTriangle& t : mesh.star(q)) labels.insert(t.label);
+  return labels.size();
+}
+
+/// Judges random edges of one mesh and contracts those that are accepted, one after the other.
+class Trial {
+ public:
+  Trial(const SmallVolume& volume, TetMesh& mesh, std::mt19937& random)
+      : mesh_(mesh),
+        random_(random),
+        label_count_(volume.label_count),
+        expected_(betti(volume)),
+        long_lived_(mesh) {}
+
+  Counts run(int tries) {
+    for (int i = 0; i < tries && !::testing::Test::HasFailure(); ++i) judge_random_edge();
+    return counts_;
+  }
+
+ private:
+  void judge_random_edge() {
+    const auto [p, q] = random_edge(mesh_, random_);
+    if (p == q) return;
+    const bool one_inner = mesh_.order(p) == 1 || mesh_.order(q) == 1;
+    const auto x = contraction_target(mesh_, p, q, below(random_, 3));
+    if (!x || !stays_positive(mesh_, p, q, *x)) return;
+    const bool accepted = verdict(p, q);
+    if (one_inner) {
+      EXPECT_TRUE(accepted) << "Cases 1 and 2 keep every region as a point set";
+    } else {
+      count(p, q, accepted);
+    }
+    if (accepted) contract(p, q, *x);
+  }
+
+  /// Of a test that has been used before and of a new one, in both directions.
+  bool verdict(LocalVertex p, LocalVertex q) {
+    LinkCondition fresh(mesh_);
+    const bool accepted = fresh.keeps_topology(mesh_, p, q);
+    EXPECT_EQ(LinkCondition(mesh_).keeps_topology(mesh_, q, p), accepted);
+    EXPECT_EQ(long_lived_.keeps_topology(mesh_, p, q), accepted);
+    EXPECT_EQ(long_lived_.keeps_topology(mesh_, q, p), accepted);
+    return accepted;
+  }
+
+  void count(LocalVertex p, LocalVertex q, bool accepted) {
+    const bool kept = betti(mesh_, contracted(mesh_.tets(), p, q), label_count_) == expected_;
+    EXPECT_TRUE(kept || !accepted) << "accepted, but a Betti number changes";
+    counts_.accepted += accepted ? 1 : 0;
+    counts_.refused_but_kept += kept && !accepted ? 1 : 0;
+    counts_.refused_and_broken += kept ? 0 : 1;
+    counts_.of_many_labels += labels_at(mesh_, p, q) > 4 ? 1 : 0;
+  }
+
+  void contract(LocalVertex keep, LocalVertex drop, Point x) {
+    const bool inner = mesh_.order(keep) == 1 || mesh_.order(drop) == 1;
+    std::set<TetKey> expected, actual;
+    for (const LocalTet& t : contracted(mesh_.tets(), keep, drop)) expected.insert(tet_key(t));
+    mesh_.contract(keep, drop, x, mesh_.quadric(keep));
+    for (const LocalTet& t : mesh_.tets()) actual.insert(tet_key(t));
+    EXPECT_TRUE(actual == expected);
+    EXPECT_TRUE(!inner || betti(mesh_, label_count_) == expected_);
+  }
+
+  TetMesh& mesh_;
+  std::mt19937& random_;
+  std::size_t label_count_;
+  std::vector<RegionBetti> expected_;
+  LinkCondition long_lived_;
+  Counts counts_;
+};
+
+Counts judge(const SmallVolume& volume, std::mt19937& random, int tries) {
+  SCOPED_TRACE(volume.text());
+  TetMesh mesh = dense_mesh(volume);
+  if (below(random, 2) == 0) disturb(mesh, random);
+  return Trial(volume, mesh, random).run(tries);
+}
+
+TEST(Sec533Case3, AcceptedContractionsKeepBettiNumbers) {
+  std::mt19937 random(301);
+  Counts counts;
+  for (int i = 0; i < 400 && !HasFailure(); ++i) counts += judge(random_volume(random), random, 50);
+  EXPECT_GT(counts.refused_and_broken, 100);
+  // Link equality is sufficient, not necessary: when this was written, 98 % of those that keep the
+  // numbers were accepted (4728 of 4830 on 400 volumes).
+  EXPECT_GT(counts.accepted, 19 * counts.refused_but_kept);
+}
+
+/// With more than four labels around an edge the label list of the test outgrows its first
+/// allocation; an index taken from an iterator after that was wrong once.
+TEST(Sec533Case3, AcceptedContractionsKeepBettiNumbersOfManyLabels) {
+  std::mt19937 random(302);
+  Counts counts;
+  for (int i = 0; i < 400 && !HasFailure(); ++i) {
+    const auto edge = [&] { return std::int64_t{2 + below(random, 2)}; };
+    const auto x = edge(), y = edge(), z = edge();
+    counts += judge(random_volume_of(random, VolumeKind::kNoise, {x, y, z}, 8), random, 50);
+  }
+  EXPECT_GT(counts.of_many_labels, 500);
+  EXPECT_GT(counts.refused_and_broken, 100);
+  // 96 % when this was written (1683 of 1746).
+  EXPECT_GT(counts.accepted, 9 * counts.refused_but_kept);
+}
+
+/// Labels with one and the same TetMesh::label_bit, the exterior's.
+std::vector<Label> labels_of_one_bit(std::size_t count) {
+  std::vector<Label> out;
+  for (Label l = 0; out.size() < count; ++l) {
+    if (TetMesh::label_bit(l) == TetMesh::label_bit(kExterior)) out.push_back(l);
+  }
+  return out;
+}
+
+TEST(LinkCondition, VerdictDoesNotDependOnWhatLabelsAreCalled) {
+  std::mt19937 random(303);
+  const std::vector<Label> names = labels_of_one_bit(5);
+  int accepted = 0, refused = 0;
+  for (int i = 0; i < 60; ++i) {
+    const SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, {3, 3, 2}, 5);
+    SmallVolume renamed = volume;
+    for (Label& l : renamed.labels) l = names[l];
+    const TetMesh mesh = dense_mesh(volume), other = dense_mesh(renamed);
+    LinkCondition test(mesh), other_test(other);
+    for (int k = 0; k < 50; ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p == q) continue;
+      const bool verdict = test.keeps_topology(mesh, p, q);
+      ASSERT_EQ(other_test.keeps_topology(other, p, q), verdict) << volume.text();
+      (verdict ? accepted : refused) += 1;
+    }
+  }
+  EXPECT_GT(accepted, 100);
+  EXPECT_GT(refused, 100);
+}
+
+/// Signatures decide early in simplify(); labels that they confuse must not be confused in the end.
+TEST(Promise1Topology, HoldsInAWindowOfLabelsWithOneSignature) {
+  std::mt19937 random(304);
+  const std::vector<Label> names = labels_of_one_bit(4);
+  std::uint64_t contracted_edges = 0;
+  for (int i = 0; i < 120 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_volume(random);
+    SCOPED_TRACE(volume.text());
+    SmallVolume renamed = volume;
+    for (Label& l : renamed.labels) l = names[l];
+    TetMesh mesh = dense_mesh(renamed);
+    contracted_edges += simplify(mesh, Metric(), {}).contracted;
+    std::vector<LocalTet> tets = mesh.tets();
+    for (LocalTet& t : tets) {
+      t.label = static_cast<Label>(std::find(names.begin(), names.end(), t.label) - names.begin());
+    }
+    EXPECT_TRUE(betti(mesh, tets, volume.label_count) == betti(volume));
+  }
+  EXPECT_GT(contracted_edges, 400U);
+}
+
+/// An edge (0, 1) in the axis of a ring of n vertices, each ring tet of its own label.
+class Fan {
+ public:
+  explicit Fan(LocalVertex n) : n_(n) {
+    add_vertex({0, 0, -50000});
+    add_vertex({0, 0, 50000});
+    for (LocalVertex i = 0; i < n; ++i) {
+      const double angle = 6.283185307179586 * i / n;
+      add_vertex({static_cast<std::int32_t>(100000 * std::cos(angle)),
+                  static_cast<std::int32_t>(100000 * std::sin(angle)), 0});
+      tets_.push_back({{0, 1, 2 + i, 2 + (i + 1) % n}, i});
+    }
+  }
+  /// Another tet below each of the ring's, all of new labels: now vertex 0 has 2 n of them.
+  void add_labels_at_one_end() {
+    add_vertex({0, 0, -200000});
+    for (LocalVertex i = 0; i < n_; ++i) {
+      tets_.push_back({{0, 2 + i, 2 + (i + 1) % n_, n_ + 2}, n_ + i});
+    }
+  }
+  [[nodiscard]] TetMesh mesh() const { return {vertices_, tets_, {1 << 30, 1 << 30, 1 << 30}}; }
+
+ private:
+  void add_vertex(Point p) {
+    vertices_.push_back({vertices_.size(), {p.x + 500000, p.y + 500000, p.z + 500000}, {}});
+  }
+
+  LocalVertex n_;
+  std::vector<BlockVertex> vertices_;
+  std::vector<BlockTet> tets_;
+};
+
+TEST(LinkCondition, RefusesRingsLongerThanItsMasks) {
+  const TetMesh mesh = Fan(70).mesh();
+  LinkCondition test(mesh);
+  EXPECT_FALSE(test.keeps_topology(mesh, 0, 1));
+  EXPECT_FALSE(test.keeps_topology(mesh, 1, 0));
+}
+
+TEST(LinkCondition, RefusesMoreLabelsThanItsMasks) {
+  Fan fan(40);
+  fan.add_labels_at_one_end();
+  const TetMesh mesh = fan.mesh();
+  LinkCondition test(mesh);
+  EXPECT_FALSE(test.keeps_topology(mesh, 0, 1));
+  EXPECT_FALSE(test.keeps_topology(mesh, 1, 0));
+}
+
+/// A case by hand, so that a reader sees what is refused and why.
+TEST(LinkCondition, RefusesToCutATunnelOpen) {
+  // A bar of label 1 through a 3 x 3 x 3 box: label 0 is the ring around it.
+  const SmallVolume bar =
+      volume_from({3, 3, 3}, 2, [](auto x, auto y, auto) { return x == 1 && y == 1 ? 1 : 0; });
+  const TetMesh mesh = dense_mesh(bar);
+  const auto corner = [](LocalVertex x, LocalVertex y, LocalVertex z) {
+    return (z * 4 + y) * 4 + x;
+  };
+  LinkCondition test(mesh);
+  EXPECT_TRUE(test.keeps_topology(mesh, corner(1, 1, 1), corner(1, 1, 2)));
+  // From the bar to the box: label 0 would no longer be a ring.
+  EXPECT_FALSE(test.keeps_topology(mesh, corner(1, 1, 1), corner(0, 1, 1)));
+}
+
+}  // namespace
+}  // namespace mw::test
