@@ -94,13 +94,6 @@ std::vector<RawLabel> parse_labels(std::string_view text) {
   return labels;
 }
 
-io::Element parse_element(std::string_view text) {
-  if (text == "tet4") return io::Element::kTet4;
-  if (text == "tet10") return io::Element::kTet10;
-  throw Error(ErrorKind::kUsage,
-              "'" + std::string(text) + "' is no element; those are tet4 and tet10");
-}
-
 std::uint64_t parse_size(std::string_view text) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
   const std::optional<std::uint64_t> unit = bytes_of_unit(text.substr(end));

@@ -22,6 +22,7 @@ using engine::parse_integer;
 using engine::parse_label;
 using engine::parse_number;
 using engine::parse_switch;
+using io::parse_element;
 using report::format_bytes;
 using report::format_fixed;
 using report::format_label;
@@ -31,7 +32,6 @@ using report::format_label;
 [[nodiscard]] Index3 parse_shape(std::string_view text);                   ///< "X,Y,Z", each >= 1
 [[nodiscard]] Box3 parse_box(std::string_view text);  ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
-[[nodiscard]] io::Element parse_element(std::string_view text);           ///< "tet4", "tet10"
 /// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
 /// B of 1000.  A fraction of a byte is left off.
 [[nodiscard]] std::uint64_t parse_size(std::string_view text);

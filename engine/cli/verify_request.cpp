@@ -17,10 +17,6 @@ constexpr const char* kNone = "none";
 constexpr const char* kInterfaces = "interfaces";
 constexpr const char* kVoxel = "voxel";
 
-/// What is asked of a mesh whose file tells of no run.
-constexpr io::MeshPromises kOtherPromises{.max_distance = 1.5,
-                                          .quality_floor = audit::kSliverRadiusRatio};
-
 std::optional<double> parse_bound(const std::string& text) {
   if (text == kNone) return std::nullopt;
   const double bound = parse_number(text);

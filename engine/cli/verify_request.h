@@ -28,6 +28,7 @@ struct VerifyRequest {
 };
 
 using report::Bounds;
+using report::kOtherPromises;
 
 /// Every option of the subcommand.  REQUIRES: request outlives options.
 void add_verify_options(OptionSet& options, VerifyRequest& request);

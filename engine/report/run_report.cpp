@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/report/json_rows.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/report/shape_facts.h"
 #include "engine/report/speck_facts.h"
@@ -190,8 +189,8 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
           {"digest", run.digest}};
 }
 
-void write_run_report(io::AtomicFile& file, const FinishedRun& run,
-                      const std::filesystem::path& mesh, ordered_json settings) {
+void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh,
+                       ordered_json settings, const AppendText& append) {
   const auto each_row = [&](const TakeRow& take) {
     each_volume(run, [&](const audit::VolumeRow& row) {
       ordered_json out = volume_row_json(row, run.labels, run.volume.names);
@@ -200,8 +199,13 @@ void write_run_report(io::AtomicFile& file, const FinishedRun& run,
       take(out);
     });
   };
-  append_with_rows(run_report(run, mesh, std::move(settings)), each_row,
-                   [&](std::string_view text) { file.append(text); });
+  append_with_rows(run_report(run, mesh, std::move(settings)), each_row, append);
+}
+
+void write_run_report(io::AtomicFile& file, const FinishedRun& run,
+                      const std::filesystem::path& mesh, ordered_json settings) {
+  append_run_report(run, mesh, std::move(settings),
+                    [&](std::string_view text) { file.append(text); });
   file.commit();
 }
 

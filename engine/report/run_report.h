@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 
+#include "engine/report/json_rows.h"
 #include "engine/report/resource_meter.h"
 #include "engine/run.h"
 #include "io/file/atomic_file.h"
@@ -45,6 +46,10 @@ void each_volume(const FinishedRun& run, const std::function<void(const audit::V
 
 /// What nobody measured is null.  Memory: no more for more labels.
 /// REQUIRES: run.engine.quality and shape.
+void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh,
+                       nlohmann::ordered_json settings, const AppendText& append);
+
+/// The same into a file, which gets its name.
 void write_run_report(io::AtomicFile& file, const FinishedRun& run,
                       const std::filesystem::path& mesh, nlohmann::ordered_json settings);
 

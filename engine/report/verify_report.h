@@ -18,6 +18,10 @@ struct Bounds {
   bool of_run = false;  ///< the mesh's file told what its run promised
 };
 
+/// What is asked of a mesh whose file tells of no run.
+inline constexpr io::MeshPromises kOtherPromises{.max_distance = 1.5,
+                                                 .quality_floor = audit::kSliverRadiusRatio};
+
 struct Verdict {
   std::optional<io::SpeckFacts> specks;
   Bounds bounds;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace mw::io {
 
@@ -15,6 +16,9 @@ enum class Element : std::uint8_t {
 [[nodiscard]] constexpr std::uint64_t node_count(Element element) {
   return element == Element::kTet10 ? 10 : 4;
 }
+
+/// "tet4", "tet10".  ERRORS: mw::Error(kUsage).
+[[nodiscard]] Element parse_element(std::string_view text);
 
 /// Cell types of VTK's files; the ten nodes of theirs are in the order of kTetEdges.
 inline constexpr std::uint8_t kVtkTetra = 10;

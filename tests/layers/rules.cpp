@@ -126,7 +126,7 @@ bool engine_may(const std::string& file, const Include& include) {
            is_below(name, {"tbb/", "oneapi/", "boost/interprocess/"}) ||
            (file.starts_with("engine/report/") && is_below(name, {"nlohmann/"}));
   }
-  if (is_below(name, {"engine/cli/"}) || is_concrete_io(name)) return false;
+  if (is_below(name, {"engine/cli/", "engine/api/"}) || is_concrete_io(name)) return false;
   if (is_below(name, {"engine/codt/worker/"}) && !is_below(file, {"engine/codt/worker/"}))
     return false;
   if (name.starts_with("engine/")) return room_may(file, name);
@@ -134,12 +134,24 @@ bool engine_may(const std::string& file, const Include& include) {
 }
 
 bool cli_may(const Include& include) {
-  return !include.quoted || is_below(include.name, {"kernels/", "io/", "engine/"});
+  return !include.quoted || (is_below(include.name, {"kernels/", "io/", "engine/"}) &&
+                             !is_below(include.name, {"engine/api/"}));
+}
+
+/// The library knows what opens any format, but none by itself.
+bool api_may(const Include& include) {
+  const std::string& name = include.name;
+  if (!include.quoted) return is_standard(name) || is_below(name, {"nlohmann/"});
+  if (is_any(name, {"io/volume/open_volume.h", "io/mesh/open_mesh.h"})) return true;
+  return is_below(name, {"kernels/", "io/", "engine/"}) && !is_concrete_io(name) &&
+         !is_below(name, {"engine/cli/"});
 }
 
 bool may(const std::string& file, const Include& include) {
   if (file.starts_with("kernels/")) return kernels_may(file, include);
   if (file.starts_with("io/")) return io_may(include);
+  if (file == "engine/mwmesh.h") return !include.quoted && is_standard(include.name);
+  if (file.starts_with("engine/api/")) return api_may(include);
   if (file.starts_with("engine/cli/")) return cli_may(include);
   return file.starts_with("engine/") && engine_may(file, include);
 }

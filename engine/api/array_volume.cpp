@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Voxels of a caller's array as a volume.
+#include "engine/api/array_volume.h"
+
+#include <bit>
+
+#include "engine/api/spaces.h"
+#include "io/file/errors.h"
+#include "io/volume/checks.h"
+#include "io/volume/decode.h"
+
+namespace mw::api {
+namespace {
+
+constexpr const char* kArray = "array";
+constexpr io::ByteOrder kMachine =
+    std::endian::native == std::endian::little ? io::ByteOrder::kLittle : io::ByteOrder::kBig;
+
+static_assert(static_cast<int>(io::VoxelType::kU8) == static_cast<int>(mwmesh::VoxelType::kU8) &&
+              static_cast<int>(io::VoxelType::kF64) == static_cast<int>(mwmesh::VoxelType::kF64));
+
+/// Of ArrayVolume or RegionVolume.
+template <class Told>
+io::VolumeInfo info_of(const Told& told) {
+  return {.shape = io::checked_shape(kArray, "shape", told.shape),
+          .space = io_space(told.space),
+          .type = static_cast<io::VoxelType>(told.type),
+          .format = kArray,
+          .names = io_names(told.names)};
+}
+
+mwmesh::Index strides_of(const mwmesh::ArrayVolume& array) {
+  if (array.strides != mwmesh::Index{}) return array.strides;
+  const std::int64_t x = io::byte_size(static_cast<io::VoxelType>(array.type));
+  return {x, x * array.shape[0], x * array.shape[0] * array.shape[1]};
+}
+
+}  // namespace
+
+ArrayReader::ArrayReader(const mwmesh::ArrayVolume& array)
+    : data_(static_cast<const std::byte*>(array.data)),
+      strides_(strides_of(array)),
+      info_(info_of(array)) {
+  if (data_ == nullptr) throw Error(ErrorKind::kUsage, "array: there is no data");
+  info_.z_fastest = std::abs(strides_[2]) < std::abs(strides_[0]);
+}
+
+void ArrayReader::read(const Box3& box, std::span<RawLabel> out) const {
+  const io::VoxelCoding coding{.type = info_.type, .order = kMachine};
+  const auto size = static_cast<std::int64_t>(io::byte_size(info_.type));
+  const auto row = static_cast<std::size_t>(box.hi.x - box.lo.x);
+  std::vector<std::byte> packed;
+  // decode_voxels() takes steps of whole voxels forwards; rows of other strides are gathered first.
+  const bool is_plain = strides_[0] > 0 && strides_[0] % size == 0;
+  if (!is_plain) packed.resize(row * static_cast<std::size_t>(size));
+  RawLabel* next = out.data();
+  for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
+    for (std::int64_t y = box.lo.y; y < box.hi.y; ++y, next += row) {
+      const std::byte* first = data_ + box.lo.x * strides_[0] + y * strides_[1] + z * strides_[2];
+      std::size_t step = is_plain ? static_cast<std::size_t>(strides_[0] / size) : 1;
+      if (!is_plain) {
+        for (std::size_t i = 0; i < row; ++i) {
+          std::copy_n(first + static_cast<std::int64_t>(i) * strides_[0], size,
+                      packed.data() + i * static_cast<std::size_t>(size));
+        }
+        first = packed.data();
+      }
+      const std::size_t good = io::decode_voxels(first, row, step, coding, next, 1);
+      if (good == row) continue;
+      const Index3 voxel{box.lo.x + static_cast<std::int64_t>(good), y, z};
+      io::fail_voxel(kArray, voxel, first + good * step * static_cast<std::size_t>(size), coding);
+    }
+  }
+}
+
+RegionReader::RegionReader(const mwmesh::RegionVolume& region)
+    : read_(region.read), info_(info_of(region)) {
+  if (!read_) throw Error(ErrorKind::kUsage, "volume: there is no read()");
+  info_.chunk = {region.chunk[0], region.chunk[1], region.chunk[2]};
+}
+
+void RegionReader::read(const Box3& box, std::span<RawLabel> out) const {
+  read_(library_box(box), out);
+}
+
+}  // namespace mw::api

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Errors of the engine as those of the library.
+#include "engine/api/guarded.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace mw::api {
+namespace {
+
+bool is_letter(char c) {
+  return std::islower(static_cast<unsigned char>(c)) != 0;
+}
+
+mwmesh::ErrorKind kind_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::kInternal:
+      return mwmesh::ErrorKind::kInternal;
+    case ErrorKind::kUsage:
+      return mwmesh::ErrorKind::kUsage;
+    case ErrorKind::kInput:
+      return mwmesh::ErrorKind::kInput;
+    case ErrorKind::kResource:
+      return mwmesh::ErrorKind::kResource;
+    case ErrorKind::kCheckFailed:
+      return mwmesh::ErrorKind::kCheckFailed;
+  }
+  return mwmesh::ErrorKind::kInternal;
+}
+
+}  // namespace
+
+std::string library_words(std::string message) {
+  for (std::size_t at = message.find("--"); at != message.npos; at = message.find("--", at)) {
+    const std::size_t end = static_cast<std::size_t>(
+        std::find_if(message.begin() + static_cast<std::ptrdiff_t>(at) + 2, message.end(),
+                     [](char c) { return !is_letter(c) && c != '-'; }) -
+        message.begin());
+    const bool starts_word = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
+    if (!starts_word || end == at + 2 || !is_letter(message[at + 2])) {
+      at += 2;
+      continue;
+    }
+    std::replace(message.begin() + static_cast<std::ptrdiff_t>(at) + 2,
+                 message.begin() + static_cast<std::ptrdiff_t>(end), '-', '_');
+    message.erase(at, 2);
+  }
+  return message;
+}
+
+mwmesh::Error library_error(const Error& error) {
+  return {kind_of(error.kind()), library_words(error.what())};
+}
+
+}  // namespace mw::api

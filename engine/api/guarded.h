@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Errors of the engine as those of the library.
+#pragma once
+
+#include <new>
+#include <string>
+
+#include "engine/mwmesh.h"
+#include "kernels/core/error.h"
+
+namespace mw::api {
+
+/// The message for a caller of functions: "--max-distance" becomes "max_distance".
+[[nodiscard]] std::string library_words(std::string message);
+
+[[nodiscard]] mwmesh::Error library_error(const Error& error);
+
+/// Calls work(); its errors become mwmesh::Error.
+template <class Work>
+auto guarded(const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw library_error(error);
+  } catch (const std::bad_alloc&) {
+    throw mwmesh::Error(mwmesh::ErrorKind::kResource,
+                        "memory is out: give less to Options::memory, or free some");
+  }
+}
+
+}  // namespace mw::api

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a caller's options are for the engine.
+#include "engine/api/jobs.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/api/mesh_settings.h"
+#include "engine/settings/setting_table.h"
+#include "engine/system/machine_memory.h"
+#include "io/file/nameless_file.h"
+#include "kernels/core/error.h"
+
+namespace mw::api {
+namespace {
+
+engine::Certify certify_of(mwmesh::Certify certify) {
+  if (certify == mwmesh::Certify::kOn) return engine::Certify::kOn;
+  return certify == mwmesh::Certify::kOff ? engine::Certify::kOff : engine::Certify::kAuto;
+}
+
+nlohmann::ordered_json value_json(const engine::Setting& setting, const std::string& text) {
+  using Kind = engine::SettingKind;
+  if (setting.kind == Kind::kChoice || setting.kind == Kind::kSizes) return text;
+  if (text == "none") return nullptr;
+  return nlohmann::ordered_json::parse(text, nullptr, false);
+}
+
+}  // namespace
+
+io::InputSteps input_steps(const mwmesh::Options& options) {
+  io::InputSteps steps;
+  for (const auto& [from, to] : options.merge) {
+    // Signed labels come in two's complement, so the sign is that of the bits; a volume whose
+    // labels are unsigned has none of 2^63 or more that one would merge into.
+    const bool is_negative = static_cast<std::int64_t>(to) < 0;
+    steps.merge.push_back({.from = {from}, .to = to, .to_is_negative = is_negative});
+  }
+  if (options.drop_specks > io::SpeckRule::kMost) {
+    throw Error(ErrorKind::kUsage, "--drop-specks: too many voxels");
+  }
+  if (options.drop_specks > 0) {
+    steps.specks = {.least = options.drop_specks, .diagonal = options.specks_joined_by_corners};
+  }
+  return steps;
+}
+
+engine::LabelChoice label_choice(const mwmesh::Options& options) {
+  engine::LabelChoice choice{.background = options.background};
+  if (!options.labels.empty()) choice.labels = options.labels;
+  engine::check_choice(choice);
+  return choice;
+}
+
+std::uint64_t memory_of(const mwmesh::Options& options) {
+  return options.memory > 0 ? options.memory : engine::default_memory_budget();
+}
+
+engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options& options) {
+  if (options.threads < 0) throw Error(ErrorKind::kUsage, "--threads: must not be negative");
+  if (options.resume && options.workdir.empty()) {
+    throw Error(ErrorKind::kUsage, "--resume: needs the --workdir of the run that ended early");
+  }
+  return {.steps = input_steps(options),
+          .settings = mesh_settings(settings),
+          .choice = label_choice(options),
+          .certify = certify_of(options.certify),
+          .threads = options.threads,
+          .memory = memory_of(options),
+          .workdir = options.workdir,
+          .resume = options.resume,
+          .is_measured = options.report,
+          .folder = io::scratch_folder()};
+}
+
+engine::JobHooks job_hooks(const mwmesh::Hooks& hooks) {
+  engine::JobHooks out;
+  if (hooks.cancel) {
+    out.stop = [&hooks] {
+      if (!hooks.cancel()) return;
+      throw mwmesh::Error(mwmesh::ErrorKind::kCancelled, "the run was cancelled");
+    };
+  }
+  if (hooks.progress) {
+    out.progress = [&hooks](const engine::RunProgress& at) {
+      hooks.progress({.done = at.done, .total = at.total, .seconds_left = at.seconds_left});
+    };
+  }
+  return out;
+}
+
+nlohmann::ordered_json settings_json(const engine::MeshJob& job) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+  for (const engine::Setting& setting : engine::setting_table()) {
+    std::string key = setting.name;
+    std::replace(key.begin(), key.end(), '-', '_');
+    out[key] = value_json(setting, setting.text(job.settings));
+  }
+  out["threads"] = job.threads;
+  out["memory"] = job.memory;
+  out["workdir"] = job.workdir.string();
+  return out;
+}
+
+}  // namespace mw::api

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a caller's options are for the engine.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/job/mesh_job.h"
+#include "engine/mwmesh.h"
+
+namespace mw::api {
+
+[[nodiscard]] io::InputSteps input_steps(const mwmesh::Options& options);
+/// ERRORS: mw::Error(kUsage).
+[[nodiscard]] engine::LabelChoice label_choice(const mwmesh::Options& options);
+/// Bytes, the default included.
+[[nodiscard]] std::uint64_t memory_of(const mwmesh::Options& options);
+/// ERRORS: mw::Error(kUsage).
+[[nodiscard]] engine::MeshJob mesh_job(const mwmesh::Settings& settings,
+                                       const mwmesh::Options& options);
+/// hooks outlives the result.  Its stop() throws mwmesh::Error(kCancelled).
+[[nodiscard]] engine::JobHooks job_hooks(const mwmesh::Hooks& hooks);
+/// Settings and options as reports tell them.
+[[nodiscard]] nlohmann::ordered_json settings_json(const engine::MeshJob& job);
+
+}  // namespace mw::api

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Volumes to meshes.
+#include <nlohmann/json.hpp>
+
+#include "engine/api/guarded.h"
+#include "engine/api/jobs.h"
+#include "engine/api/meshes.h"
+#include "engine/api/volume_access.h"
+#include "engine/system/resident_memory.h"
+#include "engine/version.h"
+#include "io/mesh/digest.h"
+#include "io/mesh/open_mesh.h"
+#include "io/mesh/tee_sink.h"
+
+namespace mwmesh {
+namespace {
+
+namespace io = mw::io;
+namespace engine = mw::engine;
+
+/// A caller's writer as a sink.
+class WriterSink : public io::MeshSink {
+ public:
+  explicit WriterSink(MeshWriter& writer) : writer_(writer) {}
+
+  void begin(const io::MeshHeader& header) override { writer_.begin(header.tets); }
+  void write_vertices(std::span<const io::Position> positions) override {
+    writer_.write_points(positions);
+  }
+  void write_tets(std::span<const io::TetRows> tets,
+                  std::span<const mw::RawLabel> labels) override {
+    writer_.write_tets(tets, labels);
+  }
+  void finish() override { writer_.finish(); }
+
+ private:
+  MeshWriter& writer_;
+};
+
+std::string report_text(const mw::report::FinishedRun& run, const std::filesystem::path& path,
+                        const engine::MeshJob& job) {
+  std::string out;
+  mw::report::append_run_report(run, path, mw::api::settings_json(job),
+                                [&](std::string_view text) { out += text; });
+  return out;
+}
+
+/// Meshes into the sink; path: what the report calls the mesh.  Returns the report.
+std::string run_into(io::MeshSink& sink, const std::filesystem::path& path, const Volume& volume,
+                     const engine::MeshJob& job, const Hooks& hooks) {
+  const io::LabelVolume& labels = VolumeAccess::labels(volume);
+  const engine::JobHooks told = mw::api::job_hooks(hooks);
+  if (!job.is_measured) {
+    (void)engine::mesh(labels, job, sink, told);
+    return {};
+  }
+  io::DigestSink digest(job.folder);
+  io::TeeSink both(sink, digest);
+  mw::report::FinishedRun run = engine::mesh(labels, job, both, told);
+  run.digest = digest.digest();
+  return report_text(run, path, job);
+}
+
+}  // namespace
+
+const char* version() {
+  return engine::version();
+}
+
+Mesh mesh(const Volume& volume, const Settings& settings, const Options& options,
+          const Hooks& hooks) {
+  return mw::api::guarded([&] {
+    io::MeshDataSink sink;
+    std::string report = run_into(sink, {}, volume, mw::api::mesh_job(settings, options), hooks);
+    Mesh mesh = mw::api::library_mesh(std::move(sink.mesh()));
+    mesh.report = std::move(report);
+    return mesh;
+  });
+}
+
+std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& settings,
+                    const Options& options, const Hooks& hooks) {
+  return mw::api::guarded([&] {
+    WriterSink sink(writer);
+    return run_into(sink, {}, volume, mw::api::mesh_job(settings, options), hooks);
+  });
+}
+
+std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
+                         const Settings& settings, const Options& options, const Hooks& hooks,
+                         std::string_view element) {
+  return mw::api::guarded([&] {
+    engine::MeshJob job = mw::api::mesh_job(settings, options);
+    job.folder = path.parent_path();
+    const auto sink = io::open_mesh_sink(path, io::parse_element(element));
+    return run_into(*sink, path, volume, job, hooks);
+  });
+}
+
+}  // namespace mwmesh

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Spaces, boxes and names of the library as io has them.
+#include "engine/api/spaces.h"
+
+#include "engine/api/guarded.h"
+#include "io/file/errors.h"
+#include "io/volume/file_space.h"
+
+namespace mw::api {
+namespace {
+
+constexpr const char* kArray = "array";
+
+io::WorldFrame frame_of(const std::string& name) {
+  for (const io::WorldFrame frame :
+       {io::WorldFrame::kOwn, io::WorldFrame::kRas, io::WorldFrame::kLps}) {
+    if (name == io::name(frame)) return frame;
+  }
+  throw Error(ErrorKind::kUsage, "frame " + name + ": expected own, ras or lps");
+}
+
+}  // namespace
+
+io::VolumeSpace io_space(const mwmesh::Space& space) {
+  io::FileSpace told{.lengths = space.spacing,
+                     .first = space.origin,
+                     .first_is_centre = false,
+                     .unit = space.unit,
+                     .frame = frame_of(space.frame)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) told.steps[i][k] = space.axes[i][k] * space.spacing[i];
+  }
+  return io::placed(kArray, told, {});
+}
+
+mwmesh::Space library_space(const io::VolumeSpace& space) {
+  return {.spacing = space.spacing,
+          .origin = space.origin,
+          .axes = space.axes,
+          .unit = space.unit,
+          .frame = io::name(space.frame)};
+}
+
+Box3 io_box(const mwmesh::Box& box) {
+  return {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}};
+}
+
+mwmesh::Box library_box(const Box3& box) {
+  return {{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}};
+}
+
+io::LabelNames io_names(const std::vector<mwmesh::LabelName>& names) {
+  std::vector<io::LabelName> rows;
+  rows.reserve(names.size());
+  for (const mwmesh::LabelName& n : names) rows.push_back({.label = n.label, .name = n.name});
+  return io::LabelNames(std::move(rows));
+}
+
+std::vector<mwmesh::LabelName> library_names(const io::LabelNames& names) {
+  std::vector<mwmesh::LabelName> out;
+  for (const io::LabelName& row : names.rows()) {
+    if (!row.name.empty()) out.push_back({.label = row.label, .name = row.name});
+  }
+  return out;
+}
+
+}  // namespace mw::api
+
+namespace mwmesh {
+
+Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
+                      const std::string& frame) {
+  return mw::api::guarded([&] {
+    mw::io::FileSpace told{.first = mw::io::Vector3{affine[0][3], affine[1][3], affine[2][3]},
+                           .frame = mw::api::frame_of(frame),
+                           .steps_field = "affine",
+                           .first_field = "affine"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) told.steps[i][k] = affine[k][i];
+    }
+    return mw::api::library_space(mw::io::placed(mw::api::kArray, told, {}));
+  });
+}
+
+}  // namespace mwmesh

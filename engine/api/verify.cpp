@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Meshes held against volumes.
+#include <nlohmann/json.hpp>
+
+#include "engine/api/guarded.h"
+#include "engine/api/jobs.h"
+#include "engine/api/meshes.h"
+#include "engine/api/volume_access.h"
+#include "engine/job/verify_job.h"
+#include "io/file/nameless_file.h"
+
+namespace mwmesh {
+namespace {
+
+namespace engine = mw::engine;
+
+/// Interfaces are counted in meshes of all labels only.
+mw::report::Bounds bounds_of(const Options& options, const mw::io::MeshRecord& record) {
+  mw::report::Bounds bounds{record.promises.value_or(mw::report::kOtherPromises),
+                            record.promises.has_value()};
+  if (!options.labels.empty() || options.background) bounds.promises.interfaces = false;
+  return bounds;
+}
+
+Verdict library_verdict(const mw::report::Verdict& verdict) {
+  Verdict out{.passed = verdict.audit.passed(), .checks = {}, .report = {}};
+  for (const mw::audit::Check& check : verdict.audit.checks) {
+    out.checks.push_back({.name = check.name, .passed = check.passed, .detail = check.detail});
+  }
+  out.report = mw::report::verdict_json(verdict).dump(
+      2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return out;
+}
+
+}  // namespace
+
+Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, const Hooks& hooks) {
+  return mw::api::guarded([&] {
+    const engine::JobHooks told = mw::api::job_hooks(hooks);
+    const engine::VerifyJob job{
+        .volume = VolumeAccess::labels(volume),
+        .steps = mw::api::input_steps(options),
+        .choice = mw::api::label_choice(options),
+        .bounds = [&](const mw::io::MeshRecord& record) { return bounds_of(options, record); },
+        .max_volume_error = mw::audit::AuditOptions{}.max_volume_error,
+        .threads = options.threads,
+        .memory = mw::api::memory_of(options),
+        .folder = mw::io::scratch_folder(),
+        .between = told.stop};
+    return library_verdict(
+        engine::verify(job, [&](mw::io::MeshSink& sink) { mw::api::deliver(mesh, sink); }));
+  });
+}
+
+}  // namespace mwmesh

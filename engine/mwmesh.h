@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The C++ library: labelled voxels in, a tetrahedral mesh out.  Standard headers only.
+//
+//   std::vector<std::uint8_t> labels(64 * 64 * 64);  // x fastest
+//   const auto volume = mwmesh::Volume::of(mwmesh::ArrayVolume{
+//       .data = labels.data(), .type = mwmesh::VoxelType::kU8, .shape = {64, 64, 64}});
+//   const mwmesh::Mesh mesh = mwmesh::mesh(volume, mwmesh::Settings().set("max_distance", "1"));
+//   mwmesh::write_mesh(mesh, "mesh.vtu");
+//
+// Arrays of three are (x, y, z).  Labels are 64-bit numbers; those of signed volumes are in two's
+// complement.  All functions may be called by several threads at once, also on the same Volume.
+// All of them throw Error; what callbacks throw passes through.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mwmesh {
+
+/// "MAJOR.MINOR.PATCH" of the library that is linked.
+[[nodiscard]] const char* version();
+
+enum class ErrorKind {
+  kInternal = 1,     ///< an invariant broke: please report it
+  kUsage = 2,        ///< an argument or a setting that makes no sense
+  kInput = 3,        ///< a volume or file that is unreadable, damaged or unsupported
+  kResource = 4,     ///< memory, disk or threads do not suffice
+  kCheckFailed = 5,  ///< the mesh does not pass its own check
+  kCancelled = 6,    ///< Hooks::cancel said so
+};
+
+/// The message names the thing, the reason and the way out.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  [[nodiscard]] ErrorKind kind() const { return kind_; }
+
+ private:
+  ErrorKind kind_;
+};
+
+using Vector = std::array<double, 3>;
+using Index = std::array<std::int64_t, 3>;
+
+/// Voxels from lo to hi, hi not included.
+struct Box {
+  Index lo{};
+  Index hi{};
+};
+
+/// Floats hold whole numbers.
+enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 };
+
+/// world = origin + sum over i of axes[i] * spacing[i] * corner[i], corners of voxels counted from
+/// the first corner of the first voxel.  Axes have unit length and are at right angles.
+struct Space {
+  Vector spacing{1, 1, 1};  ///< edges of a voxel
+  Vector origin{0, 0, 0};   ///< first corner of the first voxel
+  std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  std::string unit;           ///< "mm", "um", "nm" and so on; empty: unknown
+  std::string frame = "own";  ///< "own", "ras" or "lps"
+};
+
+/// The space of an array that `affine` (three rows of a 4 x 4 matrix) takes from indices of voxels,
+/// at their centres, to the world, as NIfTI has it.  frame: "own", "ras" or "lps".
+/// ERRORS: kInput for axes that are not at right angles.
+[[nodiscard]] Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
+                                    const std::string& frame = "own");
+
+struct LabelName {
+  std::uint64_t label = 0;
+  std::string name;
+};
+
+/// Voxels in memory, which must stay there, unchanged, as long as the Volume and its copies live.
+struct ArrayVolume {
+  const void* data = nullptr;  ///< of voxel (0, 0, 0), in the byte order of the machine
+  VoxelType type = VoxelType::kU8;
+  Index shape{};
+  Index strides{};  ///< in bytes, of any sign; all 0: x fastest, without gaps
+  Space space{};
+  std::vector<LabelName> names{};
+};
+
+/// Voxels that are fetched box by box, so that they need never be in memory together.
+struct RegionVolume {
+  VoxelType type = VoxelType::kU8;
+  Index shape{};
+  Index chunk{};  ///< boxes that begin and end at multiples of it are the cheapest; 0: any
+  Space space{};
+  std::vector<LabelName> names{};
+  /// Writes the labels of the box, x fastest; called by many threads at once, and about three times
+  /// for each voxel.  What it throws ends the run.
+  std::function<void(const Box& box, std::span<std::uint64_t> out)> read;
+};
+
+/// A file or folder of any format that `mwmesh info` reads.
+struct VolumeFile {
+  std::filesystem::path path;
+  std::string dataset{};       ///< within a file that holds several; empty: found by convention
+  std::optional<int> scale{};  ///< of a pyramid, 0 the finest
+  std::optional<Vector> spacing{};  ///< instead of the file's
+  std::optional<Vector> origin{};   ///< the same
+  std::string frame = "file";       ///< world frame: "file", "ras", "lps" or "voxel"
+  std::optional<Box> crop{};
+};
+
+class VolumeAccess;
+
+/// A labelled volume.  Cheap to copy.
+class Volume {
+ public:
+  /// ERRORS: kUsage for an empty or too large shape, or a space that makes no sense.
+  [[nodiscard]] static Volume of(const ArrayVolume& array);
+  [[nodiscard]] static Volume of(const RegionVolume& region);
+  /// ERRORS: kInput naming file, field, reason and way out; kUsage.
+  [[nodiscard]] static Volume open(const VolumeFile& file);
+  /// The same with these names added; where both name a label, these win.
+  [[nodiscard]] Volume with_names(const std::vector<LabelName>& names) const;
+
+  [[nodiscard]] Index shape() const;
+  [[nodiscard]] VoxelType type() const;
+  [[nodiscard]] Space space() const;
+  [[nodiscard]] bool labels_are_signed() const;
+  [[nodiscard]] std::vector<LabelName> names() const;
+  /// REQUIRES: box inside the volume; out.size() is the number of its voxels.
+  void read(const Box& box, std::span<std::uint64_t> out) const;
+
+ private:
+  friend class VolumeAccess;
+  class Content;
+
+  explicit Volume(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
+
+  std::shared_ptr<const Content> content_;
+};
+
+/// A random volume of a kind "voronoi", "tubes", "spheres", "noise" or "checkerboard", x fastest.
+[[nodiscard]] std::vector<std::uint64_t> synth(std::string_view kind, const Index& shape,
+                                               std::uint64_t labels, std::uint64_t seed);
+
+/// A setting that the mesh depends on; see `mwmesh mesh --help` for all of them.
+struct SettingInfo {
+  std::string name;  ///< "max_distance"
+  std::string help;
+  std::string fallback;              ///< its default
+  std::vector<std::string> choices;  ///< all that it may be; empty: a number or a list
+};
+
+/// What the mesh depends on beside the volume.
+class Settings {
+ public:
+  /// text: as on the command line, "1.5", "none", "true", "voxel".
+  /// ERRORS: kUsage naming the setting, what it may be, or the names that there are.
+  Settings& set(std::string_view name, std::string_view text);
+  /// The effective value.  ERRORS: kUsage for a name that there is not.
+  [[nodiscard]] std::string get(std::string_view name) const;
+  /// Every setting, in the order of the documentation.
+  [[nodiscard]] static std::vector<SettingInfo> all();
+  /// What was set, by name.
+  [[nodiscard]] const std::map<std::string, std::string>& changed() const { return changed_; }
+
+ private:
+  std::map<std::string, std::string> changed_;
+};
+
+enum class Certify {
+  kAuto,  ///< where a quarter of the memory is enough
+  kOn,
+  kOff,
+};
+
+struct Options {
+  /// Steps before anything else looks at the labels: each key becomes its value; then components of
+  /// fewer voxels take the label around them.
+  std::map<std::uint64_t, std::uint64_t> merge;
+  std::uint64_t drop_specks = 0;  ///< 0: none
+  bool specks_joined_by_corners = false;
+  /// The labels of the mesh; the others are meshed but left out.  Empty: all.
+  std::vector<std::uint64_t> labels;
+  std::optional<std::uint64_t> background;  ///< the only one that is left out
+  int threads = 0;                          ///< 0: all cores
+  /// Bytes that the run may take; the mesh in memory, and the volume's arrays, come on top.
+  /// 0: half of what the machine has to spare.
+  std::uint64_t memory = 0;
+  /// Where blocks go that do not fit, and what a run that ended early goes on from; empty: nothing
+  /// is spilled or kept.  The folder is made, and removed after success.
+  std::filesystem::path workdir;
+  bool resume = false;
+  Certify certify = Certify::kAuto;
+  bool report = true;  ///< with false quality and shape are not measured, and reports are empty
+};
+
+struct Progress {
+  std::uint64_t done = 0;   ///< windows
+  std::uint64_t total = 0;  ///< windows
+  std::optional<double> seconds_left;
+};
+
+/// Who looks on; nothing here changes the mesh.  Called by any thread, not by two at a time but for
+/// cancel.
+struct Hooks {
+  std::function<void(const Progress& progress)> progress;  ///< after each window
+  /// Asked often; true ends the run with kCancelled.
+  std::function<bool()> cancel;
+};
+
+/// A mesh in memory.
+struct Mesh {
+  std::vector<Vector> points;                      ///< world coordinates
+  std::vector<std::array<std::uint64_t, 4>> tets;  ///< rows of points; positive orientation
+  std::vector<std::uint64_t> labels;               ///< by tet
+  bool labels_are_signed = false;
+  std::vector<LabelName> names;  ///< of labels that are in it
+  std::string report;  ///< JSON, the keys of `mwmesh mesh --report`; empty when there is none
+  std::string record;  ///< what files tell of the run that made it, a line of JSON
+};
+
+/// Takes a mesh that never need be in memory: begin, then points and tets by turns, finish.
+class MeshWriter {
+ public:
+  virtual ~MeshWriter() = default;
+  virtual void begin(std::uint64_t tets) = 0;
+  virtual void write_points(std::span<const Vector> points) = 0;
+  /// REQUIRES: the points of these tets have been written.
+  virtual void write_tets(std::span<const std::array<std::uint64_t, 4>> tets,
+                          std::span<const std::uint64_t> labels) = 0;
+  virtual void finish() = 0;
+};
+
+/// Meshes the volume.
+/// ENSURES: the promises of the README: topology of every label, a conforming partition, quality
+/// floor, distance bound; the same mesh for any number of threads, memory and workdir.
+/// ERRORS: all kinds.  kCancelled, kResource and kInput may leave work in the workdir, as the
+/// message says.
+[[nodiscard]] Mesh mesh(const Volume& volume, const Settings& settings = {},
+                        const Options& options = {}, const Hooks& hooks = {});
+
+/// The same into a writer.  Returns the report.
+std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& settings = {},
+                    const Options& options = {}, const Hooks& hooks = {});
+
+/// The same into a file of any format of `mwmesh convert`; nothing is under its name before the
+/// mesh is whole.  element: "tet4" or "tet10".  Returns the report.
+std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
+                         const Settings& settings = {}, const Options& options = {},
+                         const Hooks& hooks = {}, std::string_view element = "tet4");
+
+/// ERRORS: kInput naming file and place; kUsage for an unknown extension.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
+                std::string_view element = "tet4");
+/// "sha256:...", the same for every format, order of rows and machine.
+[[nodiscard]] std::string digest(const Mesh& mesh);
+
+struct Check {
+  std::string name;
+  bool passed = false;
+  std::string detail;
+};
+
+struct Verdict {
+  bool passed = false;
+  std::vector<Check> checks;
+  std::string report;  ///< JSON, the keys of `mwmesh verify --report`
+};
+
+/// Holds a mesh against its volume, with what the run promised that made it (1.5 voxels and a
+/// radius ratio of 0.1 where it does not tell).  Of options, steps, labels, background, threads and
+/// memory count.
+[[nodiscard]] Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options = {},
+                             const Hooks& hooks = {});
+
+}  // namespace mwmesh

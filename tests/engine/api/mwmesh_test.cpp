@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The C++ library as its users call it.
+#include "engine/mwmesh.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "engine/api/guarded.h"
+#include "tests/engine/cli/run_program.h"
+
+namespace mwmesh {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr Index kShape{22, 18, 20};
+
+std::vector<std::uint64_t> grains() {
+  return synth("voronoi", kShape, 6, 3);
+}
+
+Volume volume_of(const std::vector<std::uint64_t>& labels, const Index& shape = kShape) {
+  return Volume::of(ArrayVolume{.data = labels.data(), .type = VoxelType::kU64, .shape = shape});
+}
+
+/// Checks the kind of what work() throws; returns the message.
+template <class Work>
+std::string failure(ErrorKind kind, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kind) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("--"), std::string::npos) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+using LibraryTest = mw::cli::ProgramTest;
+
+TEST_F(LibraryTest, MakesTheMeshOfTheProgram) {
+  expect_done("synth voronoi --shape 22,18,20 --labels 6 --seed 3 -o v.npy");
+  expect_done(
+      "mesh v.npy -o v.vtu --spacing 1,2,1.5 --origin 5,6,7 --max-distance 1.2 "
+      "--report r.json --threads 1");
+  const auto labels = grains();
+  ArrayVolume array{.data = labels.data(), .type = VoxelType::kU64, .shape = kShape};
+  array.space = {.spacing = {1, 2, 1.5}, .origin = {5, 6, 7}};
+  const Settings settings = Settings().set("max_distance", "1.2");
+  const Mesh made = mesh(Volume::of(array), settings, {.threads = 2});
+  const json told = json::parse(read("r.json"));
+  EXPECT_EQ(digest(made), told["digest"]);
+  const json report = json::parse(made.report);
+  for (const char* same : {"digest", "quality", "shape", "lattice", "topology", "distance"}) {
+    EXPECT_EQ(report[same], told[same]) << same;
+  }
+  EXPECT_EQ(report["settings"]["max_distance"], 1.2);
+  // And back: what the library writes, the program reads.
+  write_mesh(made, folder() / "w.mesh");
+  write_mesh(made, folder() / "w.vtkhdf");
+  expect_done("verify v.npy --spacing 1,2,1.5 --origin 5,6,7 w.vtkhdf");
+  EXPECT_EQ(digest(read_mesh(folder() / "w.mesh")), told["digest"]);
+  EXPECT_EQ(digest(read_mesh(folder() / "v.vtu")), told["digest"]);
+  const std::string file_report = mesh_to_file(folder() / "f.msh", Volume::of(array), settings);
+  EXPECT_EQ(json::parse(file_report)["digest"], told["digest"]);
+  EXPECT_EQ(digest(read_mesh(folder() / "f.msh")), told["digest"]);
+}
+
+/// Labels in an array of another type, order of axes and direction, with gaps.
+struct Layout {
+  std::vector<std::byte> bytes;
+  ArrayVolume array;
+};
+
+template <class T>
+Layout laid_out(const std::vector<std::uint64_t>& labels, VoxelType type, std::mt19937& random) {
+  Layout out;
+  std::array<int, 3> order{0, 1, 2};
+  std::shuffle(order.begin(), order.end(), random);
+  Index strides{};
+  std::int64_t size = sizeof(T);
+  // Gaps also put voxels where no number of their type may be.
+  for (const int axis : order) {
+    const auto k = static_cast<std::size_t>(axis);
+    strides[k] = size;
+    size = size * kShape[k] + static_cast<std::int64_t>(random() % 3);
+  }
+  std::int64_t first = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (random() % 2 == 0) continue;
+    first += strides[k] * (kShape[k] - 1);
+    strides[k] = -strides[k];
+  }
+  out.bytes.resize(static_cast<std::size_t>(size));
+  std::size_t next = 0;
+  for (std::int64_t z = 0; z < kShape[2]; ++z) {
+    for (std::int64_t y = 0; y < kShape[1]; ++y) {
+      for (std::int64_t x = 0; x < kShape[0]; ++x) {
+        const T value = static_cast<T>(labels[next++]);
+        std::memcpy(out.bytes.data() + first + x * strides[0] + y * strides[1] + z * strides[2],
+                    &value, sizeof(T));
+      }
+    }
+  }
+  out.array = {.data = out.bytes.data() + first, .type = type, .shape = kShape, .strides = strides};
+  return out;
+}
+
+TEST(Library, ReadsArraysOfAnyTypeAndStrides) {
+  const auto labels = grains();
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Layout layouts[] = {laid_out<std::uint8_t>(labels, VoxelType::kU8, random),
+                              laid_out<std::int16_t>(labels, VoxelType::kI16, random),
+                              laid_out<std::uint32_t>(labels, VoxelType::kU32, random),
+                              laid_out<std::int64_t>(labels, VoxelType::kI64, random),
+                              laid_out<float>(labels, VoxelType::kF32, random),
+                              laid_out<double>(labels, VoxelType::kF64, random)};
+    for (const Layout& layout : layouts) {
+      const Volume volume = Volume::of(layout.array);
+      std::vector<std::uint64_t> read(labels.size());
+      volume.read({{0, 0, 0}, kShape}, read);
+      EXPECT_EQ(read, labels);
+    }
+  }
+}
+
+TEST(Library, NamesTheVoxelThatIsNoLabel) {
+  std::vector<float> voxels(4 * 3 * 2, 1.0F);
+  voxels[4 * 3 + 4 + 2] = 1.5F;
+  const Volume volume =
+      Volume::of(ArrayVolume{.data = voxels.data(), .type = VoxelType::kF32, .shape = {4, 3, 2}});
+  const std::string message = failure(ErrorKind::kInput, [&] { (void)mesh(volume); });
+  EXPECT_THAT(message, HasSubstr("(2, 1, 1)"));
+  EXPECT_THAT(message, HasSubstr("1.5"));
+}
+
+TEST(Library, FetchesRegions) {
+  const auto labels = grains();
+  const Volume whole = volume_of(labels);
+  std::atomic<std::uint64_t> largest = 0;
+  RegionVolume region{.type = VoxelType::kU8, .shape = kShape, .chunk = {8, 8, 8}};
+  region.read = [&](const Box& box, std::span<std::uint64_t> out) {
+    whole.read(box, out);
+    largest = std::max<std::uint64_t>(largest, out.size());
+  };
+  EXPECT_EQ(digest(mesh(Volume::of(region))), digest(mesh(whole)));
+  EXPECT_GT(largest, 0U);
+  region.read = [&](const Box&, std::span<std::uint64_t>) { throw std::out_of_range("mine"); };
+  EXPECT_THROW((void)mesh(Volume::of(region)), std::out_of_range);
+}
+
+class Collector : public MeshWriter {
+ public:
+  void begin(std::uint64_t tets) override { announced_ = tets; }
+  void write_points(std::span<const Vector> points) override {
+    mesh.points.insert(mesh.points.end(), points.begin(), points.end());
+  }
+  void write_tets(std::span<const std::array<std::uint64_t, 4>> tets,
+                  std::span<const std::uint64_t> labels) override {
+    mesh.tets.insert(mesh.tets.end(), tets.begin(), tets.end());
+    mesh.labels.insert(mesh.labels.end(), labels.begin(), labels.end());
+  }
+  void finish() override { is_whole = announced_ == mesh.tets.size(); }
+
+  Mesh mesh;
+  bool is_whole = false;
+
+ private:
+  std::uint64_t announced_ = 0;
+};
+
+TEST(Library, WritesIntoAWriter) {
+  const auto labels = grains();
+  Collector writer;
+  const std::string report = mesh_to(writer, volume_of(labels));
+  EXPECT_TRUE(writer.is_whole);
+  EXPECT_EQ(digest(writer.mesh), json::parse(report)["digest"]);
+  EXPECT_EQ(mesh_to(writer, volume_of(labels), {}, {.report = false}), "");
+}
+
+TEST(Library, MeshesInSeveralThreadsAtOnce) {
+  const auto labels = grains();
+  const Volume volume = volume_of(labels);
+  const std::string expected = digest(mesh(volume, {}, {.threads = 1}));
+  std::vector<std::string> made(4);
+  std::vector<std::thread> threads;
+  for (std::string& out : made) {
+    threads.emplace_back([&] { out = digest(mesh(volume, {}, {.threads = 2})); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_THAT(made, testing::Each(expected));
+}
+
+TEST(Library, TellsProgressAndCanBeCancelled) {
+  const mw::test::TempFolder folder;
+  const auto labels = synth("voronoi", {40, 40, 40}, 9, 1);
+  const Volume volume = volume_of(labels, {40, 40, 40});
+  const Settings settings = Settings().set("window", "16");
+  std::uint64_t seen = 0;
+  const Hooks watch{.progress = [&](const Progress& at) {
+    EXPECT_GE(at.done, seen);
+    EXPECT_LE(at.done, at.total);
+    seen = at.done;
+  }};
+  const std::string expected = digest(mesh(volume, settings, {}, watch));
+  ASSERT_GT(seen, 20U);
+  const std::uint64_t half = seen / 2;
+  std::atomic<bool> enough = false;
+  const Hooks stop{.progress = [&](const Progress& at) { enough = at.done >= half; },
+                   .cancel = [&] { return enough.load(); }};
+  Options options{.workdir = folder.path() / "work"};
+  failure(ErrorKind::kCancelled, [&] { (void)mesh(volume, settings, options, stop); });
+  ASSERT_TRUE(std::filesystem::exists(options.workdir));
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)mesh(volume, settings, options); }),
+              HasSubstr("add resume to go on"));
+  options.resume = true;
+  const Mesh resumed = mesh(volume, settings, options);
+  EXPECT_EQ(digest(resumed), expected);
+  EXPECT_GT(json::parse(resumed.report)["engine"]["windows_resumed"], 0);
+  EXPECT_FALSE(std::filesystem::exists(options.workdir));
+}
+
+TEST(Library, VerifiesMeshes) {
+  const auto labels = grains();
+  const Volume volume = volume_of(labels);
+  Mesh made = mesh(volume);
+  const Verdict good = verify(made, volume);
+  EXPECT_TRUE(good.passed);
+  EXPECT_EQ(json::parse(good.report)["asked"]["of_run"], true);
+  for (const Check& check : good.checks) EXPECT_TRUE(check.passed) << check.name;
+  std::swap(made.tets[5][0], made.tets[5][1]);
+  EXPECT_FALSE(verify(made, volume).passed);
+  made.tets[5][2] = made.points.size();
+  failure(ErrorKind::kUsage, [&] { (void)verify(made, volume); });
+}
+
+TEST(Library, TakesStepsAndChoices) {
+  const auto labels = grains();
+  const Volume volume = volume_of(labels).with_names({{.label = 2, .name = "liver"}});
+  const Options options{.merge = {{1, 2}, {3, 2}}, .labels = {2, 4}};
+  const Mesh made = mesh(volume, {}, options);
+  EXPECT_EQ(std::set(made.labels.begin(), made.labels.end()), (std::set<std::uint64_t>{2, 4}));
+  ASSERT_EQ(made.names.size(), 1U);
+  EXPECT_EQ(made.names[0].name, "liver");
+  EXPECT_TRUE(verify(made, volume, options).passed);
+  failure(ErrorKind::kUsage, [&] { (void)mesh(volume, {}, {.labels = {77}}); });
+}
+
+TEST(LibrarySettings, AreThoseOfTheProgram) {
+  Settings settings;
+  for (const SettingInfo& info : Settings::all()) {
+    EXPECT_EQ(settings.get(info.name), info.fallback) << info.name;
+    EXPECT_EQ(info.name.find('-'), std::string::npos);
+    EXPECT_EQ(info.help.find("--"), std::string::npos) << info.help;
+  }
+  EXPECT_EQ(settings.set("max_distance", "none").get("max_distance"), "none");
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("max_distanse", "1"); }),
+              HasSubstr("max_distance"));
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("window", "5"); }), HasSubstr("even"));
+  EXPECT_EQ(settings.changed().size(), 1U);
+}
+
+TEST(LibrarySpace, OfAnAffine) {
+  // Axes permuted and flipped, 2 x 3 x 4 a voxel.
+  const Space space = space_of_affine({{{0, -3, 0, 10}, {2, 0, 0, 20}, {0, 0, 4, 30}}}, "ras");
+  EXPECT_EQ(space.spacing, (Vector{2, 3, 4}));
+  EXPECT_EQ(space.axes[0], (Vector{0, 1, 0}));
+  EXPECT_EQ(space.axes[1], (Vector{-1, 0, 0}));
+  EXPECT_EQ(space.origin, (Vector{11.5, 19, 28}));  // the affine's is the centre of voxel 0
+  EXPECT_EQ(space.frame, "ras");
+  failure(ErrorKind::kInput, [] {
+    (void)space_of_affine({{{1, 0.5, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
+  });
+}
+
+TEST(LibraryErrors, AreWordedForCallers) {
+  EXPECT_EQ(mw::api::library_words("--max-distance: must be 0 -- or none (--surface voxel)"),
+            "max_distance: must be 0 -- or none (surface voxel)");
+  EXPECT_EQ(mw::api::library_words("a--b --"), "a--b --");
+  EXPECT_EQ(failure(ErrorKind::kInput, [] { (void)read_mesh("/nowhere/m.vtu"); }).find("mwmesh:"),
+            std::string::npos);
+  failure(ErrorKind::kUsage, [] { (void)Volume::of(ArrayVolume{.shape = {2, 2, 2}}); });
+  failure(ErrorKind::kInput, [] {
+    const int one = 1;
+    (void)Volume::of(ArrayVolume{.data = &one, .shape = {2, 0, 2}});
+  });
+  failure(ErrorKind::kUsage, [] { (void)synth("cubes", {2, 2, 2}, 2, 1); });
+}
+
+}  // namespace
+}  // namespace mwmesh
