@@ -27,6 +27,8 @@
 #include <utility>
 #include <vector>
 
+#pragma GCC visibility push(default)
+
 namespace mwmesh {
 
 /// "MAJOR.MINOR.PATCH" of the library that is linked.
@@ -176,6 +178,9 @@ class Settings {
   std::map<std::string, std::string> changed_;
 };
 
+/// "4GiB", "512M", "1.5G", "4096", as a number of bytes.  ERRORS: kUsage.
+[[nodiscard]] std::uint64_t bytes_of_text(std::string_view text);
+
 enum class Certify {
   kAuto,  ///< where a quarter of the memory is enough
   kOn,
@@ -284,3 +289,5 @@ struct Verdict {
                              const Hooks& hooks = {});
 
 }  // namespace mwmesh
+
+#pragma GCC visibility pop

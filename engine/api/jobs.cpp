@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/api/guarded.h"
 #include "engine/api/mesh_settings.h"
+#include "engine/settings/bytes_text.h"
 #include "engine/settings/setting_table.h"
 #include "engine/system/machine_memory.h"
 #include "io/file/nameless_file.h"
@@ -104,3 +106,11 @@ nlohmann::ordered_json settings_json(const engine::MeshJob& job) {
 }
 
 }  // namespace mw::api
+
+namespace mwmesh {
+
+std::uint64_t bytes_of_text(std::string_view text) {
+  return mw::api::guarded([&] { return mw::engine::parse_size(text); });
+}
+
+}  // namespace mwmesh

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/report/figures.h"
+#include "engine/settings/bytes_text.h"
 #include "engine/settings/number_text.h"
 #include "io/mesh/element.h"
 #include "kernels/core/index.h"
@@ -21,6 +22,7 @@ using engine::format_number;
 using engine::parse_integer;
 using engine::parse_label;
 using engine::parse_number;
+using engine::parse_size;
 using engine::parse_switch;
 using io::parse_element;
 using report::format_bytes;
@@ -32,8 +34,5 @@ using report::format_label;
 [[nodiscard]] Index3 parse_shape(std::string_view text);                   ///< "X,Y,Z", each >= 1
 [[nodiscard]] Box3 parse_box(std::string_view text);  ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
-/// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
-/// B of 1000.  A fraction of a byte is left off.
-[[nodiscard]] std::uint64_t parse_size(std::string_view text);
 
 }  // namespace mw::cli

@@ -17,7 +17,7 @@ from pathlib import Path
 import settings as settings_of
 import volumes
 
-TIMEOUT = 200  # s; the slowest of these volumes takes a tenth of it on an idle core
+TIMEOUT = 600  # s; the slowest of these volumes takes a thirtieth of it on an idle core
 REFUSALS = {  # the only ways in which these settings may be refused
     2: [r"quality-floor .* cannot be promised for voxels", r"--background: it is the only label"],
 }

@@ -150,6 +150,11 @@ bool api_may(const Include& include) {
 bool may(const std::string& file, const Include& include) {
   if (file.starts_with("kernels/")) return kernels_may(file, include);
   if (file.starts_with("io/")) return io_may(include);
+  // Python sees what every user of the library sees.
+  if (file.starts_with("engine/python/")) {
+    return include.quoted ? is_below(include.name, {"engine/mwmesh.h", "engine/python/"})
+                          : is_standard(include.name) || is_below(include.name, {"pybind11/"});
+  }
   if (file == "engine/mwmesh.h") return !include.quoted && is_standard(include.name);
   if (file.starts_with("engine/api/")) return api_may(include);
   if (file.starts_with("engine/cli/")) return cli_may(include);

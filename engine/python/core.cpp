@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The C++ library for Python: arrays in and out without copies.  Python's side is mwmesh/*.py.
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstring>
+
+#include "engine/mwmesh.h"
+#include "engine/python/watched_run.h"
+
+namespace py = pybind11;
+
+namespace mwmesh::python {
+namespace {
+
+/// An object that may be let go by any thread.
+std::shared_ptr<py::object> shared(py::object object) {
+  return {new py::object(std::move(object)), [](py::object* o) {
+            const py::gil_scoped_acquire gil;
+            delete o;
+          }};
+}
+
+VoxelType voxel_type(const py::dtype& type) {
+  const std::string code = std::string(1, type.kind()) + std::to_string(type.itemsize());
+  const std::pair<const char*, VoxelType> known[] = {
+      {"b1", VoxelType::kU8},  {"u1", VoxelType::kU8},  {"u2", VoxelType::kU16},
+      {"u4", VoxelType::kU32}, {"u8", VoxelType::kU64}, {"i1", VoxelType::kI8},
+      {"i2", VoxelType::kI16}, {"i4", VoxelType::kI32}, {"i8", VoxelType::kI64},
+      {"f4", VoxelType::kF32}, {"f8", VoxelType::kF64}};
+  for (const auto& [name, voxel] : known) {
+    if (code == name) return voxel;
+  }
+  throw Error(ErrorKind::kUsage, "array: labels of type " + py::repr(type).cast<std::string>() +
+                                     ": expected integers, or floats that are whole numbers");
+}
+
+/// Of an array that is indexed [x, y, z] already.  It stays alive as long as the volume.
+struct HeldVolume {
+  Volume volume;
+  std::shared_ptr<py::object> array;  ///< none for files
+};
+
+HeldVolume volume_of_array(const py::array& array, const Space& space,
+                           const std::vector<LabelName>& names) {
+  ArrayVolume told{
+      .data = array.data(), .type = voxel_type(array.dtype()), .space = space, .names = names};
+  for (std::size_t i = 0; i < 3; ++i) {
+    told.shape[i] = array.shape(static_cast<py::ssize_t>(i));
+    told.strides[i] = array.strides(static_cast<py::ssize_t>(i));
+    if (told.strides[i] == 0) told.strides[i] = array.itemsize();  // an axis of one voxel
+  }
+  return {Volume::of(told), shared(array)};
+}
+
+/// fetch(x0, y0, z0, x1, y1, z1): the labels of a box as integers of 64 bits, x fastest.
+HeldVolume volume_of_region(const py::object& fetch, const py::dtype& type, const Index& shape,
+                            const Index& chunk, const Space& space,
+                            const std::vector<LabelName>& names) {
+  const auto held = shared(fetch);
+  RegionVolume told{
+      .type = voxel_type(type), .shape = shape, .chunk = chunk, .space = space, .names = names};
+  told.read = [held](const Box& box, std::span<std::uint64_t> out) {
+    const py::gil_scoped_acquire gil;
+    const py::object made =
+        (*held)(box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]);
+    const auto labels = py::cast<py::array>(made);
+    if (static_cast<std::size_t>(labels.size()) != out.size() || labels.itemsize() != 8) {
+      throw Error(ErrorKind::kInput, "volume: a region came back with another shape");
+    }
+    std::memcpy(out.data(), labels.data(), out.size_bytes());
+  };
+  return {Volume::of(told), held};
+}
+
+/// A view of one of the lists of a mesh, which stays alive as long as the view.
+template <class T>
+py::array_t<T> view(const py::object& owner, const void* data, std::vector<py::ssize_t> shape) {
+  return py::array_t<T>(std::move(shape), static_cast<const T*>(data), owner);
+}
+
+template <class T>
+py::array_t<T> column(const py::object& owner, const Mesh& mesh) {
+  return view<T>(owner, mesh.labels.data(), {static_cast<py::ssize_t>(mesh.labels.size())});
+}
+
+using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Rows = py::array_t<std::uint64_t, py::array::c_style | py::array::forcecast>;
+
+void require_columns(const py::array& array, py::ssize_t columns, const char* what) {
+  if (array.ndim() == 2 && array.shape(1) == columns) return;
+  throw Error(ErrorKind::kUsage,
+              std::string(what) + ": expected " + std::to_string(columns) + " columns");
+}
+
+Mesh mesh_of_arrays(const Points& points, const Rows& tets, const Rows& labels, bool is_signed) {
+  require_columns(points, 3, "points");
+  require_columns(tets, 4, "tets");
+  Mesh mesh;
+  mesh.points.resize(static_cast<std::size_t>(points.shape(0)));
+  std::memcpy(mesh.points.data(), points.data(), mesh.points.size() * sizeof(Vector));
+  mesh.tets.resize(static_cast<std::size_t>(tets.shape(0)));
+  std::memcpy(mesh.tets.data(), tets.data(), mesh.tets.size() * 4 * sizeof(std::uint64_t));
+  mesh.labels.assign(labels.data(), labels.data() + labels.size());
+  mesh.labels_are_signed = is_signed;
+  return mesh;
+}
+
+void add_space(py::module_& module) {
+  py::class_<Space>(module, "Space")
+      .def(py::init<>())
+      .def_readwrite("spacing", &Space::spacing)
+      .def_readwrite("origin", &Space::origin)
+      .def_readwrite("axes", &Space::axes)
+      .def_readwrite("unit", &Space::unit)
+      .def_readwrite("frame", &Space::frame);
+  module.def("space_of_affine", &space_of_affine, py::arg("affine"), py::arg("frame"));
+  py::class_<LabelName>(module, "LabelName")
+      .def(py::init([](std::uint64_t label, std::string name) {
+        return LabelName{.label = label, .name = std::move(name)};
+      }))
+      .def_readonly("label", &LabelName::label)
+      .def_readonly("name", &LabelName::name);
+}
+
+void add_volume(py::module_& module) {
+  py::class_<HeldVolume>(module, "Volume")
+      .def_property_readonly("shape", [](const HeldVolume& v) { return v.volume.shape(); })
+      .def_property_readonly("space", [](const HeldVolume& v) { return v.volume.space(); })
+      .def_property_readonly("labels_are_signed",
+                             [](const HeldVolume& v) { return v.volume.labels_are_signed(); })
+      .def("with_names", [](const HeldVolume& v, const std::vector<LabelName>& names) {
+        return HeldVolume{v.volume.with_names(names), v.array};
+      });
+  module.def("volume_of_array", &volume_of_array);
+  module.def("volume_of_region", &volume_of_region);
+  module.def("open_volume", [](const std::filesystem::path& path, const std::string& dataset,
+                               std::optional<int> scale, std::optional<Vector> spacing,
+                               std::optional<Vector> origin, const std::string& frame,
+                               std::optional<std::pair<Index, Index>> crop) {
+    VolumeFile file{.path = path,
+                    .dataset = dataset,
+                    .scale = scale,
+                    .spacing = spacing,
+                    .origin = origin,
+                    .frame = frame};
+    if (crop) file.crop = Box{crop->first, crop->second};
+    const py::gil_scoped_release no_gil;
+    return HeldVolume{Volume::open(file), nullptr};
+  });
+}
+
+void add_options(py::module_& module) {
+  py::enum_<Certify>(module, "Certify")
+      .value("auto", Certify::kAuto)
+      .value("on", Certify::kOn)
+      .value("off", Certify::kOff);
+  py::class_<Options>(module, "Options")
+      .def(py::init<>())
+      .def_readwrite("merge", &Options::merge)
+      .def_readwrite("drop_specks", &Options::drop_specks)
+      .def_readwrite("specks_joined_by_corners", &Options::specks_joined_by_corners)
+      .def_readwrite("labels", &Options::labels)
+      .def_readwrite("background", &Options::background)
+      .def_readwrite("threads", &Options::threads)
+      .def_readwrite("memory", &Options::memory)
+      .def_readwrite("workdir", &Options::workdir)
+      .def_readwrite("resume", &Options::resume)
+      .def_readwrite("certify", &Options::certify)
+      .def_readwrite("report", &Options::report);
+  module.def("bytes_of_text", &bytes_of_text);
+}
+
+Settings settings_of(const std::map<std::string, std::string>& values) {
+  Settings settings;
+  for (const auto& [name, text] : values) settings.set(name, text);
+  return settings;
+}
+
+using Values = std::map<std::string, std::string>;
+
+void add_runs(py::module_& module) {
+  module.def("mesh", [](const HeldVolume& volume, const Values& settings, const Options& options,
+                        const py::object& progress) {
+    return watched_run(progress, [&, chosen = settings_of(settings)](const Hooks& hooks) {
+      return mwmesh::mesh(volume.volume, chosen, options, hooks);
+    });
+  });
+  module.def("mesh_to_file", [](const std::filesystem::path& path, const HeldVolume& volume,
+                                const Values& settings, const Options& options,
+                                const py::object& progress, const std::string& element) {
+    return watched_run(progress, [&, chosen = settings_of(settings)](const Hooks& hooks) {
+      return mwmesh::mesh_to_file(path, volume.volume, chosen, options, hooks, element);
+    });
+  });
+  module.def("verify", [](const Mesh& mesh, const HeldVolume& volume, const Options& options) {
+    return watched_run(py::none(), [&](const Hooks& hooks) {
+      return mwmesh::verify(mesh, volume.volume, options, hooks);
+    });
+  });
+  module.def("settings", [] {
+    py::list out;
+    for (const SettingInfo& s : Settings::all()) {
+      out.append(py::make_tuple(s.name, s.help, s.fallback, s.choices));
+    }
+    return out;
+  });
+}
+
+void add_mesh(py::module_& module) {
+  py::class_<Mesh>(module, "Mesh")
+      .def(py::init(&mesh_of_arrays))
+      .def_property_readonly("points",
+                             [](const py::object& self) {
+                               const Mesh& mesh = self.cast<const Mesh&>();
+                               const auto rows = static_cast<py::ssize_t>(mesh.points.size());
+                               return view<double>(self, mesh.points.data(), {rows, 3});
+                             })
+      .def_property_readonly("tets",
+                             [](const py::object& self) {
+                               const Mesh& mesh = self.cast<const Mesh&>();
+                               const auto rows = static_cast<py::ssize_t>(mesh.tets.size());
+                               return view<std::int64_t>(self, mesh.tets.data(), {rows, 4});
+                             })
+      .def_property_readonly("labels",
+                             [](const py::object& self) -> py::array {
+                               const Mesh& mesh = self.cast<const Mesh&>();
+                               if (mesh.labels_are_signed) return column<std::int64_t>(self, mesh);
+                               return column<std::uint64_t>(self, mesh);
+                             })
+      .def_readonly("labels_are_signed", &Mesh::labels_are_signed)
+      .def_readwrite("names", &Mesh::names)
+      .def_readonly("report", &Mesh::report)
+      .def_readwrite("record", &Mesh::record)
+      .def("digest", [](const Mesh& mesh) {
+        const py::gil_scoped_release no_gil;
+        return digest(mesh);
+      });
+  module.def("read_mesh", [](const std::filesystem::path& path) {
+    const py::gil_scoped_release no_gil;
+    return read_mesh(path);
+  });
+  module.def("write_mesh",
+             [](const Mesh& mesh, const std::filesystem::path& path, const std::string& element) {
+               const py::gil_scoped_release no_gil;
+               write_mesh(mesh, path, element);
+             });
+}
+
+void add_verdict(py::module_& module) {
+  py::class_<Verdict>(module, "Verdict")
+      .def_readonly("passed", &Verdict::passed)
+      .def_readonly("report", &Verdict::report)
+      .def_property_readonly("checks", [](const Verdict& verdict) {
+        py::list out;
+        for (const Check& c : verdict.checks)
+          out.append(py::make_tuple(c.name, c.passed, c.detail));
+        return out;
+      });
+}
+
+py::array_t<std::uint64_t> synth_array(const std::string& kind, const Index& shape,
+                                       std::uint64_t labels, std::uint64_t seed) {
+  auto made = std::make_unique<std::vector<std::uint64_t>>(synth(kind, shape, labels, seed));
+  std::vector<std::uint64_t>& list = *made;
+  const py::capsule owner(made.release(),
+                          [](void* p) { delete static_cast<std::vector<std::uint64_t>*>(p); });
+  return py::array_t<std::uint64_t>({shape[2], shape[1], shape[0]}, list.data(), owner);
+}
+
+/// Errors become mwmesh.Error of the kind.
+void translate_errors(const py::module_& module) {
+  static const py::object raise = module.attr("_error_of");
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      const py::object made = raise(static_cast<int>(error.kind()), error.what());
+      PyErr_SetObject(py::type::handle_of(made).ptr(), made.ptr());
+    }
+  });
+}
+
+}  // namespace
+}  // namespace mwmesh::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace mwmesh::python;
+  module.attr("__version__") = mwmesh::version();
+  add_space(module);
+  add_volume(module);
+  add_options(module);
+  add_mesh(module);
+  add_verdict(module);
+  add_runs(module);
+  module.def("synth", &synth_array);
+  translate_errors(py::module_::import("mwmesh._errors"));
+}

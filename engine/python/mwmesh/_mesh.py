@@ -1,0 +1,250 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""A tetrahedral mesh of labels in memory."""
+
+import json
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _core
+from ._errors import UsageError
+
+#: The corners of a tet's faces, seen counterclockwise from outside.
+_FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
+
+
+class Surface(NamedTuple):
+    """Triangles, rows of points, counterclockwise from outside."""
+
+    points: np.ndarray
+    triangles: np.ndarray
+
+
+class _Facets(NamedTuple):
+    """Triangles between two labels, or between one and the outside of the box."""
+
+    triangles: np.ndarray  # rows of points, counterclockwise from the side of `other`
+    label: np.ndarray  # index of the label inside
+    other: np.ndarray  # index of the label outside; -1: none
+
+
+def _three_corners(points, triangles):
+    return points[triangles[:, 0]], points[triangles[:, 1]], points[triangles[:, 2]]
+
+
+class Verdict:
+    """What a verification found.  True when all checks hold."""
+
+    def __init__(self, verdict):
+        self.passed = verdict.passed
+        #: (name, passed, detail) of each check.
+        self.checks = verdict.checks
+        #: The keys of ``mwmesh verify --report``.
+        self.report = json.loads(verdict.report)
+
+    def __bool__(self):
+        return self.passed
+
+    def __repr__(self):
+        rows = [f"{'ok  ' if passed else 'FAIL'}  {name}: {detail}"
+                for name, passed, detail in self.checks]
+        return "\n".join(rows)
+
+
+class Mesh:
+    """A conforming tetrahedral mesh, one label a tet.
+
+    >>> import mwmesh
+    >>> mesh = mwmesh.mesh(mwmesh.synth("voronoi", (12, 10, 8), labels=3, seed=1))
+    >>> mesh.points.shape[1], mesh.tets.shape[1], len(mesh.labels) == len(mesh.tets)
+    (3, 4, True)
+    >>> round(sum(mesh.volumes().values()), 6)
+    960.0
+    """
+
+    def __init__(self, points, tets, labels, names=None):
+        """A mesh from arrays, which are copied: (n, 3) coordinates, (m, 4) rows of points with
+        positive orientation, m labels."""
+        labels = np.asarray(labels)
+        is_signed = labels.dtype.kind == "i"
+        self._core = _core.Mesh(points, np.asarray(tets), labels.astype(np.int64).view(np.uint64)
+                                if is_signed else labels, is_signed)
+        if names:
+            self._core.names = [_core.LabelName(int(k) & (2**64 - 1), v) for k, v in names.items()]
+        self._begin()
+
+    @classmethod
+    def _of(cls, core):
+        mesh = cls.__new__(cls)
+        mesh._core = core
+        mesh._begin()
+        return mesh
+
+    def _begin(self):
+        #: (n, 3) world coordinates.
+        self.points = self._core.points
+        #: (m, 4) rows of points; orientation is positive.
+        self.tets = self._core.tets
+        #: m labels, int64 where the volume's are signed, else uint64.
+        self.labels = self._core.labels
+        report = self._core.report
+        #: The keys of ``mwmesh mesh --report``; None where there is none.
+        self.report = json.loads(report) if report else None
+        self._known = {}
+
+    def __repr__(self):
+        return (f"<mwmesh.Mesh: {len(self.points)} points, {len(self.tets)} tets, "
+                f"{len(self.label_list())} labels>")
+
+    @property
+    def names(self):
+        """{label: name} of labels that have one."""
+        kind = self.labels.dtype.type
+        return {int(np.uint64(row.label).astype(kind)): row.name for row in self._core.names}
+
+    @property
+    def digest(self):
+        """The same for every format, order of rows and machine."""
+        return self._core.digest()
+
+    def label_list(self):
+        """The labels that the mesh has, ascending."""
+        return self._ranks()[0]
+
+    def _ranks(self):
+        if "ranks" not in self._known:
+            self._known["ranks"] = np.unique(self.labels, return_inverse=True)
+        return self._known["ranks"]
+
+    def tet_volumes(self):
+        """The volume of each tet."""
+        a, b, c, d = (self.points[self.tets[:, i]] for i in range(4))
+        return np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) / 6
+
+    def volumes(self):
+        """{label: volume}."""
+        labels, ranks = self._ranks()
+        sums = np.bincount(ranks, weights=self.tet_volumes(), minlength=len(labels))
+        return {int(label): float(v) for label, v in zip(labels, sums)}
+
+    def _facets(self):
+        if "facets" in self._known:
+            return self._known["facets"]
+        ranks = self._ranks()[1].astype(np.int64)
+        triangles = self.tets[:, _FACES].reshape(-1, 3)
+        inside = np.repeat(ranks, 4)
+        keys = np.sort(triangles, axis=1)
+        order = np.lexsort(keys.T[::-1])
+        keys = keys[order]
+        twin = np.flatnonzero((keys[1:] == keys[:-1]).all(axis=1))
+        first, second = order[twin], order[twin + 1]
+        alone = np.ones(len(order), dtype=bool)
+        alone[twin] = alone[twin + 1] = False
+        single = order[alone]
+        differs = inside[first] != inside[second]
+        first, second = first[differs], second[differs]
+        # Each interface is told once, outside the smaller label.
+        swap = inside[first] > inside[second]
+        first, second = np.where(swap, second, first), np.where(swap, first, second)
+        facets = _Facets(np.concatenate([triangles[first], triangles[single]]),
+                         np.concatenate([inside[first], inside[single]]),
+                         np.concatenate([inside[second], np.full(len(single), -1)]))
+        self._known["facets"] = facets
+        return facets
+
+    def _rank(self, label):
+        labels = self.label_list()
+        found = np.flatnonzero(labels == label)
+        if len(found) == 0:
+            raise UsageError(f"label {label}: the mesh has none of that number")
+        return int(found[0])
+
+    def facets(self, a, b):
+        """(k, 3) rows of points: the triangles where labels a and b meet, counterclockwise seen
+        from b."""
+        rank_a, rank_b = self._rank(a), self._rank(b)
+        facets = self._facets()
+        here = (facets.label == min(rank_a, rank_b)) & (facets.other == max(rank_a, rank_b))
+        triangles = facets.triangles[here]
+        return triangles if rank_a < rank_b else triangles[:, ::-1]
+
+    def surface(self, label, closed=True):
+        """The surface of a label, with what lies on the sides of the box unless closed is False.
+
+        >>> import mwmesh
+        >>> mesh = mwmesh.mesh(mwmesh.synth("spheres", (20, 20, 20), labels=1, seed=1))
+        >>> points, triangles = mesh.surface(1)
+        >>> triangles.shape[1]
+        3
+        """
+        rank = self._rank(label)
+        facets = self._facets()
+        out = (facets.label == rank) & (closed | (facets.other >= 0))
+        back = facets.other == rank
+        triangles = np.concatenate([facets.triangles[out], facets.triangles[back][:, ::-1]])
+        rows, corners = np.unique(triangles, return_inverse=True)
+        return Surface(self.points[rows], corners.reshape(-1, 3))
+
+    def contacts(self):
+        """{(a, b): area} of the labels that touch, a < b."""
+        labels = self.label_list()
+        facets = self._facets()
+        touch = facets.other >= 0
+        a, b, c = _three_corners(self.points, facets.triangles[touch])
+        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+        pairs = facets.label[touch] * len(labels) + facets.other[touch]
+        known, rows = np.unique(pairs, return_inverse=True)
+        sums = np.bincount(rows, weights=areas, minlength=len(known))
+        return {(int(labels[p // len(labels)]), int(labels[p % len(labels)])): float(s)
+                for p, s in zip(known, sums)}
+
+    def save(self, path, element="tet4"):
+        """Writes a file of any format of ``mwmesh convert``; nothing is under its name before it is
+        whole.  element: "tet4" or "tet10"."""
+        _core.write_mesh(self._core, os.fspath(path), element)
+
+    def verify(self, volume, *, threads=0, memory=None, labels=None, background=None, merge=None,
+               drop_specks=None, **place):
+        """Holds the mesh against its volume; arguments as of :func:`mwmesh.mesh`.
+
+        >>> import mwmesh
+        >>> grains = mwmesh.synth("voronoi", (12, 10, 8), labels=3, seed=1)
+        >>> bool(mwmesh.mesh(grains).verify(grains))
+        True
+        """
+        from . import _options, as_volume
+        options = _options(threads=threads, memory=memory, labels=labels, background=background,
+                           merge=merge, drop_specks=drop_specks)
+        return Verdict(_core.verify(self._core, as_volume(volume, **place), options))
+
+    def to_meshio(self):
+        """A meshio.Mesh with the cell data "label"."""
+        import meshio
+        return meshio.Mesh(self.points, [("tetra", self.tets)], cell_data={"label": [self.labels]})
+
+    def to_vtk(self):
+        """A vtkUnstructuredGrid with the cell array "label"."""
+        from vtkmodules.util import numpy_support
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkUnstructuredGrid
+        points = vtkPoints()
+        points.SetData(numpy_support.numpy_to_vtk(self.points, deep=True))
+        cells = vtkCellArray()
+        cells.SetData(
+            numpy_support.numpy_to_vtkIdTypeArray(
+                np.arange(0, 4 * len(self.tets) + 1, 4, dtype=np.int64), deep=True),
+            numpy_support.numpy_to_vtkIdTypeArray(self.tets.ravel(), deep=True))
+        grid = vtkUnstructuredGrid()
+        grid.SetPoints(points)
+        grid.SetCells(VTK_TETRA, cells)
+        labels = numpy_support.numpy_to_vtk(self.labels, deep=True)
+        labels.SetName("label")
+        grid.GetCellData().SetScalars(labels)
+        return grid
+
+    def to_pyvista(self):
+        """A pyvista.UnstructuredGrid with the cell data "label"."""
+        import pyvista
+        return pyvista.wrap(self.to_vtk())

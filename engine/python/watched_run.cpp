@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A long call that lets Python go on, tells how far it is, and ends at Ctrl-C.
+#include "engine/python/watched_run.h"
+
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace py = pybind11;
+
+namespace mwmesh::python {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{100};
+
+/// A run in its thread.
+class Watched {
+ public:
+  explicit Watched(const std::function<void(const Hooks&)>& work)
+      : thread_([this, &work] { run(work); }) {}
+  Watched(const Watched&) = delete;
+  Watched& operator=(const Watched&) = delete;
+
+  /// Cancels the work unless it has ended.  REQUIRES: without the interpreter's lock.
+  ~Watched() {
+    cancelled_ = true;
+    thread_.join();
+  }
+
+  /// Waits a moment; whether the work has ended.
+  [[nodiscard]] bool has_ended() {
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, kLook, [this] { return is_over_; });
+  }
+
+  /// The latest, once.
+  [[nodiscard]] std::optional<Progress> news() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_, std::nullopt);
+  }
+
+  /// REQUIRES: the work has ended.
+  [[nodiscard]] std::exception_ptr error() const { return error_; }
+
+ private:
+  void run(const std::function<void(const Hooks&)>& work) {
+    const Hooks hooks{.progress =
+                          [this](const Progress& at) {
+                            const std::lock_guard lock(mutex_);
+                            news_ = at;
+                          },
+                      .cancel = [this] { return cancelled_.load(); }};
+    std::exception_ptr error;
+    try {
+      work(hooks);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    error_ = error;
+    is_over_ = true;
+    ended_.notify_all();
+  }
+
+  std::atomic<bool> cancelled_ = false;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool is_over_ = false;
+  std::optional<Progress> news_;
+  std::exception_ptr error_;
+  std::thread thread_;  ///< last, as it uses the others
+};
+
+void tell(const py::object& progress, const std::optional<Progress>& news) {
+  if (!news || progress.is_none()) return;
+  progress(news->done, news->total, news->seconds_left);
+}
+
+}  // namespace
+
+void run_watched(const py::object& progress, const std::function<void(const Hooks&)>& work) {
+  std::exception_ptr error;
+  {
+    const py::gil_scoped_release no_gil;
+    Watched watched(work);
+    while (!watched.has_ended()) {
+      const std::optional<Progress> news = watched.news();
+      const py::gil_scoped_acquire gil;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      tell(progress, news);
+    }
+    error = watched.error();
+    const std::optional<Progress> news = watched.news();
+    const py::gil_scoped_acquire gil;
+    if (!error) tell(progress, news);
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace mwmesh::python
