@@ -51,7 +51,7 @@ class Marches {
     forecast_.begin_march([&](Index3 w) { return store.is_done(w); });
     const std::uint64_t budget = hooks_.store.memory;
     const bool is_ample = budget_is_ample(budget, order.grid(), thread_count(hooks_.threads));
-    if (!is_ample) return_large_pieces_at_once();
+    if (!is_ample && hooks_.owns_process) return_large_pieces_at_once();
     const WindowNeeds needs{.start_size =
                                 [&](Index3 block) {
                                   return is_ample ? most_start_size(order.grid(), block)

@@ -78,6 +78,8 @@ struct RunHooks {
   OutputOptions output;
   StoreOptions store;         ///< memory and disk
   codt::PoolOptions workers;  ///< of Optimizer::kTetgen
+  /// Under a tight budget the allocator is told to give large pieces back at once (mallopt).
+  bool owns_process = false;
 };
 
 /// Meshes the whole box of the volume into `sink`.

@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "bench/peers/cgal_mesher.h"
-#include "engine/cli/resource_meter.h"
-#include "engine/cli/run_report.h"
+#include "engine/report/resource_meter.h"
+#include "engine/report/run_report.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/open_mesh.h"
 #include "io/volume/open_volume.h"

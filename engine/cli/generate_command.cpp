@@ -8,13 +8,14 @@
 #include "engine/cli/completions.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/manual_page.h"
+#include "engine/version.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
 
 std::string generated(const std::string& what, const std::vector<CommandFacts>& commands) {
-  if (what == "man") return manual_page(commands, MW_VERSION);
+  if (what == "man") return manual_page(commands, engine::version());
   if (what == "bash") return bash_completion(commands);
   if (what == "zsh") return zsh_completion(commands);
   if (what == "fish") return fish_completion(commands);

@@ -3,7 +3,7 @@
 // Ctrl-C and SIGTERM end a run between two steps, so that partial files are removed.
 #pragma once
 
-#include "io/volume/volume_view.h"
+#include <string>
 
 namespace mw::cli {
 
@@ -18,15 +18,5 @@ void watch_interrupts();
 
 /// ERRORS: Interrupted when a signal has been noted.  Thread-safe.
 void stop_if_interrupted();
-
-/// A volume whose reading can be interrupted.
-class InterruptibleVolume : public io::VolumeView {
- public:
-  using VolumeView::VolumeView;
-  void read(const Box3& box, std::span<RawLabel> out) const override {
-    stop_if_interrupted();
-    below().read(box, out);
-  }
-};
 
 }  // namespace mw::cli

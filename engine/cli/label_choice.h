@@ -3,28 +3,14 @@
 // Which labels a mesh holds (--labels, --background).
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "engine/cli/option_set.h"
-#include "engine/output/label_selection.h"
+#include "engine/output/label_choice.h"
 
 namespace mw::cli {
 
-struct LabelChoice {
-  std::optional<std::vector<RawLabel>> labels;  ///< the only ones that are kept
-  std::optional<RawLabel> background;           ///< the one that is not
-};
+using engine::LabelChoice;
 
 /// --labels and --background.
 void add_choice_options(OptionSet& options, LabelChoice& choice);
-
-/// ERRORS: mw::Error(kUsage) when both are given.
-void check_choice(const LabelChoice& choice);
-
-/// Empty when all labels are kept.
-/// ERRORS: mw::Error(kUsage) for a label that the volume does not have, and when none is kept.
-[[nodiscard]] engine::WantedLabel wanted_labels(const LabelChoice& choice,
-                                                const io::LabelTable& table);
 
 }  // namespace mw::cli

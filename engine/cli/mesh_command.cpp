@@ -7,21 +7,17 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "engine/cli/certificate.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
-#include "engine/cli/mesh_facts.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/page/run_page.h"
-#include "engine/cli/run_report.h"
-#include "engine/cli/speck_facts.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
-#include "engine/labels/fingerprint.h"
-#include "engine/labels/label_scan.h"
-#include "engine/labels/voxel_lattice.h"
+#include "engine/report/mesh_facts.h"
+#include "engine/report/run_report.h"
+#include "engine/report/speck_facts.h"
 #include "engine/system/crew.h"
 #include "engine/system/resident_memory.h"
 #include "io/mesh/digest.h"
@@ -32,7 +28,7 @@
 namespace mw::cli {
 namespace {
 
-struct MeshJob {
+struct MeshCommand {
   OptionSet options;
   MeshRequest request;
   std::string config;
@@ -67,10 +63,7 @@ struct MeshFiles {
   }
 
   /// Where the mesh goes.
-  [[nodiscard]] io::MeshSink& all() { return certifier ? certifier->sink() : uncertified(); }
-
-  /// The same, past the certificate.
-  [[nodiscard]] io::MeshSink& uncertified() {
+  [[nodiscard]] io::MeshSink& all() {
     if (three) return *three;
     return both ? static_cast<io::MeshSink&>(*both) : *sink;
   }
@@ -83,48 +76,39 @@ struct MeshFiles {
   std::optional<io::GroupedSink> grouped;  ///< for the page, the same
   std::optional<io::TeeSink> three;
   std::optional<TraceFile> trace;
-  std::optional<Certifier> certifier;
 };
 
-engine::RunReport mesh_into(const MeshRequest& request, const io::DenseVolume& volume,
-                            MeshFiles& files, const engine::StoreOptions& store) {
-  Progress progress(request.progress);
-  engine::RunHooks hooks{.threads = request.threads};
-  hooks.store = store;
-  hooks.progress = [&](const engine::RunProgress& at) {
-    stop_if_interrupted();
-    progress.show(at);
-  };
-  if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
-  hooks.output = {.wanted = wanted_labels(request.choice, volume.table()),
-                  .measure_quality = is_measured(request),
-                  .measure_shape = is_measured(request),
-                  .measure_edges = is_measured(request) && !request.settings.sizes.labels.empty()};
-  return engine::mesh_volume(volume, request.settings, files.all(), hooks);
+engine::MeshJob job_of(const MeshRequest& request) {
+  return {.steps = request.volume.steps,
+          .settings = request.settings,
+          .choice = request.choice,
+          .certify = request.certify,
+          .threads = request.threads,
+          .memory = *request.memory,
+          .workdir = request.workdir,
+          .resume = request.resume,
+          .save_every = request.save_every,
+          .is_measured = is_measured(request),
+          .folder = request.output.parent_path(),
+          .owns_process = true};
 }
 
 /// Says where the work is when a run that ends early leaves some.
-/// memory: what is left of the budget.
-engine::RunReport mesh_or_keep(const MeshRequest& request, const io::DenseVolume& volume,
-                               MeshFiles& files, const std::string& fingerprint,
-                               std::uint64_t memory) {
+report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume& volume,
+                              MeshFiles& files) {
+  Progress progress(request.progress);
   std::string work;
-  const engine::StoreOptions store{
-      .memory = memory,
-      .workdir = request.workdir,
-      .resume = request.resume,
-      .identity = "version = " MW_VERSION "\nlabel fingerprint = " + fingerprint + "\n",
-      .group = {.age = request.save_every},
-      .kept = [&] {
-        work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
-      }};
+  engine::JobHooks hooks{.stop = stop_if_interrupted};
+  hooks.progress = [&](const engine::RunProgress& at) { progress.show(at); };
+  if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
+  hooks.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
+  hooks.kept = [&] {
+    work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
+  };
   try {
-    return mesh_into(request, volume, files, store);
+    return engine::mesh(volume, job_of(request), files.all(), hooks);
   } catch (const Interrupted&) {
     throw Interrupted{work};
-  } catch (const Error& error) {
-    if (work.empty()) throw;
-    throw Error(error.kind(), error.what() + ("; " + work));
   }
 }
 
@@ -146,21 +130,21 @@ void print_space(const io::VolumeSpace& space) {
   if (!what.empty()) std::cout << "coordinates " << what << "\n";
 }
 
-void print_certificate(const FinishedRun& run) {
+void print_certificate(const report::FinishedRun& run) {
   std::cout << "certificate "
-            << (run.certificate == nullptr ? "none: " + run.why_no_certificate
-                                           : "topology, partition, radius ratio and distance hold")
+            << (run.certificate ? "topology, partition, radius ratio and distance hold"
+                                : "none: " + run.why_no_certificate)
             << "\n";
 }
 
-void print_summary(const FinishedRun& run, const MeshRequest& request) {
+void print_summary(const report::FinishedRun& run, const MeshRequest& request) {
   const double seconds = run.resources.wall_seconds;
   const Index3 shape = run.volume.shape;
-  const double share = 100 * vertex_fraction(run.engine.vertices, shape);
+  const double share = 100 * report::vertex_fraction(run.engine.vertices, shape);
   std::cout << "vertices    " << run.engine.vertices << " (" << format_fixed(share, 2)
             << " % of the voxel corners)\n"
             << "tets        " << run.engine.tets << "\n";
-  print_specks(run.specks);
+  report::print_specks(run.specks);
   print_lattice(run.engine.lattice);
   print_space(run.volume.space);
   print_certificate(run);
@@ -197,32 +181,12 @@ int threads_at_hand(int asked) {
 
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
-  const CertificatePlan plan = plan_certificate(request);
-  const ResourceMeter meter;
+  (void)engine::plan_certificate(job_of(request));
+  const report::ResourceMeter meter;
   MeshFiles files(request);
   spdlog::info("reading {}", request.volume.path.string());
-  const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
-  engine::check(opened->info(), request.settings);
-  const InterruptibleVolume interruptible(*opened);
-  const io::PreparedInput input(interruptible, request.volume.steps,
-                                {.memory = *request.memory / 4});
-  engine::return_free_memory_above(0);  // the search for specks has let go of more than is held
-  const io::LabelVolume& volume = input.volume();
-  const engine::FingerprintVolume fingerprint(volume);
-  const io::LabelTable table = engine::collect_labels(fingerprint, request.threads);
-  FinishedRun run{.volume = volume.info(),
-                  .labels = table,
-                  .sizes = request.settings.sizes,
-                  .specks = input.specks()};
-  run.labels_seconds = meter.read().wall_seconds;
-  spdlog::info("meshing {} labels", table.size());
-  const io::DenseVolume labels(volume, table);
-  if (plan.why_not.empty()) files.certifier.emplace(plan, request, labels, files.uncertified());
-  run.fingerprint = fingerprint.text();
-  run.engine =
-      mesh_or_keep(request, labels, files, run.fingerprint, *request.memory - input.held_bytes());
-  run.why_no_certificate = plan.why_not;
-  if (files.certifier) run.certificate = &files.certifier->report();
+  const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
+  report::FinishedRun run = mesh_into(request, *volume, files);
   if (files.trace) files.trace->finish();
   tell_resume(request, run.engine.store);
   run.resources = meter.read();
@@ -232,16 +196,16 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
     run.digest = files.digest->digest();
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
   }
-  if (files.report) write_run_report(*files.report, run, request.output, options.json());
+  if (files.report) report::write_run_report(*files.report, run, request.output, options.json());
   if (files.html) {
     write_run_page(*files.html, run, files.grouped->mesh(),
-                   run_report(run, request.output, options.json()));
+                   report::run_report(run, request.output, options.json()));
     std::cout << "page        " << request.html.string() << std::endl;
   }
   return kExitDone;
 }
 
-int run_mesh(MeshJob& job) {
+int run_mesh(MeshCommand& job) {
   std::optional<std::filesystem::path> config;
   if (!job.config.empty()) config = job.config;
   job.options.resolve(config);
@@ -259,7 +223,7 @@ int run_mesh(MeshJob& job) {
 
 void add_mesh_command(CLI::App& program, Action& chosen) {
   CLI::App* command = program.add_subcommand("mesh", "meshes a labelled volume");
-  const auto job = std::make_shared<MeshJob>();
+  const auto job = std::make_shared<MeshCommand>();
   add_mesh_options(job->options, job->request);
   job->options.add_flags(*command);
   command->add_option("--config", job->config, "TOML file with a key for each option, '-' as '_'")

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
-#include "engine/cli/machine_memory.h"
 #include "engine/cli/mesh_paths.h"
 #include "engine/cli/resource_options.h"
 #include "engine/cli/setting_options.h"
 #include "engine/cli/size_options.h"
 #include "engine/cli/values.h"
 #include "engine/codt/worker_pool.h"
+#include "engine/system/machine_memory.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
 
@@ -137,10 +137,10 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
 void check_mesh_request(MeshRequest& request) {
   require_path(request.output, "-o OUTPUT");
   if (request.workdir.empty()) request.workdir = request.output.string() + ".work";
-  if (!request.memory) request.memory = default_memory_budget();
+  if (!request.memory) request.memory = engine::default_memory_budget();
   request.volume.cache_bytes = cache_bytes(*request.memory);
   (void)open_options(request.volume);
-  check_choice(request.choice);
+  engine::check_choice(request.choice);
   require_paths_apart(request);
   require_memory_for_page(request);
   settle_sizes(request);

@@ -8,16 +8,13 @@
 #include "engine/cli/label_choice.h"
 #include "engine/cli/progress.h"
 #include "engine/cli/volume_options.h"
+#include "engine/job/mesh_job.h"
 #include "engine/settings/settings.h"
 #include "io/mesh/element.h"
 
 namespace mw::cli {
 
-enum class Certify {
-  kAuto,  ///< where memory allows it and the mesh need not be looked at as a whole
-  kOn,
-  kOff,
-};
+using engine::Certify;
 
 struct MeshRequest {
   VolumeRequest volume;

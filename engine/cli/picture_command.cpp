@@ -6,8 +6,8 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/name_facts.h"
 #include "engine/cli/picture/picture_request.h"
+#include "engine/cli/report_names.h"
 #include "engine/cli/values.h"
 #include "engine/cli/volume_options.h"
 #include "io/file/atomic_file.h"

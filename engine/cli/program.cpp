@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole command line: subcommands, messages, exit codes.
 #include "engine/cli/program.h"
+#include "engine/version.h"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -33,9 +34,9 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_picture_command(app, chosen);
   add_generate_command(app, chosen);
   app.require_subcommand(0, 1);
-  app.set_version_flag("--version", "mwmesh " MW_VERSION);
+  app.set_version_flag("--version", std::string("mwmesh ") + engine::version());
   for (CLI::App* command : app.get_subcommands({})) {
-    command->set_version_flag("--version", "mwmesh " MW_VERSION);
+    command->set_version_flag("--version", std::string("mwmesh ") + engine::version());
   }
 }
 

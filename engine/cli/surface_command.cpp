@@ -5,7 +5,7 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/name_facts.h"
+#include "engine/cli/report_names.h"
 #include "engine/cli/surface_output.h"
 #include "engine/cli/values.h"
 #include "io/mesh/grouped/grouped_sink.h"

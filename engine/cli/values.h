@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/report/figures.h"
 #include "engine/settings/number_text.h"
 #include "io/mesh/element.h"
 #include "kernels/core/index.h"
@@ -21,6 +22,9 @@ using engine::parse_integer;
 using engine::parse_label;
 using engine::parse_number;
 using engine::parse_switch;
+using report::format_bytes;
+using report::format_fixed;
+using report::format_label;
 
 /// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.
 [[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z"
@@ -31,11 +35,5 @@ using engine::parse_switch;
 /// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
 /// B of 1000.  A fraction of a byte is left off.
 [[nodiscard]] std::uint64_t parse_size(std::string_view text);
-
-[[nodiscard]] std::string format_label(RawLabel label, bool is_signed);
-/// "12.3 MiB".
-[[nodiscard]] std::string format_bytes(std::uint64_t bytes);
-/// With the given number of digits after the point.
-[[nodiscard]] std::string format_fixed(double value, int digits);
 
 }  // namespace mw::cli

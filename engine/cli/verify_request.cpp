@@ -3,9 +3,9 @@
 // The options of `mwmesh verify`.
 #include "engine/cli/verify_request.h"
 
-#include "engine/cli/machine_memory.h"
 #include "engine/cli/resource_options.h"
 #include "engine/cli/values.h"
+#include "engine/system/machine_memory.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/audit/audit.h"
 #include "kernels/core/error.h"
@@ -84,14 +84,14 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
 
 void check_verify_request(VerifyRequest& request) {
   require_path(request.mesh, "MESH");
-  check_choice(request.choice);
+  engine::check_choice(request.choice);
   if (request.count_places.value_or(false) &&
       (request.choice.labels || request.choice.background)) {
     throw Error(ErrorKind::kUsage,
                 "--topology interfaces: is for meshes of all labels, without --labels and "
                 "--background");
   }
-  if (!request.memory) request.memory = default_memory_budget();
+  if (!request.memory) request.memory = engine::default_memory_budget();
   request.volume.cache_bytes = cache_bytes(*request.memory);
 }
 

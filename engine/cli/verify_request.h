@@ -7,6 +7,7 @@
 
 #include "engine/cli/label_choice.h"
 #include "engine/cli/volume_options.h"
+#include "engine/report/verify_report.h"
 #include "io/mesh/mesh_record.h"
 
 namespace mw::cli {
@@ -26,11 +27,7 @@ struct VerifyRequest {
   std::optional<std::uint64_t> memory;  ///< bytes; after check_verify_request() never empty
 };
 
-/// What the checks ask.
-struct Bounds {
-  io::MeshPromises promises;
-  bool of_run = false;  ///< the mesh's file told what its run promised
-};
+using report::Bounds;
 
 /// Every option of the subcommand.  REQUIRES: request outlives options.
 void add_verify_options(OptionSet& options, VerifyRequest& request);

@@ -3,15 +3,13 @@
 // What `mwmesh info` says of a volume.
 #include "engine/cli/volume_facts.h"
 
+#include "engine/cli/report_names.h"
+
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "engine/cli/fact_text.h"
-#include "engine/cli/json_rows.h"
-#include "engine/cli/mesh_facts.h"
-#include "engine/cli/name_facts.h"
-#include "engine/cli/speck_facts.h"
 
 namespace mw::cli {
 namespace {

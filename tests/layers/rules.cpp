@@ -105,6 +105,10 @@ const Room kRooms[] = {
      {"engine/settings/", "engine/labels/", "engine/march/", "engine/store/run_layout.h"}},
     {"engine/output/", {"engine/window/window_grid.h"}},
     {"engine/verify/", {"engine/labels/", "engine/system/"}},
+    {"engine/report/",
+     {"engine/run.h", "engine/settings/", "engine/system/", "engine/verify/", "engine/version.h"}},
+    // The main job as program and library start it.
+    {"engine/job/", {"engine/"}},
 };
 
 bool room_may(const std::string& file, const std::string& name) {
@@ -119,7 +123,8 @@ bool engine_may(const std::string& file, const Include& include) {
   const std::string& name = include.name;
   if (!include.quoted) {
     return is_standard(name) || is_posix(name) ||
-           is_below(name, {"tbb/", "oneapi/", "boost/interprocess/"});
+           is_below(name, {"tbb/", "oneapi/", "boost/interprocess/"}) ||
+           (file.starts_with("engine/report/") && is_below(name, {"nlohmann/"}));
   }
   if (is_below(name, {"engine/cli/"}) || is_concrete_io(name)) return false;
   if (is_below(name, {"engine/codt/worker/"}) && !is_below(file, {"engine/codt/worker/"}))

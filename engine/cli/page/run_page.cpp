@@ -31,7 +31,7 @@ std::vector<double> shares_of(const Counts& counts) {
 }
 
 /// Of labels of 1,000 voxels and more; what is off by more than 5 % is in the outermost columns.
-Histogram volume_errors(const FinishedRun& run) {
+Histogram volume_errors(const report::FinishedRun& run) {
   constexpr double kMost = 0.05;
   std::array<std::uint64_t, 20> counts{};
   std::uint64_t labels = 0;
@@ -50,7 +50,7 @@ Histogram volume_errors(const FinishedRun& run) {
           .shares = shares_of(counts)};
 }
 
-std::string shape_section(const FinishedRun& run) {
+std::string shape_section(const report::FinishedRun& run) {
   const audit::QualityReport& quality = run.engine.quality.value();
   const audit::ShapeReport& shape = run.engine.shape.value();
   std::string out = "<section><h2>Shape</h2><div class=\"charts\">\n";
@@ -85,7 +85,7 @@ struct PageLabels {
   }
 };
 
-PageLabels labels_of(const FinishedRun& run, io::GroupedMesh& mesh) {
+PageLabels labels_of(const report::FinishedRun& run, io::GroupedMesh& mesh) {
   PageLabels out{.mesh = mesh, .surrounding = surrounding_label(mesh), .volumes = {}};
   out.volumes.resize(mesh.table().size());
   each_volume(run, [&](const audit::VolumeRow& row) {
@@ -233,7 +233,7 @@ std::string page_top(const ordered_json& report) {
 
 }  // namespace
 
-void write_run_page(io::AtomicFile& file, const FinishedRun& run, io::GroupedMesh& mesh,
+void write_run_page(io::AtomicFile& file, const report::FinishedRun& run, io::GroupedMesh& mesh,
                     const ordered_json& report) {
   const PageLabels labels = labels_of(run, mesh);
   file.append(page_top(report) + head_section(report) + "<main>\n");

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "engine/cli/run_report.h"
+#include "engine/report/run_report.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::cli {
@@ -16,7 +16,7 @@ namespace mw::cli {
 /// REQUIRES: mesh is the one that the run wrote.  Memory: beside the mesh's lists 80 MiB (samples
 /// of a picture, then the triangles of the view), and 40 bytes a label. ERRORS: those of file and
 /// mesh.
-void write_run_page(io::AtomicFile& file, const FinishedRun& run, io::GroupedMesh& mesh,
+void write_run_page(io::AtomicFile& file, const report::FinishedRun& run, io::GroupedMesh& mesh,
                     const nlohmann::ordered_json& report);
 
 }  // namespace mw::cli

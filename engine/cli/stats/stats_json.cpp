@@ -3,10 +3,9 @@
 // `mwmesh stats --json`.
 #include "engine/cli/stats/stats_json.h"
 
-#include <nlohmann/json.hpp>
+#include "engine/cli/report_names.h"
 
-#include "engine/cli/mesh_facts.h"
-#include "engine/cli/name_facts.h"
+#include <nlohmann/json.hpp>
 
 namespace mw::cli {
 namespace {

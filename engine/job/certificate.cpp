@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A verification with what the run promised.
+#include "engine/job/certificate.h"
+
+#include "engine/job/verify_job.h"
+#include "engine/march/march.h"
+#include "engine/report/figures.h"
+#include "engine/verify/verify_mesh.h"
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+namespace {
+
+// Buffers and lists; a tile with what is around it, on each thread.
+constexpr std::uint64_t kShared = std::uint64_t{48} << 20U;
+constexpr std::uint64_t kPerThread = std::uint64_t{40} << 20U;
+
+/// "P2 faces: 3 triangles ..., P3 ...".
+std::string failures(const audit::AuditReport& report) {
+  std::string out;
+  for (const audit::Check& check : report.checks) {
+    if (!check.passed) out += (out.empty() ? "" : "; ") + check.name + ": " + check.detail;
+  }
+  return out;
+}
+
+std::string obstacle(const MeshJob& job) {
+  if (job.choice.labels || job.choice.background) {
+    return "labels are left out: such a mesh is checked as a whole, see verify";
+  }
+  if (job.settings.topology == KeptTopology::kInterfaces) {
+    return "interfaces are counted in a mesh as a whole, see verify";
+  }
+  if (job.memory / 4 < kShared + kPerThread) {
+    return "needs --memory " + report::format_bytes(4 * (kShared + kPerThread)) + " or more";
+  }
+  return "";
+}
+
+}  // namespace
+
+CertificatePlan plan_certificate(const MeshJob& job) {
+  if (job.certify == Certify::kOff) return {.why_not = "not asked for"};
+  const std::string why_not = obstacle(job);
+  if (!why_not.empty() && job.certify == Certify::kOn) {
+    throw Error(ErrorKind::kUsage, "--certify on: " + why_not);
+  }
+  if (!why_not.empty()) return {.why_not = why_not};
+  const std::uint64_t most = (job.memory / 4 - kShared) / kPerThread;
+  const auto threads =
+      std::min<std::uint64_t>(most, static_cast<std::uint64_t>(thread_count(job.threads)));
+  return {.threads = static_cast<int>(threads), .memory_bytes = kShared + threads * kPerThread};
+}
+
+Certifier::Certifier(const CertificatePlan& plan, const MeshJob& job, const io::DenseVolume& volume,
+                     io::MeshSink& sink, std::function<void()> stop)
+    : volume_(volume),
+      folder_(job.folder.empty() ? "." : job.folder),
+      stop_(std::move(stop)),
+      tiles_(volume.info(), volume.table(), {folder_, kShared / 4}),
+      sink_(sink, tiles_, plan.memory_bytes, [this, plan] { certify(plan); }) {}
+
+void Certifier::certify(const CertificatePlan& plan) {
+  const io::MeshPromises promises = tiles_.header().record.promises.value();
+  VerifyTask task{.options = audit_options(promises, volume_.info().space),
+                  .threads = plan.threads,
+                  .memory_bytes = kShared / 2,
+                  .folder = folder_,
+                  .between = stop_};
+  task.options.max_volume_error.reset();
+  report_ = verify_mesh(volume_, tiles_, task);
+  if (report_->passed()) return;
+  throw Error(ErrorKind::kCheckFailed,
+              "the mesh does not pass its own check and is not delivered (please report this, with "
+              "the volume and the settings): " +
+                  failures(*report_));
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Whether a run checks its own mesh before it delivers it, and what it found.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/job/mesh_job.h"
+#include "engine/verify/certified_sink.h"
+#include "kernels/audit/audit.h"
+
+namespace mw::engine {
+
+/// Checks a mesh on its way into a sink: P1 to P4, as the run promises them.
+class Certifier {
+ public:
+  /// volume and sink outlive it; stop is called between tiles and may throw.
+  /// REQUIRES: plan.why_not is empty.
+  Certifier(const CertificatePlan& plan, const MeshJob& job, const io::DenseVolume& volume,
+            io::MeshSink& sink, std::function<void()> stop);
+
+  /// Where the mesh goes.  Its finish() throws mw::Error(kCheckFailed), naming what fails.
+  [[nodiscard]] io::MeshSink& sink() { return sink_; }
+  /// REQUIRES: the sink is finished.
+  [[nodiscard]] const audit::AuditReport& report() const { return *report_; }
+
+ private:
+  void certify(const CertificatePlan& plan);
+
+  const io::DenseVolume& volume_;
+  std::filesystem::path folder_;
+  std::function<void()> stop_;
+  MeshTiles tiles_;
+  CertifiedSink sink_;
+  std::optional<audit::AuditReport> report_;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The main job, from an opened volume to a mesh in a sink: what the program and the library share.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+
+#include "engine/output/label_choice.h"
+#include "engine/report/run_report.h"
+#include "engine/run.h"
+#include "io/labels/prepared_input.h"
+
+namespace mw::engine {
+
+enum class Certify {
+  kAuto,  ///< where memory allows it and the mesh need not be looked at as a whole
+  kOn,
+  kOff,
+};
+
+struct MeshJob {
+  io::InputSteps steps;
+  MeshSettings settings;
+  LabelChoice choice;
+  Certify certify = Certify::kAuto;
+  int threads = 0;                ///< 0: all cores
+  std::uint64_t memory = 0;       ///< bytes
+  std::filesystem::path workdir;  ///< empty: blocks stay in memory, and nothing can be resumed
+  bool resume = false;
+  std::chrono::milliseconds save_every{10'000};
+  bool is_measured = false;      ///< quality and shape, for a report
+  std::filesystem::path folder;  ///< of the certificate's temporary files
+  /// Whether the allocator of the process may be told to give large pieces back at once, as a tight
+  /// budget wants it.
+  bool owns_process = false;
+};
+
+/// Who looks on.  Nothing here changes the result.
+struct JobHooks {
+  std::function<void()> stop = [] {};                    ///< called often, by any thread; may throw
+  OnProgress progress;                                   ///< optional; may throw
+  std::function<void(const TraceEvent&)> trace;          ///< optional
+  std::function<void(std::size_t labels)> labels_known;  ///< optional: before the marches
+  std::function<void()> kept;  ///< optional: a run that ends early left work in the folder
+};
+
+/// What a certificate takes of a run's budget: a quarter at most.
+struct CertificatePlan {
+  std::string why_not;  ///< empty: it is made
+  int threads = 0;
+  std::uint64_t memory_bytes = 0;
+};
+
+/// ERRORS: mw::Error(kUsage) when it is asked for and cannot be had.
+[[nodiscard]] CertificatePlan plan_certificate(const MeshJob& job);
+
+/// Meshes a volume into `sink`, begin to finish; a certificate is made before finish().
+/// ENSURES: promises P1 to P3 and P5 of the README.  Digest and resources are the caller's to add.
+/// ERRORS: those of the volume, its steps, mesh_volume() and the sink; kCheckFailed when the
+///         certificate does not hold; what the hooks throw.
+[[nodiscard]] report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job,
+                                       io::MeshSink& sink, const JobHooks& hooks = {});
+
+}  // namespace mw::engine

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Numbers in words for people.
+#include "engine/report/figures.h"
+
+#include <array>
+#include <charconv>
+
+namespace mw::report {
+
+std::string format_label(RawLabel label, bool is_signed) {
+  return is_signed ? std::to_string(static_cast<std::int64_t>(label)) : std::to_string(label);
+}
+
+std::string format_bytes(std::uint64_t bytes) {
+  return format_fixed(static_cast<double>(bytes) / (1 << 20), 1) + " MiB";
+}
+
+std::string format_fixed(double value, int digits) {
+  std::array<char, 400> text{};  // the longest double has 309 digits before the point
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, digits)
+          .ptr;
+  return {text.data(), end};
+}
+
+}  // namespace mw::report

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// JSON with a long list of rows, written one by one.
+#include "engine/report/json_rows.h"
+
+#include <nlohmann/json.hpp>
+
+namespace mw::report {
+
+using nlohmann::ordered_json;
+
+void append_with_rows(const ordered_json& value,
+                      const std::function<void(const TakeRow&)>& each_row,
+                      const AppendText& append) {
+  const std::string text = value.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+  // Inside of a string the quotes would be escaped, so this is the key and no part of a value.
+  const std::string key = "\"per_label\": ";
+  const std::string rows = "\"" + std::string(kRows) + "\"";
+  const std::size_t at = text.find(key + rows) + key.size();
+  append(std::string_view(text).substr(0, at));
+  append("[");
+  const char* before = "";
+  each_row([&](const ordered_json& row) {
+    append(std::string(before) + "\n      " + row.dump());
+    before = ",";
+  });
+  append("\n    ]");
+  append(std::string_view(text).substr(at + rows.size()));
+  append("\n");
+}
+
+}  // namespace mw::report

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// JSON with a long list of rows, written one by one.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+
+namespace mw::report {
+
+/// Stands for the rows as the value of the key "per_label": as JSON values they would take some 500
+/// bytes each, which no budget has set aside.
+inline constexpr const char* kRows = "@rows";
+
+using AppendText = std::function<void(std::string_view)>;
+using TakeRow = std::function<void(const nlohmann::ordered_json&)>;
+
+/// Appends value, indented, and a line end; in place of kRows a list of what each_row() passes on.
+/// REQUIRES: value has kRows once, in an object of its outermost one.
+void append_with_rows(const nlohmann::ordered_json& value,
+                      const std::function<void(const TakeRow&)>& each_row,
+                      const AppendText& append);
+
+}  // namespace mw::report

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How outputs say what labels are called.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "io/names/label_names.h"
+
+namespace mw::report {
+
+/// `7`, or `7 "liver"`.
+[[nodiscard]] std::string label_text(RawLabel label, bool is_signed, const io::LabelNames& names);
+
+/// {"label": 7, "name": "liver"}, the name where there is one: what a row about a label begins
+/// with.
+[[nodiscard]] nlohmann::ordered_json named_row_json(RawLabel label, bool is_signed,
+                                                    const io::LabelNames& names);
+
+/// Adds "colour": [r, g, b, a], 0 to 255, where it is known.
+void add_colour(nlohmann::ordered_json& row, RawLabel label, const io::LabelNames& names);
+
+}  // namespace mw::report

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The report of a run of `mwmesh mesh`.
+#include "engine/report/run_report.h"
+
+#include "engine/version.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/report/json_rows.h"
+#include "engine/report/mesh_facts.h"
+#include "engine/report/shape_facts.h"
+#include "engine/report/speck_facts.h"
+#include "engine/report/verify_report.h"
+
+namespace mw::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json input_json(const FinishedRun& run) {
+  const io::VolumeInfo& info = run.volume;
+  return {{"format", info.format},
+          {"type", io::name(info.type)},
+          {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
+          {"spacing_xyz", info.space.spacing},
+          {"origin_xyz", info.space.origin},
+          {"axes_xyz", info.space.axes},
+          {"frame", io::name(info.space.frame)},
+          {"unit", info.space.unit.empty() ? ordered_json() : ordered_json(info.space.unit)},
+          {"labels", run.labels.size()},
+          {"voxels", info.shape.product()}};
+}
+
+ordered_json index_json(Index3 v) {
+  return {v.x, v.y, v.z};
+}
+
+/// What --window, --max-distance and --target-reduction count in.
+ordered_json lattice_json(const engine::LatticeFacts& lattice) {
+  return {{"shape_xyz", index_json(lattice.shape)},
+          {"spacing_xyz", lattice.spacing},
+          {"layers_xyz", index_json(lattice.layers)}};
+}
+
+ordered_json output_json(const FinishedRun& run, const std::filesystem::path& path) {
+  return {{"file", path.string()},
+          {"vertices", run.engine.vertices},
+          {"tets", run.engine.tets},
+          {"vertex_fraction", vertex_fraction(run.engine.vertices, run.volume.shape)}};
+}
+
+ordered_json performance_json(const FinishedRun& run) {
+  const auto voxels = static_cast<double>(run.volume.shape.product());
+  const double rate = voxels / run.resources.wall_seconds;
+  const engine::RunReport& engine = run.engine;
+  return {{"wall_s", run.resources.wall_seconds},
+          {"cpu_s", run.resources.cpu_seconds},
+          {"voxels_per_s", rate},
+          {"voxels_per_s_per_core", rate / engine.threads},
+          {"peak_rss_bytes", run.resources.peak_rss_bytes},
+          {"stages",
+           {{"labels_s", run.labels_seconds},
+            {"prepare_s", engine.prepare_seconds},
+            {"start_s", engine.start_seconds},
+            {"simplify_s", engine.simplify_seconds},
+            {"optimise_s", engine.optimise_seconds},
+            {"codt_s", engine.codt_seconds},
+            {"exchange_s", engine.exchange_seconds},
+            {"output_s", engine.output_seconds}}}};
+}
+
+ordered_json codt_json(const engine::RunReport& run) {
+  const CodtStats& codt = run.codt;
+  return {{"windows", codt.windows},
+          {"iterations", codt.iterations},
+          {"vertices_moved", codt.moves},
+          {"vertices_added", codt.added},
+          {"patches", codt.replaced.patches},
+          {"patches_unproved", codt.replaced.unproved},
+          {"patches_unimproved", codt.replaced.unimproved},
+          {"fallbacks", codt.fallbacks},
+          {"workers_restarted", run.workers->restarted},
+          {"seconds", run.codt_seconds}};
+}
+
+ordered_json engine_json(const FinishedRun& run) {
+  const engine::StoreFacts& store = run.engine.store;
+  ordered_json purposes;
+  for (std::size_t i = 0; i < engine::kPurposes; ++i) {
+    purposes[engine::kPurposeNames[i]] = run.engine.peak_bytes_by_purpose[i];
+  }
+  ordered_json out{{"windows", run.engine.windows},
+                   {"windows_resumed", store.resumed_windows},
+                   {"threads", run.engine.threads},
+                   {"memory_budget_bytes", run.engine.memory_budget_bytes},
+                   {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
+                   {"peak_bytes_by_purpose", std::move(purposes)},
+                   {"blocks_spilled", store.blocks_spilled},
+                   {"bytes_written", store.bytes_written},
+                   {"bytes_read", store.bytes_read}};
+  if (run.engine.workers) out["codt"] = codt_json(run.engine);
+  return out;
+}
+
+ordered_json shape_json(const FinishedRun& run) {
+  audit::VolumeMeter volumes;
+  each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
+  ordered_json out = volume_summary_json(volumes.summary(), run.labels);
+  out.update(interfaces_json(run.engine.shape.value()));
+  out["bend_histogram"] = run.engine.shape->bend_histogram;
+  out["per_label"] = kRows;
+  return out;
+}
+
+/// What was asked of sizes; limits and longest edges are in the rows of labels.
+ordered_json size_json(const FinishedRun& run) {
+  return {{"labels", run.sizes.labels.size()}, {"inner_vertices_added", run.engine.inner_vertices}};
+}
+
+/// Adds to the row of a label that has a limit on its edges.
+void add_size(Label label, const FinishedRun& run, ordered_json& row) {
+  const auto& sizes = run.sizes.labels;  // ascending
+  const RawLabel raw = run.labels.raw(label);
+  const auto listed = std::lower_bound(
+      sizes.begin(), sizes.end(), raw,
+      [](const engine::LabelSize& s, RawLabel wanted) { return s.label < wanted; });
+  if (listed == sizes.end() || listed->label != raw) return;
+  row["size"] = listed->longest_edge;
+  row["longest_edge"] = run.engine.longest_edges[label];
+}
+
+/// Rows of labels have theirs.
+ordered_json distance_json(const FinishedRun& run) {
+  ordered_json out{{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}};
+  if (!run.certificate || !run.certificate->distance) return out;
+  out["max_voxels"] = run.certificate->distance->max_voxels;
+  out["mean_voxels"] = run.certificate->distance->mean_voxels;
+  return out;
+}
+
+ordered_json topology_json(const FinishedRun& run) {
+  if (!run.certificate) return {{"checked", false}, {"labels_changed", nullptr}};
+  return {{"checked", true}, {"labels_changed", run.certificate->labels_changed.size()}};
+}
+
+ordered_json certificate_json(const FinishedRun& run) {
+  if (!run.certificate) return {{"made", false}, {"why", run.why_no_certificate}};
+  return {{"made", true},
+          {"label_fingerprint", run.fingerprint},
+          {"volume", run.certificate->validity.volume},
+          {"box_volume", run.certificate->validity.box_volume},
+          {"checks", checks_json(*run.certificate)}};
+}
+
+}  // namespace
+
+double vertex_fraction(std::uint64_t vertices, Index3 shape) {
+  const Index3 corners = shape + Index3{1, 1, 1};
+  return static_cast<double>(vertices) / static_cast<double>(corners.product());
+}
+
+void each_volume(const FinishedRun& run,
+                 const std::function<void(const audit::VolumeRow&)>& visit) {
+  const engine::RunReport& engine = run.engine;
+  const std::int64_t parts = engine.lattice.layers.product();
+  for (Label label = 0; label < engine.label_voxels.size(); ++label) {
+    const std::uint64_t voxels = engine.label_voxels[label] / static_cast<std::uint64_t>(parts);
+    if (voxels > 0) visit(audit::volume_row(label, voxels, engine.label_volumes6[label], parts));
+  }
+}
+
+ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
+                        ordered_json settings) {
+  return {{"version", engine::version()},
+          {"settings", std::move(settings)},
+          {"input", input_json(run)},
+          {"specks", specks_json(run.specks)},
+          {"lattice", lattice_json(run.engine.lattice)},
+          {"output", output_json(run, mesh)},
+          {"quality", quality_json(run.engine.quality.value())},
+          {"shape", shape_json(run)},
+          {"size", size_json(run)},
+          {"distance", distance_json(run)},
+          {"topology", topology_json(run)},
+          {"certificate", certificate_json(run)},
+          {"performance", performance_json(run)},
+          {"engine", engine_json(run)},
+          {"digest", run.digest}};
+}
+
+void write_run_report(io::AtomicFile& file, const FinishedRun& run,
+                      const std::filesystem::path& mesh, ordered_json settings) {
+  const auto each_row = [&](const TakeRow& take) {
+    each_volume(run, [&](const audit::VolumeRow& row) {
+      ordered_json out = volume_row_json(row, run.labels, run.volume.names);
+      add_size(row.label, run, out);
+      if (run.certificate) add_topology(row.label, *run.certificate, out);
+      take(out);
+    });
+  };
+  append_with_rows(run_report(run, mesh, std::move(settings)), each_row,
+                   [&](std::string_view text) { file.append(text); });
+  file.commit();
+}
+
+}  // namespace mw::report

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The report of a run of `mwmesh mesh` (--report); its keys are fixed by the documentation.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/report/resource_meter.h"
+#include "engine/run.h"
+#include "io/file/atomic_file.h"
+#include "io/labels/despeckled_volume.h"
+#include "kernels/audit/audit.h"
+#include "kernels/audit/volumes.h"
+
+namespace mw::report {
+
+/// What a run knows when its mesh has been written.
+struct FinishedRun {
+  io::VolumeInfo volume;
+  io::LabelTable labels;
+  engine::SizeSettings sizes;
+  std::optional<io::SpeckFacts> specks;
+  engine::RunReport engine;
+  double labels_seconds = 0;  ///< reading the volume once for its labels
+  Resources resources;        ///< times until the mesh was written, memory until its digest
+  std::string digest;
+  std::string fingerprint;                        ///< of the labels
+  std::optional<audit::AuditReport> certificate;  ///< empty: none was made
+  std::string why_no_certificate;
+};
+
+/// Vertices of a mesh per corner of the volume's voxels.
+[[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
+
+/// The report without its rows of labels (kRows stands for them).
+/// REQUIRES: run.engine.quality and shape.
+[[nodiscard]] nlohmann::ordered_json run_report(const FinishedRun& run,
+                                                const std::filesystem::path& mesh,
+                                                nlohmann::ordered_json settings);
+
+/// Calls visit on each label that was written, ascending.  REQUIRES: run.engine.shape.
+void each_volume(const FinishedRun& run, const std::function<void(const audit::VolumeRow&)>& visit);
+
+/// What nobody measured is null.  Memory: no more for more labels.
+/// REQUIRES: run.engine.quality and shape.
+void write_run_report(io::AtomicFile& file, const FinishedRun& run,
+                      const std::filesystem::path& mesh, nlohmann::ordered_json settings);
+
+}  // namespace mw::report

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What can be said of label volumes and of the shape of interfaces, and how reports say it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "io/labels/label_table.h"
+#include "io/names/label_names.h"
+#include "kernels/audit/shape.h"
+#include "kernels/audit/volumes.h"
+
+namespace mw::report {
+
+/// "volume_error_..." and "labels_measured" of a report.
+[[nodiscard]] nlohmann::ordered_json volume_summary_json(const audit::VolumeSummary& volumes,
+                                                         const io::LabelTable& table);
+/// A row of its "per_label".
+[[nodiscard]] nlohmann::ordered_json volume_row_json(const audit::VolumeRow& row,
+                                                     const io::LabelTable& table,
+                                                     const io::LabelNames& names);
+/// Area and bends.
+[[nodiscard]] nlohmann::ordered_json interfaces_json(const audit::ShapeReport& shape);
+
+/// A line each.
+void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table,
+                   const io::LabelNames& names);
+void print_interfaces(const audit::ShapeReport& shape);
+
+}  // namespace mw::report

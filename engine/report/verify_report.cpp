@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Words and rows.
+#include "engine/report/verify_report.h"
+
+#include "engine/version.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "engine/report/distance_facts.h"
+#include "engine/report/figures.h"
+#include "engine/report/mesh_facts.h"
+#include "engine/report/name_facts.h"
+#include "engine/report/shape_facts.h"
+#include "engine/report/speck_facts.h"
+#include "engine/settings/number_text.h"
+
+namespace mw::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kNone = "none";
+constexpr const char* kInterfaces = "interfaces";
+constexpr const char* kVoxel = "voxel";
+
+/// As the input has them, or "exterior".
+std::vector<std::string> changed_labels(const Verdict& verdict) {
+  std::vector<std::string> out;
+  const io::LabelTable& table = verdict.table;
+  for (const Label label : verdict.audit.labels_changed) {
+    out.push_back(label == kExterior ? "exterior"
+                                     : format_label(table.raw(label), table.is_signed()));
+  }
+  return out;
+}
+
+/// Says what distances count in, where that is not the input's voxels.
+void print_lattice(Index3 layers) {
+  if (layers == Index3{1, 1, 1}) return;
+  std::cout << "lattice       distances are in voxels cut into " << layers.x << " x " << layers.y
+            << " x " << layers.z << " layers\n";
+}
+
+std::string changed_text(Label label, const Verdict& verdict) {
+  if (label == kExterior) return "exterior";
+  return label_text(verdict.table.raw(label), verdict.table.is_signed(), verdict.names);
+}
+
+void print_bounds(const Bounds& bounds) {
+  const io::MeshPromises& asked = bounds.promises;
+  std::cout << "asked         distance "
+            << (asked.max_distance ? engine::format_number(*asked.max_distance) : kNone)
+            << ", radius ratio " << engine::format_number(asked.quality_floor) << ", topology "
+            << (asked.interfaces ? kInterfaces : "labels")
+            << (bounds.of_run ? " (what is not given is what the run promised)\n" : "\n");
+}
+
+ordered_json topology_json(const Verdict& verdict) {
+  if (!verdict.looked_at()) return {{"checked", false}, {"labels_changed", nullptr}};
+  ordered_json out{{"checked", true},
+                   {"labels_changed", verdict.audit.labels_changed.size()},
+                   {"changed", changed_labels(verdict)},
+                   {"indicative_only", verdict.audit.topology_is_indicative}};
+  if (const auto& places = verdict.audit.places) {
+    out["interfaces"] = places->interfaces;
+    out["interfaces_changed"] = places->interfaces_changed.size();
+    out["meetings"] = places->meetings;
+    out["meetings_changed"] = places->meetings_changed.size();
+  }
+  return out;
+}
+
+ordered_json measured_distance(const Verdict& verdict) {
+  if (!verdict.audit.distance) return nullptr;
+  return distance_json(*verdict.audit.distance, verdict.table, verdict.names);
+}
+
+ordered_json volume_json(const Verdict& verdict) {
+  if (!verdict.looked_at()) return nullptr;
+  const audit::VolumeReport& volumes = verdict.audit.volumes;
+  ordered_json out = volume_summary_json(volumes.summary, verdict.table);
+  out["exact"] = volumes.exact;
+  ordered_json rows = ordered_json::array();
+  for (const audit::VolumeRow& row : volumes.per_label) {
+    rows.push_back(volume_row_json(row, verdict.table, verdict.names));
+    add_topology(row.label, verdict.audit, rows.back());
+  }
+  out["per_label"] = std::move(rows);
+  return out;
+}
+
+ordered_json betti_json(const audit::RegionBetti& betti) {
+  const auto numbers = [](const audit::Betti& b) { return ordered_json{b.b0, b.b1, b.b2}; };
+  return {{"closed", numbers(betti.closed)}, {"open", numbers(betti.open)}};
+}
+
+ordered_json asked_json(const Bounds& bounds) {
+  const io::MeshPromises& asked = bounds.promises;
+  return {{"max_distance", asked.max_distance ? ordered_json(*asked.max_distance) : ordered_json()},
+          {"quality_floor", asked.quality_floor},
+          {"topology", asked.interfaces ? kInterfaces : "labels"},
+          {"surface", asked.smooth ? "smooth" : kVoxel},
+          {"of_run", bounds.of_run}};
+}
+
+}  // namespace
+
+void print_verdict(const Verdict& verdict) {
+  const auto& checks = verdict.audit.checks;
+  print_specks(verdict.specks);
+  print_bounds(verdict.bounds);
+  for (const audit::Check& check : checks) {
+    std::string name = check.name;
+    name.resize(std::max<std::size_t>(name.size(), 16), ' ');
+    std::cout << (check.passed ? "ok    " : "FAIL  ") << name << " " << check.detail << "\n";
+  }
+  if (!verdict.audit.labels_changed.empty()) {
+    std::cout << "labels whose topology changed:";
+    for (const Label label : verdict.audit.labels_changed) {
+      std::cout << " " << changed_text(label, verdict);
+    }
+    std::cout << "\n";
+  }
+  if (verdict.looked_at()) {
+    print_quality(verdict.audit.quality);
+    print_volumes(verdict.audit.volumes, verdict.table, verdict.names);
+    print_interfaces(verdict.audit.shape);
+  }
+  if (verdict.audit.distance) {
+    print_lattice(verdict.layers);
+    print_distance(*verdict.audit.distance, verdict.table, verdict.names);
+  }
+  const auto failed = std::count_if(checks.begin(), checks.end(),
+                                    [](const audit::Check& check) { return !check.passed; });
+  std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail") << "\n";
+}
+
+ordered_json checks_json(const audit::AuditReport& audit) {
+  ordered_json out = ordered_json::array();
+  for (const audit::Check& check : audit.checks) {
+    out.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
+  }
+  return out;
+}
+
+void add_topology(Label label, const audit::AuditReport& report, ordered_json& row) {
+  row["betti_of_volume"] = betti_json(report.voxels[label]);
+  row["betti_of_mesh"] = betti_json(report.mesh[label]);
+}
+
+ordered_json verdict_json(const Verdict& verdict) {
+  const bool measured = verdict.looked_at();
+  return {{"asked", asked_json(verdict.bounds)},
+          {"labels", verdict.table.size()},
+          {"specks", specks_json(verdict.specks)},
+          {"lattice", {{"layers_xyz", {verdict.layers.x, verdict.layers.y, verdict.layers.z}}}},
+          {"passed", verdict.audit.passed()},
+          {"checks", checks_json(verdict.audit)},
+          {"quality", measured ? quality_json(verdict.audit.quality) : ordered_json(nullptr)},
+          {"volume", volume_json(verdict)},
+          {"shape", measured ? interfaces_json(verdict.audit.shape) : ordered_json(nullptr)},
+          {"distance", measured_distance(verdict)},
+          {"topology", topology_json(verdict)}};
+}
+
+ordered_json verify_report(const ordered_json& settings, const Verdict& verdict,
+                           const Resources& resources) {
+  ordered_json out{{"version", engine::version()}, {"settings", settings}};
+  out.update(verdict_json(verdict));
+  out["performance"] = {{"wall_s", resources.wall_seconds},
+                        {"cpu_s", resources.cpu_seconds},
+                        {"peak_rss_bytes", resources.peak_rss_bytes}};
+  return out;
+}
+
+}  // namespace mw::report

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh verify` found, in words and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "engine/report/resource_meter.h"
+#include "io/labels/prepared_input.h"
+#include "io/mesh/mesh_promises.h"
+#include "kernels/audit/audit.h"
+
+namespace mw::report {
+
+/// What the checks ask.
+struct Bounds {
+  io::MeshPromises promises;
+  bool of_run = false;  ///< the mesh's file told what its run promised
+};
+
+struct Verdict {
+  std::optional<io::SpeckFacts> specks;
+  Bounds bounds;
+  audit::AuditReport audit;
+  io::LabelTable table;
+  io::LabelNames names;
+  Index3 layers;
+
+  /// The first check asks whether the file holds a mesh at all.
+  [[nodiscard]] bool looked_at() const { return audit.checks.front().passed; }
+};
+
+void print_verdict(const Verdict& verdict);
+
+/// Name, verdict and detail of each.
+[[nodiscard]] nlohmann::ordered_json checks_json(const audit::AuditReport& audit);
+
+/// Adds to the row of a label its Betti numbers on both sides.  REQUIRES: both were counted.
+void add_topology(Label label, const audit::AuditReport& report, nlohmann::ordered_json& row);
+
+/// What was checked and found, without settings and performance.
+[[nodiscard]] nlohmann::ordered_json verdict_json(const Verdict& verdict);
+
+/// The whole file.  settings: of the command.
+[[nodiscard]] nlohmann::ordered_json verify_report(const nlohmann::ordered_json& settings,
+                                                   const Verdict& verdict,
+                                                   const Resources& resources);
+
+}  // namespace mw::report

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How much memory there is to share out.
+#include "engine/system/machine_memory.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "engine/system/proc_file.h"
+
+namespace mw::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLimitFile = "memory.max";
+constexpr const char* kLimitFileOfVersion1 = "memory.limit_in_bytes";
+constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
+
+/// The number in a file; no file, or "max", is no limit.
+std::uint64_t limit_in(const fs::path& path) {
+  std::uint64_t bytes = kNone;
+  return std::ifstream(path) >> bytes ? bytes : kNone;
+}
+
+/// The least limit of a group and those around it.
+std::uint64_t least_of_path(fs::path group, const fs::path& below, const char* file) {
+  std::uint64_t least = kNone;
+  for (const fs::path& part : below) {
+    group /= part;
+    least = std::min(least, limit_in(group / file));
+  }
+  return least;
+}
+
+}  // namespace
+
+std::uint64_t cgroup_limit(const fs::path& root, std::istream& own_groups) {
+  const fs::path version_1 = root / "memory";
+  std::uint64_t least =
+      std::min(limit_in(root / kLimitFile), limit_in(version_1 / kLimitFileOfVersion1));
+  for (std::string line; std::getline(own_groups, line);) {
+    const std::size_t at = line.find(":/");
+    if (at == line.npos) continue;
+    const std::string controllers = line.substr(0, at), path = line.substr(at + 2);
+    if (controllers == "0:") least = std::min(least, least_of_path(root, path, kLimitFile));
+    if (controllers.ends_with(":memory")) {
+      least = std::min(least, least_of_path(version_1, path, kLimitFileOfVersion1));
+    }
+  }
+  return least;
+}
+
+std::uint64_t default_memory_budget() {
+  std::ifstream meminfo("/proc/meminfo");
+  std::ifstream groups("/proc/self/cgroup");
+  const auto machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                       static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  const std::uint64_t available = proc_bytes(meminfo, "MemAvailable").value_or(kNone);
+  return std::min({machine, available, cgroup_limit("/sys/fs/cgroup", groups)}) / 2;
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A mesh gets its name only when it passes its own check.
+#include "engine/job/certificate.h"
+
+#include <nlohmann/json.hpp>
+
+#include "kernels/core/error.h"
+#include "tests/engine/cli/run_program.h"
+#include "tests/engine/memory_run.h"
+#include "tests/temp_folder.h"
+
+namespace mw::cli {
+namespace {
+
+using engine::test::MemoryVolume;
+using nlohmann::json;
+
+constexpr std::uint64_t kGibibyte = std::uint64_t{1} << 30U;
+
+/// Sees whether it is finished.
+class WatchedSink : public io::MeshSink {
+ public:
+  void begin(const io::MeshHeader&) override {}
+  void write_vertices(std::span<const io::Position>) override {}
+  void write_tets(std::span<const io::TetRows>, std::span<const RawLabel>) override {}
+  void finish() override { is_finished = true; }
+
+  bool is_finished = false;
+};
+
+class CertifierTest : public testing::Test {
+ protected:
+  /// The mesh through a certificate; returns what that says against it.
+  std::string objection(const audit::test::SmallMesh& mesh) {
+    const ::mw::test::TempFolder folder;
+    const engine::MeshJob job{.threads = 2, .memory = kGibibyte, .folder = folder.path()};
+    const MemoryVolume volume(volume_, {});
+    const io::LabelTable table = io::collect_labels(volume);
+    const io::DenseVolume labels(volume, table);
+    WatchedSink sink;
+    engine::Certifier certifier(engine::plan_certificate(job), job, labels, sink, [] {});
+    io::MeshData data;
+    data.vertices = mesh.vertices;
+    data.tets = mesh.tets;
+    for (const Label l : mesh.labels) data.labels.push_back(table.raw(l));
+    data.record.promises = io::MeshPromises{.max_distance = 1.5, .quality_floor = 0.2};
+    std::string said;
+    try {
+      io::write_mesh(data, certifier.sink());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kCheckFailed);
+      said = error.what();
+    }
+    EXPECT_EQ(sink.is_finished, said.empty());
+    return said;
+  }
+
+  audit::test::SmallVolume volume_ =
+      audit::test::volume_from({6, 5, 4}, 2, [](auto x, auto y, auto) { return x + y > 4; });
+  audit::test::SmallMesh mesh_ = audit::test::five_tet_mesh(volume_);
+};
+
+TEST_F(CertifierTest, PassesAGoodMeshOn) {
+  EXPECT_EQ(objection(mesh_), "");
+}
+
+TEST_F(CertifierTest, HoldsABadMeshBack) {
+  auto turned = mesh_;
+  std::swap(turned.tets[9][0], turned.tets[9][1]);
+  EXPECT_NE(objection(turned).find("P2 orientation"), std::string::npos);
+  auto relabelled = mesh_;
+  relabelled.labels[7] = 1 - relabelled.labels[7];
+  EXPECT_NE(objection(relabelled).find("P1 topology"), std::string::npos);
+  auto flat = mesh_;
+  for (audit::Position& p : flat.vertices) p[2] *= 0.01;
+  EXPECT_NE(objection(flat).find("P2 volume"), std::string::npos);
+}
+
+class CertificateTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    expect_done("synth voronoi --shape 24,20,18 --labels 4 --seed 1 -o v.npy");
+  }
+  json certificate(const std::string& options) {
+    expect_done("mesh v.npy -o v.vtu --report r.json " + options);
+    report_ = json::parse(read("r.json"));
+    return report_["certificate"];
+  }
+  json report_;
+};
+
+TEST_F(CertificateTest, IsInTheReport) {
+  const json made = certificate("--memory 1GiB");
+  EXPECT_EQ(made["made"], true);
+  EXPECT_EQ(made["volume"], 24 * 20 * 18);
+  for (const json& check : made["checks"]) EXPECT_EQ(check["passed"], true) << check;
+  EXPECT_EQ(report_["topology"]["checked"], true);
+  EXPECT_LE(report_["distance"]["max_voxels"], 1.5 + 1e-6);
+  for (const json& row : report_["shape"]["per_label"]) {
+    EXPECT_EQ(row["betti_of_volume"], row["betti_of_mesh"]);
+    EXPECT_GE(row["betti_of_mesh"]["closed"][0], 1);
+  }
+}
+
+TEST_F(CertificateTest, SaysWhyThereIsNone) {
+  EXPECT_NE(certificate("--memory 128MiB")["why"].get<std::string>().find("352"),
+            std::string::npos);
+  EXPECT_EQ(certificate("--certify off")["why"], "not asked for");
+  EXPECT_EQ(certificate("--memory 1GiB --background 1")["made"], false);
+  EXPECT_EQ(certificate("--memory 1GiB --topology interfaces")["made"], false);
+  EXPECT_EQ(report_["topology"]["checked"], false);
+  expect_failure(2, "mesh v.npy -o v.vtu --certify on --memory 128MiB", "--certify on: needs");
+  expect_failure(2, "mesh v.npy -o v.vtu --certify on --memory 1GiB --background 1",
+                 "--certify on: labels are left out");
+}
+
+}  // namespace
+}  // namespace mw::cli
