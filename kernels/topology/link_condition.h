@@ -25,8 +25,8 @@ namespace mw {
 /// kInterfaces also keeps the homotopy type, for every set S of labels, of the place M_S where all
 /// of S meet (in a triangle, edge or vertex), and for every pair A, B that of its interface I_AB =
 /// closure of the triangles between A and B.  Write L(s) for the labels of the tets at a simplex s,
-/// e = pq, and r for a vertex or edge of the ring or nothing:
-///   (1) L(er) = L(pr) or L(er) = L(qr), for every r
+/// e = pq, and t for a vertex or edge of the ring or nothing:
+///   (1) L(et) = L(pt) or L(et) = L(qt), for every t
 ///   (2) e in I_AB wherever p and q are.
 /// Cases 1 and 2 satisfy (1) and (2): all labels at an inner end are one.
 ///

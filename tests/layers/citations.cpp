@@ -22,9 +22,10 @@ std::vector<std::string> all_matches(const std::string& text, const std::regex& 
 
 std::vector<Citation> citations_of(const std::string& source) {
   static const std::regex kNextLine(R"(\n\s*(?:///?|#)[ \t]*)");
-  static const std::regex kCitation(R"re(([A-Za-z0-9_./-]+\.md)\b(?:,\s+"([^"\n]+)")?)re");
-  const std::string text = std::regex_replace(source, kNextLine, " ");
+  static const std::regex kCitation(R"re(([A-Za-z0-9_./-]+\.md)\b`?(?:,\s+"([^"\n]+)")?)re");
   std::vector<Citation> out;
+  if (source.find(".md") == source.npos) return out;  // most; the search is slow
+  const std::string text = std::regex_replace(source, kNextLine, " ");
   for (std::sregex_iterator i(text.begin(), text.end(), kCitation), end; i != end; ++i) {
     out.push_back({.file = (*i)[1], .section = (*i)[2]});
   }
