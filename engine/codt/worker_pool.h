@@ -36,7 +36,7 @@ struct PoolFacts {
 
 /// TetGen keeps predicate constants in statics, rewrites tables and uses the process-wide rand(),
 /// so two threads of one process get different meshes; it may crash or hang, and it is under the
-/// AGPL. So it runs in processes of its own (design.md section 7).
+/// AGPL. So it runs in processes of its own (engine/README.md, "Worker processes").
 ///
 /// A worker that dies or is too late costs its request nothing: a fresh one is asked the same. When
 /// that dies as well the request fails, as it would fail again.

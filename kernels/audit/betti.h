@@ -29,8 +29,9 @@ struct RegionBetti {
   friend bool operator==(const RegionBetti&, const RegionBetti&) = default;
 };
 
-/// Betti numbers of every label of a volume (P1; topology.md D.3).  Everything outside the box is
-/// one more cell, which makes the whole a 3-sphere, and one more label.
+/// Betti numbers of every label of a volume (P1; kernels/topology/README.md, "Betti numbers of
+/// closed and open regions").  Everything outside the box is one more cell, which makes the whole a
+/// 3-sphere, and one more label.
 /// Returns label_count + 1 rows; the last is the exterior.  A label that does not occur is all 0.
 /// REQUIRES: a shape of at least 1 x 1 x 1, as many labels as voxels, labels < label_count.
 /// Errors: kInput when these fail, kResource from 2^32 - 1 runs of equal labels on.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Pairs of touching parts, Euler sums, and Betti numbers from both (topology.md D.3).
+// Pairs of touching parts, Euler sums, and Betti numbers from both (kernels/topology/README.md,
+// "Betti numbers of closed and open regions").
 #include "kernels/audit/part_graph.h"
 
 #include <algorithm>

@@ -32,7 +32,7 @@ LabelReach::LabelReach(const LabelBox& labels, double max_distance)
     : labels_(labels),
       max_distance_(max_distance - kRoundingGuard),
       squared_distance_(max_distance_ * max_distance_),
-      squared_smallest_(std::pow(kSmallestPiece * max_distance, 2)) {}
+      squared_smallest_(kSmallestPiece * kSmallestPiece * max_distance * max_distance) {}
 
 std::int64_t LabelReach::search_reach(double max_distance) {
   return static_cast<std::int64_t>(std::ceil(max_distance));

@@ -51,11 +51,12 @@ using BoxPlanes = std::uint8_t;
 ///
 /// The exterior is present as virtual tetrahedra of label kExterior between each triangle on the
 /// volume's box and the vertex infinity(), so that the star of a free vertex is always a closed
-/// sphere and the topology test needs no special case (topology.md D.3).
+/// sphere and the topology test needs no special case (kernels/topology/README.md, "The sphere").
 ///
 /// A vertex is free when its star is complete, that is, when its loaded link is a sphere: with n
 /// link vertices and F link triangles, 2 n = F + 4 (Euler; no proper subset of a triangulated
-/// sphere satisfies it).  Only free vertices may move or vanish (design rule of Sec 4.1).
+/// sphere satisfies it).  Only free vertices may move or vanish (Sec 4.1; kernels/README.md, "Free
+/// and fixed vertices").
 class TetMesh {
  public:
   /// Local vertices are the rows of `vertices`.

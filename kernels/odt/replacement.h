@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Proof that new tets may replace old ones, patch by patch (topology.md D.4, item 8).
+// Proof that new tets may replace old ones, patch by patch (kernels/odt/README.md).
 #pragma once
 
 #include <span>

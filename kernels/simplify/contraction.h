@@ -22,8 +22,8 @@ struct Contraction {
 /// Plans the contraction of edge (p, q) by the paper's cases.
 ///  Case 1, both inner: the smaller id survives, at the optimum of Q_p + Q_q.
 ///  Case 2, one inner: the other survives where it is.  Its quadric stays its own: the paper adds
-///          the inner one, which drags interfaces (kernel study); such contractions rarely succeed,
-///          so their cost counts fourfold.
+///          the inner one, which drags interfaces (kernels/README.md, "Where we deviate from the
+///          paper"); such contractions rarely succeed, so their cost counts fourfold.
 ///  Case 3, both on boundaries: the higher order survives where it is; on a tie the optimum.
 /// Vertices on the box keep to their planes: the end on more planes survives where it is, ends on
 /// the same planes go to the optimum within them, other pairs are refused.

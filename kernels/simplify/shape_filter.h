@@ -18,9 +18,10 @@ class ShapeFilter {
   /// Keeps references.  The mesh may change only by contractions that were found good here.
   ShapeFilter(const TetMesh& mesh, const Metric& metric, const SimplifyOptions& options);
 
-  /// Good: all tets are positive, exactly (with that the ambient link condition holds, topology.md
-  /// D.3, and contractions of Cases 1 and 2 keep every region as a point set), and reach the floor,
-  /// or where the present ones do not reach quality_floor, the worst of those.
+  /// Good: all tets are positive, exactly, and reach the floor, or where the present ones do not
+  /// reach quality_floor, the worst of those.  Positivity gives the link condition of the whole
+  /// mesh, and lets contractions of Cases 1 and 2 keep every region as a point set
+  /// (kernels/topology/README.md, "Positive tets share only the ring").
   /// Cost: O(stars); less when one of the ends is that of the last call; no allocation.
   [[nodiscard]] StarVerdict judge(const Contraction& c);
 

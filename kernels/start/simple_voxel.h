@@ -14,7 +14,8 @@ namespace mw {
 using Neighbourhood = std::array<Label, 27>;
 
 /// True when giving the middle voxel v the label `to` provably keeps the homotopy type of the
-/// closed and of the open region of every label, the exterior included.
+/// closed and of the open region of every label, the exterior included (kernels/start/README.md,
+/// "One voxel changes its label").
 ///
 /// The closed region of its old label L loses the cube v, which met the rest in the part X of its
 /// surface that neighbours of label L cover: when X is contractible, so is the change (a

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The topology test of an edge contraction (topology.md D.3, in place of the paper's Algorithm 1).
+// The topology test of an edge contraction, in place of the paper's Algorithm 1.
 #pragma once
 
 #include "kernels/topology/edge_ring.h"
@@ -12,6 +12,8 @@ namespace mw {
 /// Decides whether contracting edge (p, q) keeps the homotopy type of the closed region of every
 /// label and of the closure of its complement, exterior included; by duality that fixes the Betti
 /// numbers of closed and open regions alike (promise P1).  KeptTopology::kInterfaces keeps more.
+/// kernels/topology/README.md proves both, "The condition for labels" and "The condition for
+/// interfaces".
 ///
 /// kLabels.  Source: Sec 5.3.3 asks for this in Case 3; its Algorithm 1 does not ensure it (it
 /// breaks Betti numbers on real data).  Here, for every label L with L at p and at q, and for both
@@ -23,19 +25,9 @@ namespace mw {
 /// kInterfaces also keeps the homotopy type, for every set S of labels, of the place M_S where all
 /// of S meet (in a triangle, edge or vertex), and for every pair A, B that of its interface I_AB =
 /// closure of the triangles between A and B.  Write L(s) for the labels of the tets at a simplex s,
-/// e = pq, and r for a vertex or edge of the ring or nothing:
-///   (1) L(er) = L(pr) or L(er) = L(qr), for every r
+/// e = pq, and t for a vertex or edge of the ring or nothing:
+///   (1) L(et) = L(pt) or L(et) = L(qt), for every t
 ///   (2) e in I_AB wherever p and q are.
-/// Proof.  L(er) is part of both, so by (1) it is their intersection and the other one is their
-/// union.  S in L(pr) and S in L(qr) then gives S in L(er): the link condition for M_S, so that the
-/// contraction f restricted to M_S is a homotopy equivalence onto f(M_S) (Attali et al. 2012).
-/// (1) for edges r is purity: of each dying tet, one outer face has its own label beyond it.  Hence
-/// each simplex of the new mesh has the labels of all its preimages together, which by (1) are
-/// those of one of them: f(M_S) is the new M_S.  Unions of regions follow by gluing, so kLabels
-/// is implied.  I_AB: its link condition is (2) for no r, follows from (1) for vertices and is void
-/// for edges; by purity a triangle that survives keeps its two labels; and a dying triangle er
-/// leaves its edge in the new I_AB, for L(pr), say, is {A, B}, so that an even number of A|B
-/// triangles lies around pr.  Hence f(I_AB) is the new I_AB.
 /// Cases 1 and 2 satisfy (1) and (2): all labels at an inner end are one.
 ///
 /// REQUIRES: p, q free and joined by an edge; all surviving tets will be strictly positive.  That

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Unpacks compressed_segmentation, block by block (Neuroglancer,
-// src/sliceview/compressed_segmentation/README.md).
+// Unpacks compressed_segmentation, neuroglancer's encoding of labels, block by block.
 #include "io/volume/precomputed/compressed_segmentation.h"
 
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads and checks a scale of `info` (Neuroglancer, src/datasource/precomputed/volume.md).
+// Reads and checks a scale of `info` (neuroglancer's "precomputed" format, volumes).
 #include "io/volume/precomputed/precomputed_info.h"
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 
 namespace mw::io {
 
-/// The member "sharding" of a scale (Neuroglancer, src/datasource/precomputed/sharded.md).
+/// The member "sharding" of a scale (neuroglancer's "precomputed" format, sharding).
 struct Sharding {
   bool hashed = false;        ///< by murmurhash3_x86_128, else by the identity
   int preshift_bits = 0;      ///< 0 to 64; low bits of a chunk's number that choose nothing
@@ -24,7 +24,7 @@ struct Sharding {
   bool packed_data = false;   ///< chunks are
 };
 
-/// The number of the chunk at a place of the grid: the "compressed Morton code" (volume.md), bits
+/// The number of the chunk at a place of the grid: the "compressed Morton code", bits
 /// of x, y and z in turn, an axis left out where the grid has no more bits of it.
 /// REQUIRES: cell inside the grid; grid extents at most 2^20.
 [[nodiscard]] std::uint64_t morton_code(Index3 cell, Index3 grid);

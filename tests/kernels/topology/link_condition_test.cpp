@@ -237,6 +237,65 @@ TEST(LinkCondition, RefusesMoreLabelsThanItsMasks) {
   EXPECT_FALSE(test.keeps_topology(mesh, 1, 0));
 }
 
+/// What the links of two vertices have in common: sets of up to three vertices.
+std::set<std::vector<LocalVertex>> common_link(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
+  const auto link = [&mesh](LocalVertex v) {
+    std::set<std::vector<LocalVertex>> out;
+    for (const LinkTriangle& t : mesh.star(v)) {
+      std::vector<LocalVertex> all{t.a, t.b, t.c};
+      std::sort(all.begin(), all.end());
+      out.insert(all);
+      for (std::size_t i = 0; i < 3; ++i) {
+        out.insert({all[i]});
+        if (i < 2) out.insert({all[i], all[i + 1]});
+      }
+      out.insert({all[0], all[2]});
+    }
+    return out;
+  };
+  const auto of_p = link(p), of_q = link(q);
+  std::set<std::vector<LocalVertex>> both;
+  std::set_intersection(of_p.begin(), of_p.end(), of_q.begin(), of_q.end(),
+                        std::inserter(both, both.end()));
+  return both;
+}
+
+std::set<std::vector<LocalVertex>> simplices_of(const EdgeRing& ring) {
+  std::set<std::vector<LocalVertex>> out;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    out.insert({ring.vertices[i]});
+    out.insert(
+        {std::min(ring.vertices[i], ring.ends[i]), std::max(ring.vertices[i], ring.ends[i])});
+  }
+  return out;
+}
+
+/// Why masks over the ring are enough.  Meshes coarsen as they are looked at, as dense ones have no
+/// edge whose ends share more than its ring.
+TEST(LinkCondition, PositiveSurvivorsShareOnlyTheRing) {
+  std::mt19937 random(305);
+  int positive = 0, others = 0;
+  for (int i = 0; i < 200 && !HasFailure(); ++i) {
+    TetMesh mesh = dense_mesh(random_volume(random));
+    disturb(mesh, random);
+    EdgeRing ring;
+    for (int k = 0; k < 60; ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p == q || !collect_ring(mesh, p, q, ring)) continue;
+      const auto x = contraction_target(mesh, p, q, below(random, 3));
+      const bool only_ring = common_link(mesh, p, q) == simplices_of(ring);
+      others += only_ring ? 0 : 1;
+      if (!x || !stays_positive(mesh, p, q, *x)) continue;
+      ++positive;
+      ASSERT_TRUE(only_ring) << p << " " << q;
+      const bool q_stays = (mesh.planes(p) & mesh.planes(q)) == mesh.planes(p);
+      mesh.contract(q_stays ? q : p, q_stays ? p : q, *x, {});
+    }
+  }
+  EXPECT_GT(positive, 1000);
+  EXPECT_GT(others, 10);
+}
+
 /// A case by hand, so that a reader sees what is refused and why.
 TEST(LinkCondition, RefusesToCutATunnelOpen) {
   // A bar of label 1 through a 3 x 3 x 3 box: label 0 is the ring around it.
