@@ -1,0 +1,450 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""The Python package as its users call it; numpy alone is the oracle."""
+
+import doctest
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    print("skipped: no numpy")
+    sys.exit(77)
+
+import mwmesh
+import mwmesh._mesh
+
+PROGRAM = os.environ["MW_PROGRAM"]
+
+
+def optional(name):
+    try:
+        return __import__(name)
+    except ImportError:
+        return None
+
+
+def needs(name):
+    return unittest.skipUnless(optional(name), f"no {name}")
+
+
+def grains(shape=(22, 18, 20), labels=6, seed=3):
+    return mwmesh.synth("voronoi", shape, labels, seed)
+
+
+class InFolder(unittest.TestCase):
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def program(self, *arguments):
+        run = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+
+class Documentation(unittest.TestCase):
+
+    def test_examples_run(self):
+        for module in (mwmesh, mwmesh._mesh):
+            result = doctest.testmod(module)
+            self.assertEqual(result.failed, 0)
+            self.assertGreater(result.attempted, 0)
+
+    def test_every_argument_is_documented(self):
+        for name in mwmesh._PLACE + mwmesh._OPTIONS:
+            self.assertIn(name, mwmesh.mesh.__doc__)
+        self.assertIn("max_distance", mwmesh.settings())
+
+
+class SameMesh(InFolder):
+    """Whatever the labels come in, it is the mesh of the program."""
+
+    def setUp(self):
+        super().setUp()
+        self.labels = grains()
+        np.save(self.path("v.npy"), self.labels.astype(np.uint8))
+        self.place = {"spacing": (1, 2, 1.5), "origin": (5, 6, 7)}
+        self.program("mesh", "v.npy", "-o", "v.vtu", "--spacing", "1,2,1.5", "--origin", "5,6,7",
+                     "--max-distance", "1.25", "--report", "r.json")
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            self.report = json.load(file)
+
+    def check(self, volume, **place):
+        mesh = mwmesh.mesh(volume, max_distance=1.25, **{**self.place, **place})
+        self.assertEqual(mesh.digest, self.report["digest"])
+        return mesh
+
+    def test_arrays(self):
+        mesh = self.check(self.labels)
+        for key in ("digest", "quality", "shape", "topology", "distance"):
+            self.assertEqual(mesh.report[key], self.report[key], key)
+        for kind in ("u1", "i2", "<u4", ">u4", ">i8", "f4", "f8"):
+            self.check(self.labels.astype(kind))
+        self.check(np.asfortranarray(self.labels))
+        self.check(self.labels.T, axes="xyz")
+        wide = np.zeros([2 * n for n in self.labels.shape], np.uint16)
+        wide[::2, 1::2, ::-2] = self.labels
+        self.check(wide[::2, 1::2, ::-2])
+        self.check(self.labels.tolist())
+
+    def test_one_voxel_axes(self):
+        for shape in ((1, 5, 6), (4, 1, 6), (4, 5, 1), (1, 1, 1)):
+            flat = np.arange(np.prod(shape)).reshape(shape) % 3
+            mesh = mwmesh.mesh(flat)
+            self.assertAlmostEqual(sum(mesh.volumes().values()), np.prod(shape))
+            self.assertTrue(mesh.verify(flat))
+
+    def test_files(self):
+        self.check(self.path("v.npy"))
+        self.check(__import__("pathlib").Path(self.path("v.npy")), threads=1)
+        mwmesh.mesh_to_file(self.labels, self.path("f.msh"), max_distance=1.25, **self.place)
+        self.assertEqual(mwmesh.read(self.path("f.msh")).digest, self.report["digest"])
+        self.assertEqual(mwmesh.read(self.path("v.vtu")).digest, self.report["digest"])
+
+    def test_crops(self):
+        part = mwmesh.mesh(self.path("v.npy"), crop=((2, 3, 4), (20, 15, 16)))
+        self.assertEqual(part.digest,
+                         mwmesh.mesh(self.labels[4:16, 3:15, 2:20], origin=(2, 3, 4)).digest)
+
+    @needs("nibabel")
+    def test_nibabel_images(self):
+        import nibabel
+        affine = np.array([[0, -3, 0, 10], [2, 0, 0, 20], [0, 0, 4, 30], [0, 0, 0, 1.0]])
+        for data in (self.labels.T.astype(np.int16), self.labels.T.astype(np.float32)):
+            image = nibabel.Nifti1Image(data, affine)
+            nibabel.save(image, self.path("v.nii.gz"))
+            made = mwmesh.mesh(image)
+            self.assertEqual(made.digest, mwmesh.mesh(self.path("v.nii.gz")).digest)
+            self.assertEqual(made.digest, mwmesh.mesh(nibabel.load(self.path("v.nii.gz"))).digest)
+            self.assertEqual(made.digest, mwmesh.mesh(self.labels.T, affine=affine,
+                                                      frame="ras").digest)
+            low = (affine @ [-0.5, -0.5, -0.5, 1])[:3]
+            high = (affine @ [21.5, 17.5, 19.5, 1])[:3]
+            np.testing.assert_allclose(made.points.min(axis=0), np.minimum(low, high))
+            np.testing.assert_allclose(made.points.max(axis=0), np.maximum(low, high))
+            self.assertAlmostEqual(sum(made.volumes().values()) / (24 * self.labels.size), 1)
+
+    def test_regions(self):
+        self.check(Watched(self.labels))
+
+    @needs("h5py")
+    def test_h5py(self):
+        import h5py
+        with h5py.File(self.path("v.h5"), "w") as file:
+            file.create_dataset("labels", data=self.labels, chunks=(8, 8, 8), compression="gzip")
+        with h5py.File(self.path("v.h5")) as file:
+            self.check(file["labels"])
+
+    @needs("zarr")
+    def test_zarr(self):
+        import zarr
+        self.check(zarr.array(self.labels, chunks=(7, 8, 9)))
+
+    @needs("dask")
+    def test_dask(self):
+        import dask.array
+        self.check(dask.array.from_array(self.labels, chunks=(7, 8, 9)))
+
+
+class Watched:
+    """An array that is read by region, and notes what is asked of it."""
+
+    def __init__(self, labels, fail_at=None):
+        self.labels, self.shape, self.dtype = labels, labels.shape, labels.dtype
+        self.largest, self.reads, self.fail_at = 0, 0, fail_at
+
+    def __getitem__(self, region):
+        self.reads += 1
+        if self.reads == self.fail_at:
+            raise KeyError("a chunk is missing")
+        part = self.labels[region]
+        self.largest = max(self.largest, part.size)
+        return part
+
+
+class Regions(unittest.TestCase):
+
+    def test_the_volume_is_never_whole(self):
+        labels = mwmesh.synth("tubes", (160, 150, 140), 20, 1).astype(np.uint16)
+        watched = Watched(labels)
+        watched.chunks = (32, 32, 32)
+        mesh = mwmesh.mesh(watched, surface="voxel", max_distance=None, report=False)
+        self.assertLess(watched.largest, labels.size / 4)
+        self.assertEqual(mesh.digest,
+                         mwmesh.mesh(labels, surface="voxel", max_distance=None).digest)
+
+    def test_its_errors_pass_through(self):
+        for number in (1, 2, 3):
+            with self.assertRaises(KeyError):
+                mwmesh.mesh(Watched(grains(), number))
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.mesh(Watched(grains() + 0.5))
+
+
+class Figures(unittest.TestCase):
+    """What is told of a mesh, against plain loops over its tets."""
+
+    def setUp(self):
+        self.volume = mwmesh.synth("spheres", (24, 22, 20), 3, 2).astype(np.int32) - 1
+        self.spacing = (1, 1.5, 2)
+        self.mesh = mwmesh.mesh(self.volume, spacing=self.spacing)
+
+    def facets(self):
+        """{sorted corners: [labels of the tets there]}."""
+        out = {}
+        for tet, label in zip(self.mesh.tets.tolist(), self.mesh.labels.tolist()):
+            for left_out in range(4):
+                key = tuple(sorted(tet[:left_out] + tet[left_out + 1:]))
+                out.setdefault(key, []).append(label)
+        return out
+
+    def area(self, corners):
+        a, b, c = self.mesh.points[list(corners)]
+        return np.linalg.norm(np.cross(b - a, c - a)) / 2
+
+    def test_signed_labels(self):
+        self.assertEqual(self.mesh.labels.dtype, np.int64)
+        self.assertEqual(list(self.mesh.label_list()), [-1, 0, 1, 2])
+
+    def test_volumes(self):
+        volumes = self.mesh.volumes()
+        self.assertAlmostEqual(sum(volumes.values()), self.volume.size * 3)
+        for label, volume in volumes.items():
+            voxels = np.count_nonzero(self.volume == label) * 3
+            self.assertLess(abs(volume - voxels) / voxels, 0.1)
+
+    def test_contacts(self):
+        expected = {}
+        for corners, labels in self.facets().items():
+            if len(labels) == 2 and labels[0] != labels[1]:
+                pair = tuple(sorted(labels))
+                expected[pair] = expected.get(pair, 0) + self.area(corners)
+        contacts = self.mesh.contacts()
+        self.assertEqual(contacts.keys(), expected.keys())
+        for pair, area in contacts.items():
+            self.assertAlmostEqual(area, expected[pair])
+
+    def test_facets_and_surfaces(self):
+        for label in self.mesh.label_list():
+            expected = {tuple(sorted(c)) for c, labels in self.facets().items()
+                        if labels.count(label) == 1}
+            points, triangles = self.mesh.surface(label)
+            where = {tuple(p): i for i, p in enumerate(self.mesh.points)}
+            rows = np.array([where[tuple(p)] for p in points])
+            self.assertEqual({tuple(sorted(t)) for t in rows[triangles].tolist()}, expected)
+            # Closed, and seen from outside: the volume inside is the label's.
+            a, b, c = (points[triangles[:, i]] for i in range(3))
+            inside = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+            self.assertAlmostEqual(inside, self.mesh.volumes()[label])
+        one = self.mesh.facets(-1, 0)
+        other = self.mesh.facets(0, -1)
+        np.testing.assert_array_equal(one, other[:, ::-1])
+        # Balls in a background: from inside the ball its normals point away from its middle.
+        a, b, c = (self.mesh.points[other[:, i]] for i in range(3))
+        out = np.einsum("ij,ij->i", a - a.mean(axis=0), np.cross(b - a, c - a)).sum()
+        self.assertGreater(out, 0)
+        self.assertGreater(len(self.mesh.surface(-1)[1]), len(self.mesh.surface(-1, False)[1]))
+        with self.assertRaises(mwmesh.UsageError):
+            self.mesh.surface(77)
+
+    def test_arrays_are_views_that_outlive_the_mesh(self):
+        points, total = self.mesh.points, self.mesh.points.sum()
+        self.assertFalse(points.flags.owndata)
+        self.mesh = None
+        self.assertEqual(points.sum(), total)
+
+    def test_verify(self):
+        self.assertTrue(self.mesh.verify(self.volume, spacing=self.spacing))
+        moved = mwmesh.Mesh(self.mesh.points, self.mesh.tets, self.mesh.labels)
+        self.assertEqual(moved.digest, self.mesh.digest)
+        moved.tets[7, :2] = moved.tets[7, 1::-1].copy()
+        verdict = moved.verify(self.volume, spacing=self.spacing)
+        self.assertFalse(verdict)
+        self.assertIn("P2 orientation", [name for name, passed, _ in verdict.checks if not passed])
+        self.assertIn("FAIL", repr(verdict))
+
+    def test_choices(self):
+        mesh = mwmesh.mesh(self.volume, labels=[-1, 2], merge={1: 2}, names={2: "ball"})
+        self.assertEqual(list(mesh.label_list()), [-1, 2])
+        self.assertEqual(mesh.names, {2: "ball"})
+        self.assertTrue(mesh.verify(self.volume, labels=[-1, 2], merge={1: 2}))
+        self.assertEqual(list(mwmesh.mesh(self.volume, background=-1).label_list()), [0, 1, 2])
+        sized = mwmesh.mesh(self.volume, size={0: 2.5}, report=False)
+        self.assertGreater(len(sized.tets), len(mwmesh.mesh(self.volume).tets))
+        self.assertIsNone(sized.report)
+
+
+class OtherTools(InFolder):
+
+    def setUp(self):
+        super().setUp()
+        self.mesh = mwmesh.mesh(grains())
+
+    def test_files(self):
+        for name in ("m.vtu", "m.vtkhdf", "m.mesh", "m.msh", "m.inp", "m.xdmf"):
+            self.mesh.save(self.path(name))
+            self.assertEqual(mwmesh.read(self.path(name)).digest, self.mesh.digest, name)
+
+    @needs("meshio")
+    def test_meshio(self):
+        made = self.mesh.to_meshio()
+        np.testing.assert_array_equal(made.cells_dict["tetra"], self.mesh.tets)
+        np.testing.assert_array_equal(made.cell_data["label"][0], self.mesh.labels)
+
+    @needs("vtkmodules")
+    def test_vtk(self):
+        from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        grid = self.mesh.to_vtk()
+        self.assertEqual(grid.GetNumberOfCells(), len(self.mesh.tets))
+        quality = vtkMeshQuality()
+        quality.SetInputData(grid)
+        quality.SetTetQualityMeasureToVolume()
+        quality.Update()
+        volumes = vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality"))
+        np.testing.assert_allclose(volumes, self.mesh.tet_volumes(), rtol=1e-9)
+
+
+class Runs(InFolder):
+
+    def test_progress(self):
+        seen = []
+        mwmesh.mesh(grains((60, 60, 60), 40), window=16, threads=1,
+                    progress=lambda done, total, left: seen.append((done, total)))
+        self.assertEqual(seen, sorted(seen))
+        self.assertEqual(*seen[-1])
+        with self.assertRaises(ZeroDivisionError):
+            mwmesh.mesh(grains((60, 60, 60), 40), window=16, threads=1,
+                        progress=lambda *_: 1 / 0)
+
+    def test_python_goes_on_meanwhile(self):
+        # The interpreter would stand still if the run kept its lock.
+        ticks = []
+        done = threading.Event()
+
+        def tick():
+            while not done.wait(0.01):
+                ticks.append(time.monotonic())
+
+        thread = threading.Thread(target=tick)
+        thread.start()
+        start = time.monotonic()
+        mwmesh.mesh(grains((70, 70, 70), 60), threads=1)
+        seconds = time.monotonic() - start
+        done.set()
+        thread.join()
+        self.assertGreater(len(ticks), seconds / 0.01 / 20)
+
+    def test_threads_of_python(self):
+        expected, made = mwmesh.mesh(grains()).digest, []
+        threads = [threading.Thread(target=lambda: made.append(mwmesh.mesh(grains()).digest))
+                   for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(made, [expected] * 4)
+
+    def test_ctrl_c(self):
+        script = ("import mwmesh, sys\n"
+                  "v = mwmesh.synth('noise', (90, 90, 90), 3, 1)\n"
+                  "try:\n"
+                  "  mwmesh.mesh(v, workdir='w', progress=lambda *a: print(a, flush=True))\n"
+                  "except KeyboardInterrupt:\n"
+                  "  print('stopped', flush=True)\n")
+        child = subprocess.Popen([sys.executable, "-c", script], cwd=self.folder,
+                                 stdout=subprocess.PIPE, text=True)
+        child.stdout.readline()
+        child.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        with child.stdout:
+            rest = child.stdout.read()
+        self.assertEqual(child.wait(), 0)
+        self.assertIn("stopped", rest)
+        self.assertLess(time.monotonic() - start, 60)
+
+    def test_resume(self):
+        volume = grains((60, 60, 60), 40)
+        options = {"window": 16, "workdir": self.path("work"), "threads": 1}
+
+        class Enough(Exception):
+            pass
+
+        def stop(done, total, _left):
+            if done > total / 4:
+                raise Enough
+
+        with self.assertRaises(Enough):
+            mwmesh.mesh(volume, progress=stop, **options)
+        self.assertTrue(os.path.isdir(self.path("work")))
+        mesh = mwmesh.mesh(volume, resume=True, **options)
+        self.assertGreater(mesh.report["engine"]["windows_resumed"], 0)
+        self.assertEqual(mesh.digest, mwmesh.mesh(volume, window=16).digest)
+
+    def test_memory_is_text_or_bytes(self):
+        mesh = mwmesh.mesh(grains(), memory="512MiB")
+        self.assertEqual(mesh.report["settings"]["memory"], 512 << 20)
+        self.assertEqual(mwmesh.mesh(grains(), memory=512 << 20).digest, mesh.digest)
+        with self.assertRaises(mwmesh.ResourceError):
+            mwmesh.mesh(grains(), memory="1M")
+
+    @needs("tqdm")
+    def test_bar(self):
+        mwmesh.mesh(grains(), progress=True)
+
+
+class Errors(InFolder):
+
+    def check(self, kind, piece, *arguments, **more):
+        with self.assertRaises(kind) as caught:
+            mwmesh.mesh(*arguments, **more)
+        self.assertIn(piece, str(caught.exception))
+        self.assertNotIn("--", str(caught.exception))
+        self.assertIsInstance(caught.exception, mwmesh.Error)
+
+    def test_arguments(self):
+        labels = grains()
+        self.check(mwmesh.UsageError, "there are window", labels, max_distanse=1)
+        self.check(mwmesh.UsageError, "even", labels, window=5)
+        self.check(mwmesh.UsageError, "axes", labels, axes="yzx")
+        self.check(mwmesh.UsageError, "4 axes", labels[None])
+        self.check(mwmesh.UsageError, "type", labels.astype(complex))
+        self.check(mwmesh.UsageError, "affine", labels, affine=np.eye(4), spacing=1)
+        self.check(mwmesh.UsageError, "no label 99", labels, labels=[99])
+        self.check(mwmesh.UsageError, "slice the array", labels, crop=((0, 0, 0), (1, 1, 1)))
+        self.check(mwmesh.InputError, "spacing", labels, spacing=(1, 0, 1))
+        self.check(mwmesh.InputError, "spacing", labels, spacing=(1, float("nan"), 1))
+        self.check(mwmesh.InputError, "shape", labels[:0])
+        self.check(mwmesh.InputError, "1.5", np.full((2, 2, 2), 1.5))
+        self.check(mwmesh.InputError, "nowhere.npy", self.path("nowhere.npy"))
+
+    def test_meshes(self):
+        mesh = mwmesh.mesh(grains())
+        with self.assertRaises(mwmesh.UsageError):
+            mesh.save(self.path("m.docx"))
+        mesh.tets[3, 1] = len(mesh.points)
+        with self.assertRaises(mwmesh.UsageError):
+            mesh.save(self.path("m.vtu"))
+        self.assertEqual(os.listdir(self.folder), [])
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.Mesh(np.zeros((4, 2)), np.zeros((1, 4)), [1])
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.Mesh(np.zeros((4, 3)), np.zeros((1, 3)), [1])
+
+
+if __name__ == "__main__":
+    unittest.main()
