@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Promise 3: no tet is below the quality floor.
+#include <gtest/gtest.h>
+
+#include "tests/promises/whole_runs.h"
+
+namespace mw::engine {
+namespace {
+
+using namespace test;
+
+constexpr std::array<Frame, 4> kThickFrames{{{{1, 1, 6}, {0, 0, 0}},
+                                             {{8, 1, 1}, {5, 5, 5}},
+                                             {{0.5, 4, 2}, {0, -1, 0}},
+                                             {{1, 1.49, 1.51}, {0, 0, 1e6}}}};
+
+TEST(Promise3Quality, FloorHoldsUnderStrongAnisotropy) {
+  std::mt19937 random(108);
+  for (int i = 0; i < 200 && !HasFailure(); ++i) {
+    Trial trial = random_trial(random, random_small(random, 1, 7, 4));
+    trial.frame = kThickFrames[below(random, 4)];
+    trial.settings.surface = Surface::kSmooth;
+    expect_promises(trial, Counter::kAudit);
+  }
+}
+
+/// Without layers the start mesh may be below the floor; then the run is refused and names the one
+/// that it can keep, and keeps it.
+TEST(Promise3Quality, FloorThatCannotBeKeptIsRefusedWithTheOneThatCan) {
+  std::mt19937 random(112);
+  int refused = 0;
+  for (int i = 0; i < 150 && !HasFailure(); ++i) {
+    Trial trial = random_trial(random, random_small(random, 1, 7, 4));
+    trial.frame = kThickFrames[below(random, 4)];
+    trial.settings.surface = Surface::kVoxel;
+    try {
+      expect_promises(trial, Counter::kAudit);
+    } catch (const Error& e) {
+      ++refused;
+      EXPECT_EQ(e.kind(), ErrorKind::kUsage);
+      const std::string message = e.what(), option = "; --quality-floor ";
+      const std::size_t at = message.find(option);
+      ASSERT_NE(at, message.npos) << message;
+      const double asked = trial.settings.quality_floor;
+      trial.settings.quality_floor = std::stod(message.substr(at + option.size()));
+      EXPECT_LT(trial.settings.quality_floor, asked);
+      expect_promises(trial, Counter::kAudit);
+    }
+  }
+  EXPECT_GT(refused, 50);
+}
+
+/// What users get who set nothing.
+TEST(Promise3Quality, DefaultFloorHoldsWithoutExceptionOnIsotropicVolumes) {
+  std::mt19937 random(110);
+  for (int i = 0; i < 300 && !HasFailure(); ++i) {
+    Trial trial{.volume = random_small(random, 4, 18, 4), .settings = {}, .frame = {}};
+    if (i % 3 == 0) trial.settings.start = StartMesh::kOctree;
+    SCOPED_TRACE(trial.text());
+    const SmallMesh mesh = small_mesh(run_in_memory(trial));
+    EXPECT_GE(measure_quality(mesh.view()).radius_ratio_min,
+              trial.settings.quality_floor - kRounding);
+  }
+}
+
+/// The settings bind: a higher floor leaves a better worst tet than a lower one allows.
+TEST(Promise3Quality, FloorIsWhatKeepsTheWorstTetUp) {
+  std::mt19937 random(109);
+  Trial trial{.volume = random_volume_of(random, VolumeKind::kBlobs, {12, 12, 12}, 3),
+              .settings = {.window = 8,
+                           .start = StartMesh::kDense,
+                           .quality_floor = 0.0,
+                           .optimizer = Optimizer::kNone},
+              .frame = {}};
+  const auto worst = [&] {
+    return measure_quality(small_mesh(run_in_memory(trial)).view()).radius_ratio_min;
+  };
+  EXPECT_LT(worst(), 0.1);
+  trial.settings.quality_floor = 0.3;
+  EXPECT_GE(worst(), 0.3 - kRounding);
+}
+
+/// The paper has no floor; then inner vertices, too, go whatever shapes that leaves.
+TEST(Promise3Quality, WithoutAFloorNothingIsAskedOfShapes) {
+  std::mt19937 random(111);
+  Trial trial{.volume = random_volume_of(random, VolumeKind::kBlobs, {16, 16, 16}, 2),
+              .settings = {.window = 8,
+                           .start = StartMesh::kDense,
+                           .quality_floor = 0.0,
+                           .optimizer = Optimizer::kNone},
+              .frame = {}};
+  const std::size_t without = run_in_memory(trial).vertices.size();
+  trial.settings.quality_floor = 1e-9;
+  EXPECT_LT(2 * without, run_in_memory(trial).vertices.size());
+}
+
+}  // namespace
+}  // namespace mw::engine

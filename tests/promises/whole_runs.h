@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Whole runs on small volumes, held against promises 1 to 3.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "kernels/audit/betti.h"
+#include "kernels/audit/quality.h"
+#include "kernels/audit/validity.h"
+#include "tests/engine/memory_run.h"
+#include "tests/oracle/cell_complex.h"
+
+namespace mw::engine::test {
+
+using audit::RegionBetti;
+using audit::test::below;
+using audit::test::betti_of;
+using audit::test::complex_of;
+using audit::test::random_volume_of;
+using audit::test::volume_from;
+using audit::test::VolumeKind;
+
+inline constexpr double kRounding = 1e-9;
+
+/// Who counts Betti numbers: ranks of boundary matrices, or the faster audit (itself tested so).
+enum class Counter { kRanks, kAudit };
+
+inline void expect_same_topology(const SmallVolume& volume, const SmallMesh& mesh,
+                                 Counter counter) {
+  const std::size_t n = volume.label_count;
+  const bool ranks = counter == Counter::kRanks;
+  const std::vector<RegionBetti> expected =
+      ranks ? betti_of(complex_of(volume.view(), n), n) : voxel_betti(volume.view(), n);
+  const std::vector<RegionBetti> actual =
+      ranks ? betti_of(complex_of(mesh.view(), n), n) : mesh_betti(mesh.view(), n);
+  for (std::size_t label = 0; label <= n; ++label) {
+    EXPECT_TRUE(actual[label] == expected[label]) << "label " << label << " of " << n;
+  }
+}
+
+inline void expect_valid(const Trial& trial, const SmallMesh& mesh) {
+  const auto report =
+      check_validity(mesh.view(), trial.volume.view(), trial.frame, trial.volume.label_count);
+  EXPECT_EQ(report.orientation, 1);
+  EXPECT_EQ(report.unused_vertices, 0U);
+  for (const audit::Check& c : report.checks) EXPECT_TRUE(c.passed) << c.name << ": " << c.detail;
+}
+
+/// Meshes the volume and checks P1 to P3; returns the number of vertices.
+inline std::size_t expect_promises(const Trial& trial, Counter counter) {
+  SCOPED_TRACE(trial.text());
+  const SmallMesh mesh = small_mesh(run_in_memory(trial));
+  expect_same_topology(trial.volume, mesh, counter);
+  expect_valid(trial, mesh);
+  EXPECT_GE(measure_quality(mesh.view()).radius_ratio_min,
+            trial.settings.quality_floor - kRounding);
+  return mesh.vertices.size();
+}
+
+inline VolumeKind random_kind(std::mt19937& random) {
+  return static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
+}
+
+inline Index3 random_shape(std::mt19937& random, std::uint32_t least, std::uint32_t most) {
+  const auto edge = [&] { return std::int64_t{least + below(random, most - least + 1)}; };
+  const auto x = edge(), y = edge(), z = edge();
+  return {x, y, z};
+}
+
+inline SmallVolume random_small(std::mt19937& random, std::uint32_t least, std::uint32_t most,
+                                std::uint32_t labels) {
+  const Index3 shape = random_shape(random, least, most);
+  const VolumeKind kind = random_kind(random);
+  return random_volume_of(random, kind, shape, 1 + below(random, labels));
+}
+
+inline std::int64_t corners(Index3 shape) {
+  return (shape + Index3{1, 1, 1}).product();
+}
+
+}  // namespace mw::engine::test
