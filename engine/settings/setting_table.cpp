@@ -157,7 +157,9 @@ std::vector<Setting> bound_settings() {
            [](const Settings& s) { return is_within(s.quality_floor, 0, kMaxQualityFloor); }},
       {.name = "max-distance",
        .value = "D|none",
-       .help = "bound in voxels of the lattice, two-sided, between input and output interfaces",
+       .help =
+           "bound in voxels of the lattice, two-sided, between input and output interfaces; none: "
+           "without one, but labels are coarsened within 1.5",
        .kind = SettingKind::kNumberOrNone,
        .allowed =
            range_text(0.71, kMaxDistance) + " voxels, or none (the samples are 0.71 voxels apart)",
