@@ -205,7 +205,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   engine::check(opened->info(), request.settings);
   const InterruptibleVolume interruptible(*opened);
   const io::PreparedInput input(interruptible, request.volume.steps,
-                                {.memory = *request.memory / 4});
+                                io::SpeckLimits::of_budget(*request.memory));
   engine::return_free_memory_above(0);  // the search for specks has let go of more than is held
   const io::LabelVolume& volume = input.volume();
   const engine::FingerprintVolume fingerprint(volume);

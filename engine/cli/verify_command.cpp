@@ -22,7 +22,8 @@ struct VerifyJob {
 
 Verdict judge(const VerifyRequest& request) {
   const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
-  const io::PreparedInput input(*opened, request.volume.steps, {.memory = *request.memory / 4});
+  const io::PreparedInput input(*opened, request.volume.steps,
+                                io::SpeckLimits::of_budget(*request.memory));
   const io::LabelVolume& volume = input.volume();
   const io::VolumeInfo& info = volume.info();
   Verdict verdict{.specks = input.specks(),
