@@ -38,10 +38,13 @@ void require_names_used_once(const MeshRequest& request) {
                               request.output};
   const std::pair<const char*, fs::path> written[] = {
       {"--report", request.report}, {"--trace", request.trace}, {"--html", request.html}};
-  for (const auto& [flag, path] : written) {
+  for (const auto& output : written) {
+    const fs::path& path = output.second;
     if (path.empty()) continue;
     const auto is_it = [&](const fs::path& other) { return is_same_file(path, other); };
-    if (std::any_of(taken.begin(), taken.end(), is_it)) refuse(flag, path, "name used twice");
+    if (std::any_of(taken.begin(), taken.end(), is_it)) {
+      refuse(output.first, path, "name used twice");
+    }
     taken.push_back(path);
   }
 }

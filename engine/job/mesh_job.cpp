@@ -63,7 +63,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   const report::ResourceMeter meter;
   check(opened.info(), job.settings);
   const StoppableVolume stoppable(opened, hooks.stop);
-  const io::PreparedInput input(stoppable, job.steps, {.memory = job.memory / 4});
+  const io::PreparedInput input(stoppable, job.steps, io::SpeckLimits::of_budget(job.memory));
   return_free_memory_above(0);  // the search for specks has let go of more than is held
   const FingerprintVolume volume(input.volume());
   report::FinishedRun run{.volume = volume.info(),

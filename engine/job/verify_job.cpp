@@ -13,7 +13,7 @@
 namespace mw::engine {
 
 report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSink&)>& deliver) {
-  const io::PreparedInput input(job.volume, job.steps, {.memory = job.memory / 4});
+  const io::PreparedInput input(job.volume, job.steps, io::SpeckLimits::of_budget(job.memory));
   const io::LabelVolume& volume = input.volume();
   const io::VolumeInfo& info = volume.info();
   report::Verdict verdict{

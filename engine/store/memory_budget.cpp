@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/file/least_memory.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/error.h"
 
@@ -79,8 +80,8 @@ std::uint64_t MemoryBudget::least_with(std::uint64_t bytes) const {
 
 void MemoryBudget::fail(std::uint64_t bytes) const {
   throw Error(ErrorKind::kResource, "a memory budget of " + std::to_string(limit_) +
-                                        " bytes is too small; the least that works is --memory " +
-                                        mebibytes(least_with(bytes)));
+                                        " bytes is too small; " +
+                                        io::least_memory(least_with(bytes)));
 }
 
 std::uint64_t MemoryBudget::used() const {
@@ -101,11 +102,6 @@ std::uint64_t MemoryBudget::peak() const {
 std::uint64_t MemoryBudget::peak(Purpose purpose) const {
   const std::lock_guard lock(mutex_);
   return accounts_[place(purpose)].peak;
-}
-
-std::string mebibytes(std::uint64_t bytes) {
-  constexpr std::uint64_t kMebibyte = 1 << 20;
-  return std::to_string(bytes / kMebibyte + (bytes % kMebibyte != 0 ? 1 : 0)) + "MiB";
 }
 
 }  // namespace mw::engine

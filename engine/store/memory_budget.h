@@ -90,7 +90,4 @@ class MemoryBudget {
   std::array<Account, kPurposes> accounts_;
 };
 
-/// "97MiB", rounded up: a value for --memory.
-[[nodiscard]] std::string mebibytes(std::uint64_t bytes);
-
 }  // namespace mw::engine

@@ -109,8 +109,24 @@ void AtomicFile::flush() {
 }
 
 void AtomicFile::commit() {
+  sync();
+  give_name();
+}
+
+void AtomicFile::sync() {
   flush();
   if (::fsync(file_.get()) != 0) fail_output(target_.string(), "sync", errno);
+}
+
+void AtomicFile::remove_named() {
+  if (::unlink(target_.c_str()) == 0) {
+    sync_folder(folder_of(target_));
+  } else if (errno != ENOENT) {
+    fail_output(target_.string(), "replace", errno);
+  }
+}
+
+void AtomicFile::give_name() {
   if (std::rename(partial_.c_str(), target_.c_str()) != 0) {
     fail_output(target_.string(), "rename to", errno);
   }

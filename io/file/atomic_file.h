@@ -41,6 +41,16 @@ class AtomicFile {
   /// Flushes, syncs and renames.  REQUIRES: called once; nothing is written afterwards.
   void commit();
 
+  // The steps of commit(), for files that belong together (commit_together.h).
+
+  /// All bytes are on the disk.  REQUIRES: nothing is written afterwards.
+  void sync();
+  /// Removes what has the name, be it this file or the one before it; none is no error.
+  /// ENSURES: also after a power cut.
+  void remove_named();
+  /// REQUIRES: sync() was called; called once.
+  void give_name();
+
  private:
   void flush();
   void write(std::uint64_t offset, std::span<const std::byte> bytes);

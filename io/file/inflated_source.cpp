@@ -14,10 +14,24 @@ namespace {
 
 constexpr std::size_t kPieceBytes = 1 << 18;
 
+[[noreturn]] void fail_too_large(const std::string& name, std::uint64_t most) {
+  throw Error(ErrorKind::kResource,
+              text(name, ": gzip data: unpacks to more than ", most, " bytes, what ",
+                   scratch_folder().string(),
+                   " has room for; set TMPDIR to a folder on a larger disk, or gunzip it there"));
+}
+
 }  // namespace
 
-InflatedSource::InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset)
-    : packed_(std::move(packed)), file_(scratch_folder()) {
+std::uint64_t room_to_inflate() {
+  std::error_code unknown;
+  const std::uintmax_t free = std::filesystem::space(scratch_folder(), unknown).available;
+  return unknown ? std::numeric_limits<std::uint64_t>::max() : free - free / 4;
+}
+
+InflatedSource::InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset,
+                               std::uint64_t most)
+    : packed_(std::move(packed)), most_(most), file_(scratch_folder()) {
   if (!is_gzip(*packed_, offset)) {
     fail_input(packed_->name(), "gzip data", text("no gzip data at offset ", offset));
   }
@@ -52,6 +66,8 @@ void InflatedSource::unpack_to(std::uint64_t size) const {
   std::vector<std::byte> piece(inflater_ ? kPieceBytes : 0);
   while (inflater_ && unpacked_ < size) {
     const std::size_t count = inflater_->read(piece);
+    is_too_large_ = is_too_large_ || count > most_ - unpacked_;
+    if (is_too_large_) fail_too_large(name(), most_);
     file_.write_at(unpacked_, std::span(piece).first(count));
     unpacked_ += count;
     if (count < piece.size()) inflater_.reset();

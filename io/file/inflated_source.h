@@ -13,15 +13,21 @@
 
 namespace mw::io {
 
+/// Three quarters of what is free now where temporary files go: others need the disk, too.
+/// Bytes; all of them where the system does not know.
+[[nodiscard]] std::uint64_t room_to_inflate();
+
 /// The bytes wait in an unlinked temporary file in $TMPDIR or /tmp, so that memory stays bounded
-/// and they can be read by region.  What a few bytes unpack to may fill a disk, so ask
-/// size_within() rather than size().
-/// ERRORS (all members): mw::Error(kInput) when corrupt or truncated so far; kResource when the
-/// disk is full.  Thread safety: that of a ByteSource.
+/// and they can be read by region.  What a few bytes unpack to may be much, so ask size_within()
+/// rather than size(); formats that are read from their end cannot.
+/// ERRORS (all members): mw::Error(kInput) when corrupt or truncated so far; kResource when more
+/// would be unpacked than may be, or the disk is full.  Thread safety: that of a ByteSource.
 class InflatedSource : public ByteSource {
  public:
-  /// The gzip data that begin at offset.  ERRORS: kInput when there are none.
-  InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset);
+  /// The gzip data that begin at offset.  most: bytes that may be unpacked of them.
+  /// ERRORS: kInput when there are none.
+  InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset,
+                 std::uint64_t most = room_to_inflate());
 
   [[nodiscard]] std::uint64_t size() const override;
   [[nodiscard]] std::uint64_t size_within(std::uint64_t most) const override;
@@ -32,10 +38,12 @@ class InflatedSource : public ByteSource {
   void unpack_to(std::uint64_t size) const;
 
   std::unique_ptr<ByteSource> packed_;
+  std::uint64_t most_;
   NamelessFile file_;
   mutable std::mutex mutex_;                    ///< of those that unpack
   mutable std::unique_ptr<Inflater> inflater_;  ///< null at the end of the data
   mutable std::atomic<std::uint64_t> unpacked_ = 0;
+  mutable bool is_too_large_ = false;
 };
 
 }  // namespace mw::io

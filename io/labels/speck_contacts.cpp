@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "io/labels/label_runs.h"
+#include "io/labels/speck_memory.h"
 
 namespace mw::io {
 namespace {
@@ -21,9 +22,12 @@ class ContactList {
 
   /// False when there are too many.
   [[nodiscard]] bool add(const SpeckContact& contact) {
-    if (list_.size() >= limit_) sum_up();
+    if (list_.size() >= std::min(limit_, most_)) {
+      sum_up();
+      if (list_.size() > contacts_that_fit(most_)) return false;
+    }
     list_.push_back(contact);
-    return list_.size() <= most_;
+    return true;
   }
   [[nodiscard]] std::vector<SpeckContact> take() {
     sum_up();
@@ -60,7 +64,7 @@ class ContactFinder {
       : rule_(rule),
         specks_(specks),
         limits_(limits),
-        list_((limits.memory - std::min(limits.memory, bytes_of_runs())) / kBytesPerContact) {}
+        list_((limits.memory - std::min(limits.memory, bytes_of_runs())) / kBytesPerSpeckContact) {}
 
   void read_row(RunPlanes& planes, std::int64_t y, std::int64_t z) {
     const std::span<LabelRun> row = planes.current.row(y);
@@ -78,9 +82,6 @@ class ContactFinder {
   SpeckContacts take() { return {list_.take(), std::move(labels_)}; }
 
  private:
-  /// Vectors are larger than what they hold while they grow.
-  static constexpr std::uint64_t kBytesPerContact = 2 * sizeof(SpeckContact);
-
   [[nodiscard]] std::uint64_t bytes_of_runs() const {
     return specks_.runs.capacity() * sizeof(SpeckRun);
   }
@@ -112,7 +113,7 @@ class ContactFinder {
     if (from.part == kNoSpeck || (to.part == kNoSpeck && faces == 0)) return;
     const std::uint32_t other = to.part == kNoSpeck ? index_of(to.label) : to.part;
     if (list_.add({from.part, other, faces})) return;
-    fail_too_many_specks(rule_, specks_.labels.size(), limits_);
+    fail_too_many_specks(rule_, specks_.labels.size(), limits_, specks_.memory);
   }
 
   std::uint32_t index_of(RawLabel label) {

@@ -27,7 +27,8 @@ struct SpeckContacts {
 /// One pass over the volume.  Memory: 32 bytes a contact, within what limits leave beside the runs;
 /// 40 a label that specks touch; and two planes of runs as find_specks().
 /// REQUIRES: specks as find_specks() found them in this volume by this rule.
-/// ERRORS: mw::Error(kResource) with the number of specks when that is too much.
+/// ERRORS: mw::Error(kResource) when that is too much, with the number of specks and the memory
+/// that is enough.
 [[nodiscard]] SpeckContacts find_contacts(const LabelVolume& volume, const SpeckRule& rule,
                                           const Specks& specks, const SpeckLimits& limits);
 

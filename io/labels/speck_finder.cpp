@@ -8,15 +8,14 @@
 #include <limits>
 #include <tuple>
 
-#include "io/file/errors.h"
+#include "io/file/least_memory.h"
 #include "io/labels/label_runs.h"
+#include "io/labels/speck_memory.h"
 
 namespace mw::io {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-/// A run waits in a list and ends in a vector, which is larger than what it holds while it grows.
-constexpr std::uint64_t kBytesPerRun = 2 * sizeof(SpeckRun);
 constexpr std::uint64_t kMostRuns = std::uint64_t{1} << 31;
 
 /// Runs in lists that are joined and let go in no time a run.
@@ -74,9 +73,11 @@ class RunLists {
 /// A component as far as it has been read; only those of the last two planes are held.
 struct Part {
   std::uint32_t parent = 0;
-  RunLists::List list;       ///< empty when it is no speck
-  std::uint64_t voxels = 0;  ///< not counted beyond what a speck has
-  std::uint64_t runs = 0;    ///< 0 when it is no speck; else those of the list, if it is stored
+  std::uint32_t met = kNone;   ///< whom it touches, as counted last
+  RunLists::List list;         ///< empty when it is no speck
+  std::uint64_t voxels = 0;    ///< not counted beyond what a speck has
+  std::uint64_t runs = 0;      ///< 0 when it is no speck; else those of the list, if it is stored
+  std::uint64_t contacts = 0;  ///< the same; some may be counted twice
   RawLabel label = 0;
 };
 
@@ -85,18 +86,22 @@ class Finder {
   Finder(const SpeckRule& rule, const SpeckLimits& limits)
       : rule_(rule),
         limits_(limits),
-        most_runs_(std::min(limits.memory / kBytesPerRun, kMostRuns)),
+        most_runs_(std::min(limits.memory / kBytesPerSpeckRun, kMostRuns)),
         reach_(rule.diagonal ? 1 : 0) {}
 
   void read_row(RunPlanes& planes, std::int64_t y, std::int64_t z) {
     for (LabelRun& run : planes.current.row(y)) {
       run.part = kNone;
+      met_.clear();
+      if (&run != planes.current.row(y).data()) met_.push_back((&run - 1)->part);
       join_row(planes.current.row(y - 1), run, reach_);
       if (rule_.diagonal) join_row(planes.below.row(y - 1), run, 1);
       join_row(planes.below.row(y), run, reach_);
       if (rule_.diagonal) join_row(planes.below.row(y + 1), run, 1);
       if (run.part == kNone) run.part = new_part(run.label);
-      add_run(parts_[find(run.part)], run, y, z);
+      const std::uint32_t root = find(run.part);
+      add_run(parts_[root], run, y, z);
+      for (const std::uint32_t other : met_) meet(root, find(other));
     }
   }
 
@@ -117,6 +122,9 @@ class Finder {
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
       if (parts_[i].parent == i && renamed_[i] == kNone) finish(parts_[i]);
     }
+    for (Part& part : kept_) {
+      if (part.met != kNone) part.met = renamed_[find(part.met)];
+    }
     parts_.swap(kept_);
   }
 
@@ -124,11 +132,12 @@ class Finder {
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
       if (parts_[i].parent == i) finish(parts_[i]);
     }
-    if (!stores_) fail_too_many_specks(rule_, specks_, limits_);
+    if (!stores_) fail_too_many_specks(rule_, memory_.specks, limits_, memory_.enough());
     lists_.clear();
     std::sort(found_.runs.begin(), found_.runs.end(), [](const SpeckRun& a, const SpeckRun& b) {
       return std::tie(a.z, a.y, a.begin) < std::tie(b.z, b.y, b.begin);
     });
+    found_.memory = memory_.enough();
     return std::move(found_);
   }
 
@@ -149,7 +158,7 @@ class Finder {
 
   void join_row(std::span<LabelRun> row, LabelRun& run, std::int32_t reach) {
     for_each_touching(row, run, reach, [&](const LabelRun& other) {
-      if (other.label != run.label) return;
+      if (other.label != run.label) return met_.push_back(other.part);
       const std::uint32_t root = find(other.part);
       run.part = run.part == kNone ? root : unite(find(run.part), root);
     });
@@ -165,6 +174,7 @@ class Finder {
     from.parent = a;
     to.voxels = std::min(to.voxels + from.voxels, rule_.least);
     to.runs += from.runs;
+    to.contacts += from.contacts;
     lists_.append(to.list, from.list);
     if (!is_small(to)) forget(to);
     return a;
@@ -177,20 +187,33 @@ class Finder {
     if (stores_) {
       lists_.add(part.list, {run.begin, run.end, static_cast<std::int32_t>(y),
                              static_cast<std::int32_t>(z), 0});
-      if (++stored_ > most_runs_) stop_storing();
     }
+    memory_.add_run();
+    if (memory_.runs > most_runs_) stop_storing();
     if (!is_small(part)) forget(part);
+  }
+
+  /// Two parts touch; what the volume repeats of it mostly comes at once.
+  void meet(std::uint32_t a, std::uint32_t b) {
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+      Part& part = parts_[from];
+      if (!is_small(part) || part.met == to) continue;
+      part.met = to;
+      ++part.contacts;
+    }
   }
 
   /// Lets go the runs of a part that is no speck.
   void forget(Part& part) {
-    if (stores_) stored_ -= part.runs;
+    memory_.runs -= part.runs;
+    ++memory_.large;
     lists_.free(part.list);
-    part.runs = 0;
+    part.runs = part.contacts = 0;
   }
 
   /// From here on specks are counted only, so that the error can tell how many there are.
   void stop_storing() {
+    if (!stores_) return;
     stores_ = false;
     lists_.clear();
     found_ = {};
@@ -199,7 +222,8 @@ class Finder {
 
   void finish(Part& part) {
     if (!is_small(part)) return;
-    const auto id = static_cast<std::uint32_t>(specks_++);
+    const auto id = static_cast<std::uint32_t>(memory_.specks++);
+    memory_.contacts += part.contacts;
     if (!stores_) return;
     lists_.visit(part.list, [&](SpeckRun run) {
       run.speck = id;
@@ -209,14 +233,19 @@ class Finder {
     found_.labels.push_back(part.label);
   }
 
-  void check_plane(const RunPlanes& planes) const {
+  void check_plane(const RunPlanes& planes) {
     const std::uint64_t bytes =
         planes.bytes() + (parts_.capacity() + kept_.capacity()) * sizeof(Part);
+    memory_.planes = std::max(memory_.planes, bytes);
     if (bytes <= limits_.memory) return;
+    std::string way_out = "merge labels";
+    if (limits_.is_of_budget) {
+      way_out = "that takes --memory " + mebibytes(SpeckLimits::kShare * bytes) + " at least";
+    }
     throw Error(ErrorKind::kResource,
                 text("--drop-specks: two slices of the volume have so many runs of labels that "
                      "they take ",
-                     bytes, " bytes, more than ", limits_.memory, "; raise --memory"));
+                     bytes, " bytes, more than ", limits_.memory, "; ", way_out));
   }
 
   SpeckRule rule_;
@@ -228,9 +257,9 @@ class Finder {
   std::vector<std::uint32_t> renamed_;  ///< the same
   RunLists lists_;
   Specks found_;
-  std::uint64_t stored_ = 0;  ///< runs in lists_ and found_
+  SpeckMemory memory_;
+  std::vector<std::uint32_t> met_;  ///< scratch of read_row(): parts that the run touches
   bool stores_ = true;
-  std::uint64_t specks_ = 0;
 };
 
 }  // namespace
@@ -244,12 +273,16 @@ Specks find_specks(const LabelVolume& volume, const SpeckRule& rule, const Speck
   return finder.take();
 }
 
-void fail_too_many_specks(const SpeckRule& rule, std::uint64_t specks, const SpeckLimits& limits) {
-  throw Error(
-      ErrorKind::kResource,
-      text("--drop-specks ", rule.least, ": ", specks,
-           " components are smaller, and do not fit into ", limits.memory,
-           " bytes; raise --memory, of which a quarter is theirs, or drop smaller ones only"));
+void fail_too_many_specks(const SpeckRule& rule, std::uint64_t specks, const SpeckLimits& limits,
+                          std::uint64_t enough) {
+  std::string message = text("--drop-specks ", rule.least, ": ", specks,
+                             " components are smaller, and do not fit into ", limits.memory,
+                             " bytes; they take ", enough, "; ");
+  if (limits.is_of_budget) {
+    message += text("--memory ", mebibytes(SpeckLimits::kShare * enough),
+                    " is enough, a quarter of which is theirs; or ");
+  }
+  throw Error(ErrorKind::kResource, message + "drop smaller ones only");
 }
 
 }  // namespace mw::io

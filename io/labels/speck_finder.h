@@ -31,24 +31,32 @@ struct SpeckRun {
 struct Specks {
   std::vector<SpeckRun> runs;    ///< ascending by z, y, begin
   std::vector<RawLabel> labels;  ///< by speck
+  std::uint64_t memory = 0;      ///< bytes that are enough to find and to settle them
 };
 
 /// How a search for specks is bounded; it changes no result.
 struct SpeckLimits {
   std::uint64_t memory = 256ULL << 20U;  ///< bytes
   std::int64_t slab_voxels = 1 << 20;    ///< of one read
+  bool is_of_budget = false;             ///< memory is a quarter of --memory, as errors will say
+
+  [[nodiscard]] static SpeckLimits of_budget(std::uint64_t budget) {
+    return {.memory = budget / kShare, .is_of_budget = true};
+  }
+  static constexpr std::uint64_t kShare = 4;
 };
 
 /// One pass over the volume.  A component is followed as long as planes go on with it: it keeps
 /// its runs while it is small, then nothing but the fact that it is not.
-/// Memory: 40 bytes a run of specks, and some 60 a run of two planes and 100 a component in them;
+/// Memory: 40 bytes a run of specks, and some 60 a run of two planes and 120 a component in them;
 /// neither goes above limits.memory.
-/// ERRORS: mw::Error(kResource) with the number of specks when it would.
+/// ERRORS: mw::Error(kResource) when it would, with the number of specks and the memory that is
+/// enough, or of two planes how much they take at least.
 [[nodiscard]] Specks find_specks(const LabelVolume& volume, const SpeckRule& rule,
                                  const SpeckLimits& limits);
 
-/// Throws mw::Error(kResource): there are so many specks.
+/// Throws mw::Error(kResource): there are so many specks, for which so many bytes are enough.
 [[noreturn]] void fail_too_many_specks(const SpeckRule& rule, std::uint64_t specks,
-                                       const SpeckLimits& limits);
+                                       const SpeckLimits& limits, std::uint64_t enough);
 
 }  // namespace mw::io

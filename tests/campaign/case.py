@@ -38,7 +38,6 @@ class Case:
         self.tell = tell or (lambda line: None)
         self.random = random.Random(number)
         self.commands, self.did = [], []
-        self.killed = False  # what a run had no chance to clear away may be there
 
     # Running ------------------------------------------------------------------------------------
 
@@ -216,9 +215,8 @@ class Case:
             return None
         if self.settings.output in self.entries("b"):
             raise Failed("exit code 4 and a mesh")
-        if "components are smaller, and do not fit" in text:  # how many more is not known yet
-            return 2 * mib
-        told = re.search(r"the least that works is --memory (\d+)MiB", text)
+        # Of specks in large slices no more is known yet than what two of them take.
+        told = re.search(r"--memory (\d+)MiB", text)
         if not told or int(told[1]) <= mib:
             raise Failed(f"no better budget than {mib} MiB is told\n{text}")
         return int(told[1])
@@ -239,7 +237,6 @@ class Case:
         except subprocess.TimeoutExpired:
             process.send_signal(number)
         code, text = self.end(process)
-        self.killed |= code < 0
         # SIGTERM ends it at once until it is watched for.
         allowed = (0, -9) if number == signal.SIGKILL else (0, 75, 130, -number)
         if code not in allowed:
@@ -258,10 +255,9 @@ class Case:
             path.rmdir() if path.is_dir() else path.unlink()
 
     def check_same(self):
-        """The files are those of the undisturbed run, and no others; then they go."""
+        """The files are those of the undisturbed run, and no others: what killed runs had no chance
+        to clear away is gone as well.  Then they go."""
         found = self.files("b")
-        if self.killed:
-            found = {n: found[n] for n in found if ".partial-" not in n}
         others = sorted(set(found) ^ set(self.expected))
         if others or any(p.is_dir() for p in (self.folder / "b").iterdir()):
             raise Failed(f"files after the run: {self.entries('b')}, not {list(self.expected)}")

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Promise 6: the kernel's own figure of the program's memory stays under --memory, from reading
 // labels to the digest of the finished mesh.
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/engine/cli/run_program.h"
@@ -98,6 +99,30 @@ TEST_F(MemoryProgramTest, ReportsItsOwnMemoryAndNotItsStarters) {
   ASSERT_EQ(result.code, 0) << result.err;
   const json r = json::parse(read("r.json"));
   EXPECT_LT(r["performance"]["peak_rss_bytes"], 100 * kMebibyte);
+}
+
+/// Dust in a ball: its specks want more than all else.
+TEST_F(MemoryProgramTest, TheBudgetThatSpecksAskForWorks) {
+  constexpr int kSize = 136;
+  std::string voxels;
+  for (int z = 0; z < kSize; ++z) {
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const bool dust = x % 2 == 1 && y % 2 == 1 && z % 2 == 1;
+        voxels += dust ? '\x03' : x < kSize / 2 ? '\x01' : '\x02';
+      }
+    }
+  }
+  std::ofstream(folder() / "v.raw") << voxels;
+  const std::string options =
+      "mesh v.raw --shape 136,136,136 --dtype u8 -o v.vtu --drop-specks 2 --threads 1 --memory ";
+  const ProgramRun refused = run(options + "16MiB");
+  EXPECT_EQ(refused.code, 4) << refused.err;
+  EXPECT_NE(refused.err.find("components are smaller"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("is enough"), std::string::npos);
+  const std::uint64_t advised = advised_mebibytes(refused.err);
+  EXPECT_GT(advised, 16U);
+  expect_done(options + std::to_string(advised) + "MiB");
 }
 
 TEST_F(MemoryProgramTest, TellsAtOnceWhenNothingCouldWork) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "io/file/commit_together.h"
 #include "io/file/errors.h"
 #include "io/mesh/grouped/facet_numbers.h"
 #include "io/mesh/grouped/ten_node_writer.h"
@@ -82,8 +83,8 @@ void FebioWriter::write(GroupedMesh& mesh) {
   file_.append("  </Mesh>\n");
   write_domains(parts);
   file_.append("</febio_spec>\n");
-  write_label_table(path_, mesh.table(), mesh.names(), numbers);
-  file_.commit();
+  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  commit_together({labels_, file_});
 }
 
 /// By number, since FEBio takes ids in their order alone.

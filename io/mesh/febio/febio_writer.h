@@ -18,7 +18,8 @@ namespace mw::io {
 /// Parts and surfaces have the names of group_names.h, with _2 and so on behind one that was there.
 class FebioWriter : public GroupedWriter {
  public:
-  explicit FebioWriter(const std::filesystem::path& path) : path_(path), file_(path) {}
+  explicit FebioWriter(const std::filesystem::path& path)
+      : file_(path), labels_(label_table_path(path)) {}
   void write(GroupedMesh& mesh) override;
 
  private:
@@ -28,8 +29,8 @@ class FebioWriter : public GroupedWriter {
   void write_surfaces(GroupedMesh& mesh);
   void write_domains(const std::vector<std::string>& parts);
 
-  std::filesystem::path path_;
   AtomicFile file_;
+  AtomicFile labels_;
 };
 
 }  // namespace mw::io

@@ -32,7 +32,8 @@ class MshEncoder {
   void put(double number);
   void end_row();
 
-  void commit() { file_.commit(); }
+  /// To be committed with others.
+  [[nodiscard]] AtomicFile& file() { return file_; }
 
  private:
   template <class T>

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/file/commit_together.h"
 #include "io/file/errors.h"
 #include "io/mesh/gmsh/msh_elements.h"
 
@@ -50,16 +51,14 @@ std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh) {
 }  // namespace
 
 void MshWriter::write(GroupedMesh& mesh) {
-  const std::filesystem::path folder = path_.parent_path();
-  Contents contents{mesh, LabelNumbers(mesh.table()), NodeClasses(mesh, folder)};
+  Contents contents{mesh, LabelNumbers(mesh.table()), NodeClasses(mesh, folder_)};
   write_format();
   write_physical_names(contents);
   write_entities(contents);
   write_nodes(contents);
   write_elements(contents);
-  // The mesh last: what most likely fails has been done, and there is no mesh without its table.
-  write_label_table(path_, mesh.table(), mesh.names(), contents.numbers);
-  out_.commit();
+  append_label_table(labels_, mesh.table(), mesh.names(), contents.numbers);
+  commit_together({labels_, out_.file()});
 }
 
 MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {

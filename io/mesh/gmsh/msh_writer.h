@@ -3,6 +3,7 @@
 // Writes a grouped mesh as Gmsh's .msh 4.1.
 #pragma once
 
+#include "io/file/partial_file.h"
 #include "io/mesh/gmsh/msh_encoder.h"
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/group_names.h"
@@ -19,7 +20,8 @@ namespace mw::io {
 /// createTopology() parts, forgetting their groups; createTopology(False) keeps them.
 class MshWriter : public GroupedWriter {
  public:
-  MshWriter(const std::filesystem::path& path, bool ascii) : path_(path), out_(path, ascii) {}
+  MshWriter(const std::filesystem::path& path, bool ascii)
+      : out_(path, ascii), labels_(label_table_path(path)), folder_(folder_of(path)) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -48,8 +50,9 @@ class MshWriter : public GroupedWriter {
   void put_tets(GroupedMesh& mesh, RowRange tets);
   void put_nodes_of_element(std::span<const std::uint64_t> rows);
 
-  std::filesystem::path path_;
   MshEncoder out_;
+  AtomicFile labels_;
+  std::filesystem::path folder_;  ///< of temporary files
 };
 
 }  // namespace mw::io

@@ -3,7 +3,6 @@
 // Numbers of facet groups, for formats that have no names.
 #include "io/mesh/grouped/facet_numbers.h"
 
-#include "io/file/atomic_file.h"
 #include "io/file/errors.h"
 #include "io/names/csv_records.h"
 
@@ -38,9 +37,8 @@ std::filesystem::path facet_table_path(const std::filesystem::path& mesh) {
   return std::filesystem::path(mesh).replace_extension(".facets.csv");
 }
 
-void write_facet_table(const std::filesystem::path& mesh, const LabelTable& table,
-                       const std::vector<NumberedFacets>& facets) {
-  AtomicFile file(facet_table_path(mesh));
+void append_facet_table(AtomicFile& file, const LabelTable& table,
+                        const std::vector<NumberedFacets>& facets) {
   file.append("number,name,side,first,second\n");
   const auto label = [&](Label rank) {
     return rank == kExterior ? std::string() : label_digits(table, rank);
@@ -49,7 +47,6 @@ void write_facet_table(const std::filesystem::path& mesh, const LabelTable& tabl
     file.append(text(run.number, ",", csv_quoted(run.name), ",", side_name(run.side), ",",
                      label(run.first), ",", label(run.second), "\n"));
   }
-  file.commit();
 }
 
 }  // namespace mw::io

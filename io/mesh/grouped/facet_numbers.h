@@ -3,6 +3,7 @@
 // Numbers of facet groups, for formats that have no names.
 #pragma once
 
+#include "io/file/atomic_file.h"
 #include "io/mesh/grouped/group_names.h"
 
 namespace mw::io {
@@ -26,9 +27,10 @@ struct NumberedFacets {
 /// The table beside a mesh: M.facets.csv of M.node or M.xdmf.
 [[nodiscard]] std::filesystem::path facet_table_path(const std::filesystem::path& mesh);
 
-/// Writes it: columns number, name, side, first, second; the last two are the labels of an
-/// interface and else empty.  ERRORS: see AtomicFile.
-void write_facet_table(const std::filesystem::path& mesh, const LabelTable& table,
-                       const std::vector<NumberedFacets>& facets);
+/// Its content: columns number, name, side, first, second; the last two are the labels of an
+/// interface and else empty.  The file is to be committed with the mesh (commit_together.h).
+/// ERRORS: see AtomicFile.
+void append_facet_table(AtomicFile& file, const LabelTable& table,
+                        const std::vector<NumberedFacets>& facets);
 
 }  // namespace mw::io

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <set>
 
-#include "io/file/atomic_file.h"
 #include "io/file/errors.h"
 #include "io/file/open_bytes.h"
 #include "io/mesh/grouped/group_names.h"
@@ -37,7 +36,7 @@ std::optional<std::int64_t> number_in(const std::string& field) {
   return static_cast<std::int64_t>(*number);
 }
 
-/// One record of a table that write_label_table() made.
+/// One record of a table that append_label_table() made.
 void take_record(const CsvRecord& record, std::string_view file, LabelMap& map) {
   const auto label = record.fields.size() < 2 ? std::nullopt : label_of(record.fields[0]);
   const auto number = label ? number_in(record.fields[1]) : std::nullopt;
@@ -84,16 +83,14 @@ std::filesystem::path label_table_path(const std::filesystem::path& mesh) {
   return mesh.string() + ".labels.csv";
 }
 
-void write_label_table(const std::filesystem::path& mesh, const LabelTable& table,
-                       const LabelNames& names, const LabelNumbers& numbers) {
-  AtomicFile file(label_table_path(mesh));
+void append_label_table(AtomicFile& file, const LabelTable& table, const LabelNames& names,
+                        const LabelNumbers& numbers) {
   file.append(std::string_view("id,number,name,r,g,b,a\n"));
   for (Label rank = 0; rank < table.size(); ++rank) {
     const LabelName* row = names.find(table.raw(rank));
     file.append(text(label_digits(table, rank), ",", numbers[rank], ",",
                      csv_quoted(names.name(table.raw(rank))), colour_text(row), "\n"));
   }
-  file.commit();
 }
 
 std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "io/file/atomic_file.h"
 #include "io/labels/label_table.h"
 #include "io/names/label_names.h"
 
@@ -37,10 +38,11 @@ class LabelNumbers {
 /// The table that lies beside a mesh: MESH.labels.csv.
 [[nodiscard]] std::filesystem::path label_table_path(const std::filesystem::path& mesh);
 
-/// Writes it: columns id (the label), number (in the mesh), name, r, g, b, a.  It is a table of
-/// names too (parse_csv_names).  ERRORS: see AtomicFile.
-void write_label_table(const std::filesystem::path& mesh, const LabelTable& table,
-                       const LabelNames& names, const LabelNumbers& numbers);
+/// Its content: columns id (the label), number (in the mesh), name, r, g, b, a.  It is a table of
+/// names too (parse_csv_names).  The file is to be committed with the mesh (commit_together.h).
+/// ERRORS: see AtomicFile.
+void append_label_table(AtomicFile& file, const LabelTable& table, const LabelNames& names,
+                        const LabelNumbers& numbers);
 
 /// What such a table says.
 struct LabelMap {

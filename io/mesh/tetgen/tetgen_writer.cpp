@@ -3,6 +3,7 @@
 // Writes a mesh as TetGen's .node, .ele and .face files.
 #include "io/mesh/tetgen/tetgen_writer.h"
 
+#include "io/file/commit_together.h"
 #include "io/file/errors.h"
 #include "io/mesh/grouped/facet_numbers.h"
 #include "io/mesh/grouped/label_numbers.h"
@@ -37,15 +38,17 @@ std::filesystem::path tetgen_facets_path(const std::filesystem::path& nodes) {
 }
 
 TetgenWriter::TetgenWriter(const std::filesystem::path& path)
-    : path_(path), nodes_(path), tets_(tetgen_tets_path(path)), facets_(tetgen_facets_path(path)) {}
+    : nodes_(path),
+      tets_(tetgen_tets_path(path)),
+      facets_(tetgen_facets_path(path)),
+      label_table_(label_table_path(path)),
+      facet_table_(facet_table_path(path)) {}
 
 void TetgenWriter::write(GroupedMesh& mesh) {
   write_nodes(mesh);
   write_tets(mesh);
   write_facets(mesh);
-  tets_.commit();
-  facets_.commit();
-  nodes_.commit();
+  commit_together({label_table_, facet_table_, tets_, facets_, nodes_});
 }
 
 void TetgenWriter::write_nodes(GroupedMesh& mesh) {
@@ -76,7 +79,7 @@ void TetgenWriter::write_tets(GroupedMesh& mesh) {
       tets_.append(line.finish());
     }
   }
-  write_label_table(path_, mesh.table(), mesh.names(), numbers);
+  append_label_table(label_table_, mesh.table(), mesh.names(), numbers);
 }
 
 void TetgenWriter::write_facets(GroupedMesh& mesh) {
@@ -96,7 +99,7 @@ void TetgenWriter::write_facets(GroupedMesh& mesh) {
       facets_.append(line.finish());
     }
   }
-  write_facet_table(path_, mesh.table(), runs);
+  append_facet_table(facet_table_, mesh.table(), runs);
 }
 
 }  // namespace mw::io

@@ -27,10 +27,11 @@ class TetgenWriter : public GroupedWriter {
   void write_tets(GroupedMesh& mesh);
   void write_facets(GroupedMesh& mesh);
 
-  std::filesystem::path path_;
   AtomicFile nodes_;
   AtomicFile tets_;
   AtomicFile facets_;
+  AtomicFile label_table_;
+  AtomicFile facet_table_;
 };
 
 /// The edges of a tet in the order of nodes 5 to 10 of TetGen's.

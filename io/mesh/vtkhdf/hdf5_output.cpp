@@ -30,11 +30,11 @@ Hdf5DataSet Hdf5Output::add_texts(const std::string& name, std::span<const std::
              std::as_bytes(std::span(all.places)));
 }
 
-void Hdf5Output::commit(const Hdf5Group& root) {
+AtomicFile& Hdf5Output::finish(const Hdf5Group& root) {
   const Hdf5Metadata metadata = hdf5_metadata(root, end_);
   write_at(end_, std::as_bytes(std::span(metadata.tail)));
   write_at(0, std::as_bytes(std::span(metadata.head)));
-  file_.commit();
+  return file_;
 }
 
 }  // namespace mw::io

@@ -35,7 +35,9 @@ class Hdf5Output {
   [[nodiscard]] Hdf5DataSet add_texts(const std::string& name, std::span<const std::string> texts);
 
   /// REQUIRES: the data of all sets are written.
-  void commit(const Hdf5Group& root);
+  void commit(const Hdf5Group& root) { finish(root).commit(); }
+  /// The same up to the commit, which may be one with other files (commit_together.h).
+  [[nodiscard]] AtomicFile& finish(const Hdf5Group& root);
 
  private:
   std::string name_;

@@ -3,6 +3,7 @@
 // Writes a mesh as XDMF over HDF5, with tags as dolfinx reads them.
 #include "io/mesh/xdmf/xdmf_writer.h"
 
+#include "io/file/commit_together.h"
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/vtkhdf/hdf5_column.h"
 
@@ -54,7 +55,12 @@ std::filesystem::path xdmf_cells_path(const std::filesystem::path& xdmf) {
 }
 
 XdmfWriter::XdmfWriter(const std::filesystem::path& path)
-    : path_(path), file_(path), cells_(xdmf_cells_path(path)), numbers_(xdmf_numbers_path(path)) {}
+    : path_(path),
+      file_(path),
+      cells_(xdmf_cells_path(path)),
+      numbers_(xdmf_numbers_path(path)),
+      labels_(label_table_path(path)),
+      facets_(facet_table_path(path)) {}
 
 void XdmfWriter::write(GroupedMesh& mesh) {
   const LabelNumbers numbers(mesh.table(), {.least = 0});
@@ -69,11 +75,10 @@ void XdmfWriter::write(GroupedMesh& mesh) {
   const XdmfFacts facts = facts_of(mesh, numbers, runs, path_);
   cells_.append(xdmf_cells_text(facts));
   file_.append(xdmf_text(facts));
-  numbers_.commit({.groups = {meshes, tags}});
-  write_label_table(path_, mesh.table(), mesh.names(), numbers);
-  write_facet_table(path_, mesh.table(), runs);
-  cells_.commit();
-  file_.commit();
+  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  append_facet_table(facets_, mesh.table(), runs);
+  AtomicFile& data = numbers_.finish({.groups = {meshes, tags}});
+  commit_together({data, labels_, facets_, cells_, file_});
 }
 
 Hdf5DataSet XdmfWriter::nodes(GroupedMesh& mesh) {

@@ -43,6 +43,8 @@ class XdmfWriter : public GroupedWriter {
   AtomicFile file_;
   AtomicFile cells_;
   Hdf5Output numbers_;
+  AtomicFile labels_;
+  AtomicFile facets_;
 };
 
 /// M.h5 of M.xdmf, and M.cells.xdmf.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "io/file/commit_together.h"
 #include "io/file/errors.h"
 
 namespace mw::io {
@@ -55,8 +56,7 @@ void ObjSink::write_triangles(std::span<const Triangle> triangles) {
   }
 }
 
-void ObjSink::append_materials() {
-  AtomicFile file(materials_path_);
+void ObjSink::append_materials(AtomicFile& file) {
   std::set<Label> inside;
   for (const SurfaceShell& shell : header_.shells) {
     for (const SurfaceRun& run : shell.runs) inside.insert(run.inside);
@@ -67,12 +67,13 @@ void ObjSink::append_materials() {
     for (std::size_t i = 0; i < 3; ++i) file.append(text(" ", colour[i] / 255.0));
     file.append(text("\nd ", colour[3] / 255.0, "\n"));
   }
-  file.commit();
 }
 
 void ObjSink::finish() {
-  if (colours_) append_materials();
-  file_.commit();
+  if (!colours_) return file_.commit();
+  AtomicFile materials(materials_path_);
+  append_materials(materials);
+  commit_together({materials, file_});
 }
 
 }  // namespace mw::io

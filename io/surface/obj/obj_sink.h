@@ -22,7 +22,7 @@ class ObjSink : public SurfaceSink {
 
  private:
   void append_group();
-  void append_materials();
+  void append_materials(AtomicFile& file);
 
   std::filesystem::path materials_path_;
   AtomicFile file_;

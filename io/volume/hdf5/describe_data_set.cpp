@@ -53,7 +53,7 @@ class Describer {
       default:
         fail("its storage is unknown", kDamaged);
     }
-    find_place(hdf5_, set_.get(), out_);
+    find_place(hdf5_, set_.get(), source_.bytes->name(), out_);
     return std::move(out_);
   }
 

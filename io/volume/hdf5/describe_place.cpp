@@ -3,10 +3,13 @@
 // Reads the attributes and small data sets that tell spacing and origin.
 #include "io/volume/hdf5/describe_place.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "io/file/errors.h"
 #include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/library_errors.h"
 
 namespace mw::io {
 namespace {
@@ -14,60 +17,104 @@ namespace {
 constexpr hssize_t kMostNumbers = H5S_MAX_RANK;
 constexpr std::size_t kMostTextBytes = 1 << 14;
 
-/// Whether the type and space are those of a few numbers; how many.
-std::size_t few_numbers(hid_t type_id, hid_t space_id) {
-  const Hdf5Handle type(type_id, &H5Tclose);
-  const Hdf5Handle space(space_id, &H5Sclose);
-  if (!type.valid() || !space.valid()) return 0;
-  const H5T_class_t kind = H5Tget_class(type.get());
-  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  const bool numbers = kind == H5T_INTEGER || kind == H5T_FLOAT;
-  return numbers && count > 0 && count <= kMostNumbers ? static_cast<std::size_t>(count) : 0;
-}
+/// Looks things up by name.  None is an answer; a look-up that fails is damage.
+class Reader {
+ public:
+  explicit Reader(std::string_view file) : file_(file) {}
 
-std::vector<double> attribute_numbers(hid_t object, const char* name) {
-  if (H5Aexists(object, name) <= 0) return {};
-  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), &H5Aclose);
-  if (!attribute.valid()) return {};
-  std::vector<double> out(few_numbers(H5Aget_type(attribute.get()), H5Aget_space(attribute.get())));
-  if (out.empty() || H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, out.data()) < 0) return {};
-  return out;
-}
-
-std::vector<double> data_set_numbers(hid_t group, const char* name) {
-  if (H5Lexists(group, name, H5P_DEFAULT) <= 0) return {};
-  const Hdf5Handle set(H5Dopen2(group, name, H5P_DEFAULT), &H5Dclose);
-  if (!set.valid()) return {};
-  std::vector<double> out(few_numbers(H5Dget_type(set.get()), H5Dget_space(set.get())));
-  if (out.empty() ||
-      H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) {
-    return {};
+  [[nodiscard]] bool has_attribute(hid_t object, const char* name) const {
+    return demand(H5Aexists(object, name), name) > 0;
   }
-  return out;
-}
 
-/// A string of fixed or of variable length.
-std::string attribute_text(hid_t object, const char* name) {
-  if (H5Aexists(object, name) <= 0) return {};
-  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), &H5Aclose);
-  const Hdf5Handle type(H5Aget_type(attribute.get()), &H5Tclose);
-  const Hdf5Handle space(H5Aget_space(attribute.get()), &H5Sclose);
-  if (!type.valid() || H5Tget_class(type.get()) != H5T_STRING) return {};
-  if (H5Sget_simple_extent_npoints(space.get()) != 1) return {};
-  if (H5Tis_variable_str(type.get()) > 0) {
-    char* text = nullptr;
-    if (H5Aread(attribute.get(), type.get(), static_cast<void*>(&text)) < 0 || text == nullptr)
-      return {};
-    std::string out(text);
-    H5free_memory(text);
+  [[nodiscard]] std::vector<double> attribute_numbers(hid_t object, const char* name) const {
+    if (!has_attribute(object, name)) return {};
+    const Hdf5Handle attribute = opened(H5Aopen(object, name, H5P_DEFAULT), &H5Aclose, name);
+    std::vector<double> out(
+        few_numbers(H5Aget_type(attribute.get()), H5Aget_space(attribute.get()), name));
+    if (!out.empty()) demand(H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, out.data()), name);
+    return out;
+  }
+
+  [[nodiscard]] std::vector<double> data_set_numbers(hid_t group, const char* name) const {
+    const Hdf5Handle set = object(group, name);
+    if (!set.valid() || H5Iget_type(set.get()) != H5I_DATASET) return {};
+    std::vector<double> out(few_numbers(H5Dget_type(set.get()), H5Dget_space(set.get()), name));
+    if (!out.empty()) {
+      demand(H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()),
+             name);
+    }
+    return out;
+  }
+
+  /// A string of fixed or of variable length.
+  [[nodiscard]] std::string attribute_text(hid_t object, const char* name) const {
+    if (!has_attribute(object, name)) return {};
+    const Hdf5Handle attribute = opened(H5Aopen(object, name, H5P_DEFAULT), &H5Aclose, name);
+    const Hdf5Handle type = opened(H5Aget_type(attribute.get()), &H5Tclose, name);
+    const Hdf5Handle space = opened(H5Aget_space(attribute.get()), &H5Sclose, name);
+    if (H5Tget_class(type.get()) != H5T_STRING) return {};
+    if (demand(H5Sget_simple_extent_npoints(space.get()), name) != 1) return {};
+    if (demand(H5Tis_variable_str(type.get()), name) > 0) {
+      return variable_text(attribute.get(), type.get(), name);
+    }
+    const std::size_t size = H5Tget_size(type.get());
+    if (size > kMostTextBytes) return {};
+    std::string out(size, '\0');
+    demand(H5Aread(attribute.get(), type.get(), out.data()), name);
+    return out.substr(0, out.find('\0'));
+  }
+
+  /// Empty when there is none, and of a link that leads nowhere or to another file.
+  [[nodiscard]] Hdf5Handle object(hid_t group, const char* name) const {
+    if (demand(H5Lexists(group, name, H5P_DEFAULT), name) <= 0) return {};
+    H5L_info_t link{};
+    demand(H5Lget_info(group, name, &link, H5P_DEFAULT), name);
+    if (link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT) return {};
+    if (demand(H5Oexists_by_name(group, name, H5P_DEFAULT), name) <= 0) return {};
+    return opened(H5Oopen(group, name, H5P_DEFAULT), &H5Oclose, name);
+  }
+
+  [[nodiscard]] Hdf5Handle group(hid_t hdf5, const std::string& path) const {
+    return opened(H5Gopen2(hdf5, path.c_str(), H5P_DEFAULT), &H5Gclose, path.c_str());
+  }
+
+ private:
+  /// What the library returned, unless it is negative: it failed.
+  template <class Result>
+  Result demand(Result result, const char* name) const {
+    if (result < 0) {
+      fail_input(file_, name, text("cannot be read: ", hdf5_reason()),
+                 "the file is damaged: check it with h5dump, or h5repack it");
+    }
+    return result;
+  }
+
+  [[nodiscard]] Hdf5Handle opened(hid_t id, Hdf5Handle::Close close, const char* name) const {
+    return {demand(id, name), close};
+  }
+
+  /// How many numbers the type and space are those of; 0 when they are none, or many.
+  [[nodiscard]] std::size_t few_numbers(hid_t type_id, hid_t space_id, const char* name) const {
+    const Hdf5Handle type(type_id, &H5Tclose);
+    const Hdf5Handle space(space_id, &H5Sclose);
+    demand(std::min(type_id, space_id), name);
+    const H5T_class_t kind = H5Tget_class(type.get());
+    const hssize_t count = demand(H5Sget_simple_extent_npoints(space.get()), name);
+    const bool numbers = kind == H5T_INTEGER || kind == H5T_FLOAT;
+    return numbers && count <= kMostNumbers ? static_cast<std::size_t>(count) : 0;
+  }
+
+  [[nodiscard]] std::string variable_text(hid_t attribute, hid_t type, const char* name) const {
+    char* bytes = nullptr;
+    demand(H5Aread(attribute, type, static_cast<void*>(&bytes)), name);
+    if (bytes == nullptr) return {};
+    std::string out(bytes);
+    H5free_memory(bytes);
     return out.size() <= kMostTextBytes ? out : std::string();
   }
-  const std::size_t size = H5Tget_size(type.get());
-  if (size == 0 || size > kMostTextBytes) return {};
-  std::string out(size, '\0');
-  if (H5Aread(attribute.get(), type.get(), out.data()) < 0) return {};
-  return out.substr(0, out.find('\0'));
-}
+
+  std::string_view file_;
+};
 
 void keep(Hdf5Description& description, const char* name, std::vector<double> numbers) {
   if (!numbers.empty()) description.numbers[name] = std::move(numbers);
@@ -75,35 +122,34 @@ void keep(Hdf5Description& description, const char* name, std::vector<double> nu
 
 /// The geometry of DREAM.3D: a group `_SIMPL_GEOMETRY` of data sets up to version 7, attributes of
 /// the image's group from version 8 on.  Whether there is one.
-bool find_geometry(hid_t group, Hdf5Description& out) {
-  if (H5Aexists(group, "_SPACING") > 0) {
-    keep(out, "DIMENSIONS", attribute_numbers(group, "_DIMENSIONS"));
-    keep(out, "SPACING", attribute_numbers(group, "_SPACING"));
-    keep(out, "ORIGIN", attribute_numbers(group, "_ORIGIN"));
+bool find_geometry(const Reader& reader, hid_t group, Hdf5Description& out) {
+  if (reader.has_attribute(group, "_SPACING")) {
+    keep(out, "DIMENSIONS", reader.attribute_numbers(group, "_DIMENSIONS"));
+    keep(out, "SPACING", reader.attribute_numbers(group, "_SPACING"));
+    keep(out, "ORIGIN", reader.attribute_numbers(group, "_ORIGIN"));
     return true;
   }
-  if (H5Lexists(group, "_SIMPL_GEOMETRY", H5P_DEFAULT) <= 0) return false;
-  const Hdf5Handle geometry(H5Gopen2(group, "_SIMPL_GEOMETRY", H5P_DEFAULT), &H5Gclose);
-  if (!geometry.valid()) return false;
-  keep(out, "DIMENSIONS", data_set_numbers(geometry.get(), "DIMENSIONS"));
-  keep(out, "SPACING", data_set_numbers(geometry.get(), "SPACING"));
-  keep(out, "ORIGIN", data_set_numbers(geometry.get(), "ORIGIN"));
+  const Hdf5Handle geometry = reader.object(group, "_SIMPL_GEOMETRY");
+  if (!geometry.valid() || H5Iget_type(geometry.get()) != H5I_GROUP) return false;
+  keep(out, "DIMENSIONS", reader.data_set_numbers(geometry.get(), "DIMENSIONS"));
+  keep(out, "SPACING", reader.data_set_numbers(geometry.get(), "SPACING"));
+  keep(out, "ORIGIN", reader.data_set_numbers(geometry.get(), "ORIGIN"));
   return true;
 }
 
 }  // namespace
 
-void find_place(hid_t hdf5, hid_t set, Hdf5Description& description) {
+void find_place(hid_t hdf5, hid_t set, std::string_view file, Hdf5Description& description) {
+  const Reader reader(file);
   for (const char* name : {"resolution", "offset", "element_size_um"}) {
-    keep(description, name, attribute_numbers(set, name));
+    keep(description, name, reader.attribute_numbers(set, name));
   }
-  description.axistags = attribute_text(set, "axistags");
+  description.axistags = reader.attribute_text(set, "axistags");
   std::string path = description.path;
   while (path.rfind('/') != std::string::npos && path.size() > 1) {
     path.resize(path.rfind('/'));
-    const Hdf5Handle group(H5Gopen2(hdf5, path.empty() ? "/" : path.c_str(), H5P_DEFAULT),
-                           &H5Gclose);
-    if (group.valid() && find_geometry(group.get(), description)) return;
+    const Hdf5Handle group = reader.group(hdf5, path.empty() ? "/" : path);
+    if (find_geometry(reader, group.get(), description)) return;
   }
 }
 

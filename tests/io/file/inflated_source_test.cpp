@@ -91,6 +91,32 @@ TEST(InflatedSource, DoesNotGoBeyondWhatIsAskedFor) {
   EXPECT_EQ(read_text(*source, 0, 500), content.substr(0, 500));
 }
 
+/// A few bytes that would be many on the disk.
+TEST(InflatedSource, UnpacksNoMoreThanItMay) {
+  const TempDir dir;
+  constexpr std::size_t kMost = 3 << 20;
+  const std::string fits = random_text(kMost).substr(0, kMost);
+  for (const std::size_t more : {std::size_t{0}, std::size_t{1}, std::size_t{60} << 20}) {
+    const auto path = dir.file("a.gz", gzip(fits + std::string(more, 'x')));
+    const InflatedSource source(std::make_unique<FileSource>(path), 0, kMost);
+    EXPECT_EQ(read_text(source, 1'000'000, 500), fits.substr(1'000'000, 500));
+    if (more == 0) {
+      EXPECT_EQ(source.size(), kMost);
+      continue;
+    }
+    for (int again = 0; again < 2; ++again) {
+      expect_error(ErrorKind::kResource, {"a.gz", "more than 3145728 bytes", "TMPDIR"},
+                   [&] { static_cast<void>(source.size()); });
+    }
+    EXPECT_LE(std::filesystem::file_size(path), 5U << 20);
+  }
+}
+
+TEST(InflatedSource, LeavesSomeOfTheDisk) {
+  const std::uint64_t free = std::filesystem::space(scratch_folder()).available;
+  EXPECT_LT(room_to_inflate(), free - free / 10);
+}
+
 TEST(InflatedSource, WhatIsNoGzipIsRefused) {
   const TempDir dir;
   const auto path = dir.file("a", "0123456789");

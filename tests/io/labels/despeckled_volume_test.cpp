@@ -183,33 +183,96 @@ TEST(DespeckledVolume, LeavesNothingButSpecksAsItIs) {
   EXPECT_EQ(despeckled.facts().rounds, 0);
 }
 
-/// 2,000 specks of one voxel in a block of zeros.
+/// 4,000 specks of one voxel in a block of zeros.
 MemoryVolume dusty() {
-  std::vector<RawLabel> labels(40 * 40 * 20);
+  std::vector<RawLabel> labels(40 * 40 * 40);
   std::size_t specks = 0;
-  for (std::size_t i = 0; i < labels.size() && specks < 2000; i += 2) {
+  for (std::size_t i = 0; i < labels.size() && specks < 4000; i += 2) {
     const bool even_row = i / 40 % 2 == 0, even_plane = i / 1600 % 2 == 0;
     if (even_row && even_plane) labels[i] = 1 + specks++;
   }
-  EXPECT_EQ(specks, 2000U);
-  return {{40, 40, 20}, VoxelType::kU32, std::move(labels)};
+  EXPECT_EQ(specks, 4000U);
+  return {{40, 40, 40}, VoxelType::kU32, std::move(labels)};
 }
 
 TEST(DespeckledVolume, RefusesMoreSpecksThanMemoryHolds) {
   const MemoryVolume volume = dusty();
   const DespeckledVolume budget_is_ample(volume, {2, false}, {.memory = 1 << 20});
-  EXPECT_EQ(budget_is_ample.facts().components, 2000U);
-  EXPECT_GE(budget_is_ample.held_bytes(), 2000U * sizeof(SpeckRun));
+  EXPECT_EQ(budget_is_ample.facts().components, 4000U);
+  EXPECT_GE(budget_is_ample.held_bytes(), 4000U * sizeof(SpeckRun));
   EXPECT_LE(budget_is_ample.held_bytes(), 1U << 17U);
   // The runs alone, then their contacts, then two planes of the volume.
-  for (const std::uint64_t memory : {75'000U, 100'000U}) {
-    expect_error(ErrorKind::kResource, {"--drop-specks 2", "2000 components", "--memory"}, [&] {
-      DespeckledVolume(volume, {2, false}, {.memory = memory});
-    });
+  for (const std::uint64_t memory : {150'000U, 200'000U}) {
+    expect_error(ErrorKind::kResource,
+                 {"--drop-specks 2", "4000 components", "--memory 2MiB is enough"}, [&] {
+                   DespeckledVolume(volume, {2, false}, {.memory = memory, .is_of_budget = true});
+                 });
   }
-  expect_error(ErrorKind::kResource, {"--drop-specks", "slices", "--memory"}, [&] {
-    DespeckledVolume(volume, {2, false}, {.memory = 5000});
+  expect_error(ErrorKind::kResource, {"--drop-specks", "slices", "takes --memory 1MiB"}, [&] {
+    DespeckledVolume(volume, {2, false}, {.memory = 5000, .is_of_budget = true});
   });
+}
+
+/// The error of a search within so much memory; empty when there is none.
+std::string error_of(const MemoryVolume& volume, const SpeckRule& rule, std::uint64_t memory) {
+  try {
+    const DespeckledVolume despeckled(volume, rule, {.memory = memory});
+    return {};
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+    return error.what();
+  }
+}
+
+/// The bytes that the error asks for.
+std::uint64_t asked_in(const std::string& message) {
+  const std::size_t at = message.find("they take ");
+  return at == message.npos ? 0 : std::stoull(message.substr(at + 10));
+}
+
+/// The least that works, by trial.
+std::uint64_t least_of(const MemoryVolume& volume, const SpeckRule& rule, std::uint64_t works) {
+  std::uint64_t fails = 0;
+  while (works - fails > 1) {
+    const std::uint64_t memory = fails + (works - fails) / 2;
+    (error_of(volume, rule, memory).empty() ? works : fails) = memory;
+  }
+  return works;
+}
+
+/// From next to nothing by the advice of errors; how many times the least it ends in.  Slices are
+/// told of one by one, specks at once.
+double advice_to_least(const MemoryVolume& volume, const SpeckRule& rule) {
+  std::uint64_t memory = 1;
+  bool is_last = false;
+  for (;;) {
+    const std::string error = error_of(volume, rule, memory);
+    if (error.empty()) break;
+    EXPECT_FALSE(is_last) << error;
+    is_last = error.find("components are smaller") != error.npos;
+    EXPECT_GT(asked_in(error), memory) << error;
+    memory = std::max(asked_in(error), memory + 1);
+  }
+  return static_cast<double>(memory) / static_cast<double>(least_of(volume, rule, memory));
+}
+
+TEST(DespeckledVolume, WhatAnErrorAsksForWorks) {
+  std::mt19937 random(31);
+  double worst = 1;
+  for (std::uint32_t i = 0; i < 2 * audit::test::kVolumeKinds && !HasFailure(); ++i) {
+    const auto kind = static_cast<audit::test::VolumeKind>(i % audit::test::kVolumeKinds);
+    const SmallVolume small = audit::test::random_volume_of(random, kind, {23, 17, 19}, 6);
+    const MemoryVolume volume = volume_of(small, VoxelType::kI64, kRaw);
+    for (const SpeckRule rule : {SpeckRule{2, false}, {9, false}, {3, true}, {1000, true}}) {
+      SCOPED_TRACE(std::to_string(i) + " least " + std::to_string(rule.least));
+      worst = std::max(worst, advice_to_least(volume, rule));
+    }
+  }
+  EXPECT_LE(worst, 2.5) << "it is far from the least";
+}
+
+TEST(DespeckledVolume, OfDustTheErrorAsksForTheLeast) {
+  EXPECT_LE(advice_to_least(dusty(), {2, false}), 1.4);
 }
 
 }  // namespace

@@ -237,6 +237,13 @@ TEST(GroupNames, NamesOfLabelsAreUniqueAndSidesShareOne) {
   EXPECT_EQ(plain_volume_name(LabelTable({static_cast<RawLabel>(-5)}, true), 0), "LABEL_M5");
 }
 
+void write_label_table(const std::filesystem::path& mesh, const LabelTable& table,
+                       const LabelNames& names, const LabelNumbers& numbers) {
+  AtomicFile file(label_table_path(mesh));
+  append_label_table(file, table, names, numbers);
+  file.commit();
+}
+
 TEST(LabelNumbers, KeepWhatFitsAndComeBack) {
   const TempDir dir;
   const auto path = dir.path() / "m.msh";

@@ -79,6 +79,61 @@ TEST(Hdf5Damage, Truncation) {
   }
 }
 
+/// Cell data of DREAM.3D 7, whose spacing is in data sets of their own, and axes told by a text
+/// that lies apart from its attribute.
+std::string placed_file(const TempDir& dir, bool latest) {
+  const auto path = dir.path() / "good.h5";
+  {
+    const Hdf5Handle file = create_hdf5(path, latest);
+    Hdf5Sample sample{.shape = {3, 4, 5}, .layout = H5D_CHUNKED};
+    sample.chunk = {3, 4, 5};
+    const std::string image = "/DataContainers/Image/";
+    write_data_set(file, image + "CellData/FeatureIds", sample, labels_of(sample));
+    const Hdf5Sample numbers{.shape = {3}, .type = VoxelType::kF32};
+    write_data_set(file, image + "_SIMPL_GEOMETRY/SPACING", numbers, {2, 3, 4});
+    write_data_set(file, image + "_SIMPL_GEOMETRY/ORIGIN", numbers, {10, 20, 30});
+    write_text_attribute(file, image + "CellData/FeatureIds", "axistags",
+                         R"({"axes": [{"key": "x"}, {"key": "y"}, {"key": "z"}]})", true);
+  }
+  return content_of(path);
+}
+
+/// Names by which things are looked up: after damage to them there is nothing of that name.
+std::vector<bool> where_names_are(const std::string& bytes) {
+  std::vector<bool> out(bytes.size());
+  for (const std::string name : {"_SIMPL_GEOMETRY", "SPACING", "axistags"}) {
+    for (std::size_t at = bytes.find(name); at != bytes.npos; at = bytes.find(name, at + 1)) {
+      std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(at), name.size() + 1, true);
+    }
+  }
+  return out;
+}
+
+/// What cannot be read is not taken for what is not there: spacing and axes are the file's, be they
+/// damaged, and not those of a file that tells none.
+TEST(Hdf5Damage, WhereItLiesIsNotForgotten) {
+  const TempDir dir;
+  for (const bool latest : {false, true}) {
+    const std::string good = placed_file(dir, latest);
+    const std::vector<bool> named = where_names_are(good);
+    int refused = 0;
+    for (std::size_t at = 0; at < good.size(); at += 4) {
+      if (named[at] || named[std::min(at + 3, good.size() - 1)]) continue;
+      std::string bad = good;
+      bad.replace(at, 4, std::min<std::size_t>(4, good.size() - at), '\xff');
+      try {
+        const VolumeInfo info = open_volume(dir.file("bad.h5", bad))->info();
+        EXPECT_NE(info.space.spacing, (std::array<double, 3>{1, 1, 1})) << latest << " " << at;
+        EXPECT_EQ(info.shape, (Index3{3, 4, 5})) << latest << " " << at;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::kInput) << error.what();
+        ++refused;
+      }
+    }
+    EXPECT_GT(refused, 20);
+  }
+}
+
 TEST(Hdf5Damage, OtherFilesAndMeshes) {
   const TempDir dir;
   const auto refuse = [&](const std::filesystem::path& path,
