@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/audit/part_graph.h"
+#include "kernels/audit/regions.h"
 #include "kernels/audit/subject.h"
 
 namespace mw::engine {
@@ -56,6 +57,10 @@ class TileLabels {
   void to_whole(audit::PartsPiece& piece) const {
     for (Label& label : piece.part_class) label = of_whole(label);
     for (audit::ClassCells& cells : piece.cells) cells.label = of_whole(cells.label);
+  }
+  void to_whole(audit::RegionsPiece& piece) const {
+    for (audit::RegionTally& tally : piece.tallies) tally.label = of_whole(tally.label);
+    for (audit::OpenSet& set : piece.open) set.label = of_whole(set.label);
   }
 
  private:

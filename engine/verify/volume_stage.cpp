@@ -12,6 +12,7 @@
 #include "engine/verify/tile_labels.h"
 #include "kernels/audit/distance_tile.h"
 #include "kernels/audit/layered_labels.h"
+#include "kernels/audit/parts_union.h"
 #include "kernels/core/layers.h"
 
 namespace mw::engine {
