@@ -26,12 +26,6 @@ std::string failures(const audit::AuditReport& report) {
 }
 
 std::string obstacle(const MeshRequest& request) {
-  if (request.choice.labels || request.choice.background) {
-    return "labels are left out: such a mesh is checked as a whole, see verify";
-  }
-  if (request.settings.topology == KeptTopology::kInterfaces) {
-    return "interfaces are counted in a mesh as a whole, see verify";
-  }
   if (*request.memory / 4 < kShared + kPerThread) {
     return "needs --memory " + format_bytes(4 * (kShared + kPerThread)) + " or more";
   }
@@ -57,6 +51,7 @@ Certifier::Certifier(const CertificatePlan& plan, const MeshRequest& request,
                      const io::DenseVolume& volume, io::MeshSink& sink)
     : volume_(volume),
       folder_(request.output.parent_path().empty() ? "." : request.output.parent_path()),
+      kept_(kept_labels(request.choice, volume.table())),
       tiles_(volume.info(), volume.table(), {folder_, kShared / 4}),
       sink_(sink, tiles_, plan.memory_bytes, [this, plan] { certify(plan); }) {}
 
@@ -68,6 +63,8 @@ void Certifier::certify(const CertificatePlan& plan) {
                           .folder = folder_,
                           .between = [] { stop_if_interrupted(); }};
   task.options.max_volume_error.reset();
+  task.options.kept = kept_;
+  task.options.count_places = task.options.count_places && kept_.empty();
   report_ = engine::verify_mesh(volume_, tiles_, task);
   if (report_->passed()) return;
   throw Error(ErrorKind::kCheckFailed,

@@ -40,6 +40,7 @@ class Certifier {
 
   const io::DenseVolume& volume_;
   std::filesystem::path folder_;
+  audit::KeptLabels kept_;
   engine::MeshTiles tiles_;
   engine::CertifiedSink sink_;
   std::optional<audit::AuditReport> report_;

@@ -29,6 +29,7 @@ struct TileFindings {
   audit::PartsPiece parts;
   std::vector<SharedTet> shared;
   audit::RegionsPiece regions;  ///< of a mesh with gaps, instead of parts
+  audit::PlacesPiece places;
   audit::Offenders turned{"tets"};
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
@@ -49,12 +50,13 @@ double of_ordered_bits(std::uint64_t bits) {
 class MeshStage {
  public:
   MeshStage(const MeshTiles& mesh, std::size_t label_count, const audit::ValidityTask& validity,
-            const VerifyTask& task, PieceBuckets* pieces)
+            const VerifyTask& task, const InterfaceSinks& sinks)
       : mesh_(mesh),
         label_count_(label_count),
         validity_(validity),
         task_(task),
-        pieces_(pieces),
+        pieces_(sinks.pieces),
+        places_(sinks.places),
         lattice_(audit::layered_frame(validity.frame, task.options.layers)),
         lattice_shape_(layered_shape(validity.shape, task.options.layers)),
         parts_(label_count),
@@ -78,8 +80,8 @@ class MeshStage {
     } else {
       links_.unite(parts_);
       found_.betti = parts_.betti_of_mesh();
+      if (places_ != nullptr) places_->close(PlaceLedger::Side::kMesh, parts_.cavities());
     }
-    if (task_.options.count_places) look_at_whole();
     return std::move(found_);
   }
 
@@ -105,6 +107,10 @@ class MeshStage {
     out.shape = audit::measure_shape(stars);
     out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
     if (pieces_ != nullptr) take_triangles(stars, out);
+    if (places_ != nullptr) {
+      out.places = audit::mesh_places(stars, loaded.names.size());
+      loaded.names.to_whole(out.places);
+    }
     return out;
   }
 
@@ -143,6 +149,7 @@ class MeshStage {
     for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
     regions_.add(found.regions);
     for (const audit::InterfaceTriangle& t : found.triangles) pieces_->add(tile, t);
+    if (places_ != nullptr) places_->add(PlaceLedger::Side::kMesh, found.places);
     for (const audit::LineCrossing& c : found.crossings) {
       crossings_.add({c.column, ordered_bits(c.z), ordered_bits(c.enters)});
     }
@@ -157,23 +164,12 @@ class MeshStage {
     found_.overlap = check.verdict();
   }
 
-  /// What is not told by tiles one at a time.
-  void look_at_whole() {
-    const LoadedMesh loaded = mesh_.load_all();
-    const audit::AuditMesh mesh = loaded.view().mesh;
-    std::vector<Label> labels(mesh.labels.begin(), mesh.labels.end());
-    for (Label& label : labels) {
-      if (label != audit::kUnknown) label = loaded.names.of_whole(label);
-    }
-    const audit::AuditMesh whole{mesh.vertices, mesh.tets, labels};
-    found_.places = audit::mesh_places(whole, label_count_);
-  }
-
   const MeshTiles& mesh_;
   std::size_t label_count_;
   const audit::ValidityTask& validity_;
   const VerifyTask& task_;
   PieceBuckets* pieces_;
+  PlaceLedger* places_;
   audit::Frame lattice_;
   Index3 lattice_shape_;
   MeshFindings found_;
@@ -187,8 +183,8 @@ class MeshStage {
 
 MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
                           const audit::ValidityTask& validity, const VerifyTask& task,
-                          PieceBuckets* pieces) {
-  return MeshStage(mesh, label_count, validity, task, pieces).run();
+                          const InterfaceSinks& sinks) {
+  return MeshStage(mesh, label_count, validity, task, sinks).run();
 }
 
 }  // namespace mw::engine
