@@ -49,17 +49,14 @@ void PlaceCounter::add_face(const PlaceLabels& pair) {
   ++euler_[id(pair)];
 }
 
-std::uint32_t PlaceCounter::row(std::uint64_t node) {
-  const std::vector<std::uint64_t>& nodes = nodes_.sorted();
-  return static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
-                                    nodes.begin());
-}
-
-DisjointSets PlaceCounter::link() {
-  const std::vector<std::uint64_t>& nodes = nodes_.sorted();
+DisjointSets PlaceCounter::link(const std::vector<std::uint64_t>& nodes) {
   if (nodes.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorKind::kResource, "audit: more than 2^32 vertices on interfaces; audit parts");
   }
+  const auto row = [&](std::uint64_t node) {
+    const auto found = std::lower_bound(nodes.begin(), nodes.end(), node);
+    return static_cast<std::uint32_t>(found - nodes.begin());
+  };
   DisjointSets sets(nodes.size());
   for (const Link& link : links_.sorted()) {
     sets.unite(row(link.a), row(link.b));
@@ -72,13 +69,13 @@ DisjointSets PlaceCounter::link() {
 }
 
 void PlaceCounter::take(PlaceKind kind, PlacesPiece& out) {
-  DisjointSets sets = link();
+  const std::vector<std::uint64_t>& nodes = nodes_.sorted();
+  DisjointSets sets = link(nodes);
   std::vector<std::uint32_t> tally_of(ids_.size());
   for (const auto& [place, id] : ids_) {
     tally_of[id] = static_cast<std::uint32_t>(out.tallies.size());
     out.tallies.push_back({place, kind, 0, euler_[id]});
   }
-  const std::vector<std::uint64_t>& nodes = nodes_.sorted();
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(nodes.size(), kNone);
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {

@@ -77,10 +77,8 @@ class PlaceCounter {
   [[nodiscard]] std::uint64_t node(const PlaceLabels& place, std::uint64_t v) {
     return id(place) * vertices_.count() + v;
   }
-  /// Of a node, among all of them.
-  [[nodiscard]] std::uint32_t row(std::uint64_t node);
-  /// Connected sets of nodes; counts vertices and edges.
-  [[nodiscard]] DisjointSets link();
+  /// Connected sets of all nodes, ascending; counts vertices and edges.
+  [[nodiscard]] DisjointSets link(const std::vector<std::uint64_t>& nodes);
 
   const PlaceVertices& vertices_;
   std::map<PlaceLabels, std::uint64_t> ids_;

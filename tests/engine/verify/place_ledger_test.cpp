@@ -95,7 +95,7 @@ void expect_same(const std::vector<audit::PlaceChange>& tiled,
 TEST(PlaceLedger, TellsWhatTheWholeTellsWhateverTheTiles) {
   std::mt19937 random(31);
   std::size_t changed = 0;
-  for (int trial = 0; trial < 600 && !HasFailure(); ++trial) {
+  for (int trial = 0; trial < 250 && !HasFailure(); ++trial) {
     const Case c = random_case(random);
     const std::size_t labels = c.volume.label_count;
     SCOPED_TRACE("trial " + std::to_string(trial) + "\n" + c.volume.text());
@@ -118,7 +118,7 @@ TEST(PlaceLedger, TellsWhatTheWholeTellsWhateverTheTiles) {
     expect_same(tiled.meetings_changed, whole.meetings_changed);
     changed += whole.meetings_changed.size();
   }
-  EXPECT_GT(changed, 1000U);
+  EXPECT_GT(changed, 500U);
 }
 
 }  // namespace
