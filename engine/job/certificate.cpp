@@ -26,12 +26,6 @@ std::string failures(const audit::AuditReport& report) {
 }
 
 std::string obstacle(const MeshJob& job) {
-  if (job.choice.labels || job.choice.background) {
-    return "labels are left out: such a mesh is checked as a whole, see verify";
-  }
-  if (job.settings.topology == KeptTopology::kInterfaces) {
-    return "interfaces are counted in a mesh as a whole, see verify";
-  }
   if (job.memory / 4 < kShared + kPerThread) {
     return "needs --memory " + report::format_bytes(4 * (kShared + kPerThread)) + " or more";
   }
@@ -58,6 +52,7 @@ Certifier::Certifier(const CertificatePlan& plan, const MeshJob& job, const io::
     : volume_(volume),
       folder_(job.folder.empty() ? "." : job.folder),
       stop_(std::move(stop)),
+      kept_(kept_labels(job.choice, volume.table())),
       tiles_(volume.info(), volume.table(), {folder_, kShared / 4}),
       sink_(sink, tiles_, plan.memory_bytes, [this, plan] { certify(plan); }) {}
 
@@ -69,6 +64,8 @@ void Certifier::certify(const CertificatePlan& plan) {
                   .folder = folder_,
                   .between = stop_};
   task.options.max_volume_error.reset();
+  task.options.kept = kept_;
+  task.options.count_places = task.options.count_places && kept_.empty();
   report_ = verify_mesh(volume_, tiles_, task);
   if (report_->passed()) return;
   throw Error(ErrorKind::kCheckFailed,

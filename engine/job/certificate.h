@@ -32,6 +32,7 @@ class Certifier {
   const io::DenseVolume& volume_;
   std::filesystem::path folder_;
   std::function<void()> stop_;
+  audit::KeptLabels kept_;
   MeshTiles tiles_;
   CertifiedSink sink_;
   std::optional<audit::AuditReport> report_;

@@ -15,7 +15,7 @@
 namespace mw::engine {
 
 enum class Certify {
-  kAuto,  ///< where memory allows it and the mesh need not be looked at as a whole
+  kAuto,  ///< where memory allows it
   kOn,
   kOff,
 };

@@ -6,11 +6,11 @@
 #include <bit>
 
 #include "engine/verify/in_order.h"
-#include "engine/verify/part_links.h"
+#include "engine/verify/region_links.h"
 #include "kernels/audit/kept_orientation.h"
 #include "kernels/audit/layered_labels.h"
 #include "kernels/audit/overlap.h"
-#include "kernels/audit/region_betti.h"
+#include "kernels/audit/parts_union.h"
 #include "kernels/core/layers.h"
 
 namespace mw::engine {
@@ -28,6 +28,8 @@ struct TileFindings {
   audit::ValidityTally validity;
   audit::PartsPiece parts;
   std::vector<SharedTet> shared;
+  audit::RegionsPiece regions;  ///< of a mesh with gaps, instead of parts
+  audit::PlacesPiece places;
   audit::Offenders turned{"tets"};
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
@@ -48,16 +50,18 @@ double of_ordered_bits(std::uint64_t bits) {
 class MeshStage {
  public:
   MeshStage(const MeshTiles& mesh, std::size_t label_count, const audit::ValidityTask& validity,
-            const VerifyTask& task, PieceBuckets* pieces)
+            const VerifyTask& task, const InterfaceSinks& sinks)
       : mesh_(mesh),
         label_count_(label_count),
         validity_(validity),
         task_(task),
-        pieces_(pieces),
+        pieces_(sinks.pieces),
+        places_(sinks.places),
         lattice_(audit::layered_frame(validity.frame, task.options.layers)),
         lattice_shape_(layered_shape(validity.shape, task.options.layers)),
         parts_(label_count),
         links_(task.folder, task.memory_bytes / 8),
+        regions_(label_count, task.folder, task.memory_bytes / 8),
         crossings_(task.folder, task.memory_bytes / 8) {
     found_.validity.label_volumes.resize(label_count + 1);
     found_.validity.in_mesh.resize(label_count + 1);
@@ -72,11 +76,12 @@ class MeshStage {
     found_.validity.unused.add(mesh_.unused());
     if (validity_.has_gaps) {
       judge_lines();
+      found_.betti = regions_.betti();
     } else {
       links_.unite(parts_);
       found_.betti = parts_.betti_of_mesh();
+      if (places_ != nullptr) places_->close(PlaceLedger::Side::kMesh, parts_.cavities());
     }
-    if (validity_.has_gaps || task_.options.count_places) look_at_whole();
     return std::move(found_);
   }
 
@@ -93,13 +98,19 @@ class MeshStage {
     if (!loaded.written.empty()) {
       out.turned = audit::changed_orientations(view, loaded.written, mesh_.is_mirrored());
     }
-    if (!validity_.has_gaps) take_parts(loaded, stars, out);
-    if (validity_.has_gaps)
-      out.crossings = audit::line_crossings(stars, validity_.frame, validity_.shape);
+    if (validity_.has_gaps) {
+      take_regions(loaded, stars, out);
+    } else {
+      take_parts(loaded, stars, out);
+    }
     out.quality = audit::tally_quality(view);
     out.shape = audit::measure_shape(stars);
     out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
     if (pieces_ != nullptr) take_triangles(stars, out);
+    if (places_ != nullptr) {
+      out.places = audit::mesh_places(stars, loaded.names.size());
+      loaded.names.to_whole(out.places);
+    }
     return out;
   }
 
@@ -111,6 +122,13 @@ class MeshStage {
     for (std::size_t t = 0; t < loaded.tets.size(); ++t) {
       if (loaded.is_shared[t]) out.shared.push_back({loaded.tet_ids[t], parts.part_of_tet[t]});
     }
+  }
+
+  void take_regions(const LoadedMesh& loaded, const audit::MeshStars& stars,
+                    TileFindings& out) const {
+    out.regions = audit::regions_of(stars, loaded.names.size());
+    loaded.names.to_whole(out.regions);
+    out.crossings = audit::line_crossings(stars, validity_.frame, validity_.shape);
   }
 
   void take_triangles(const audit::MeshStars& stars, TileFindings& out) const {
@@ -129,7 +147,9 @@ class MeshStage {
     found_.volumes.add(found.volumes, found.names.whole());
     const std::uint32_t first = parts_.add(std::move(found.parts));
     for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
+    regions_.add(found.regions);
     for (const audit::InterfaceTriangle& t : found.triangles) pieces_->add(tile, t);
+    if (places_ != nullptr) places_->add(PlaceLedger::Side::kMesh, found.places);
     for (const audit::LineCrossing& c : found.crossings) {
       crossings_.add({c.column, ordered_bits(c.z), ordered_bits(c.enters)});
     }
@@ -144,29 +164,18 @@ class MeshStage {
     found_.overlap = check.verdict();
   }
 
-  /// What is not told by tiles one at a time.
-  void look_at_whole() {
-    const LoadedMesh loaded = mesh_.load_all();
-    const audit::AuditMesh mesh = loaded.view().mesh;
-    std::vector<Label> labels(mesh.labels.begin(), mesh.labels.end());
-    for (Label& label : labels) {
-      if (label != audit::kUnknown) label = loaded.names.of_whole(label);
-    }
-    const audit::AuditMesh whole{mesh.vertices, mesh.tets, labels};
-    if (validity_.has_gaps) found_.betti = audit::region_betti(whole, label_count_);
-    if (task_.options.count_places) found_.places = audit::mesh_places(whole, label_count_);
-  }
-
   const MeshTiles& mesh_;
   std::size_t label_count_;
   const audit::ValidityTask& validity_;
   const VerifyTask& task_;
   PieceBuckets* pieces_;
+  PlaceLedger* places_;
   audit::Frame lattice_;
   Index3 lattice_shape_;
   MeshFindings found_;
   audit::PartsUnion parts_;
   PartLinks links_;
+  RegionLinks regions_;
   io::ExternalSort<3> crossings_;
 };
 
@@ -174,8 +183,8 @@ class MeshStage {
 
 MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
                           const audit::ValidityTask& validity, const VerifyTask& task,
-                          PieceBuckets* pieces) {
-  return MeshStage(mesh, label_count, validity, task, pieces).run();
+                          const InterfaceSinks& sinks) {
+  return MeshStage(mesh, label_count, validity, task, sinks).run();
 }
 
 }  // namespace mw::engine

@@ -5,6 +5,7 @@
 
 #include "engine/verify/mesh_tiles.h"
 #include "engine/verify/piece_buckets.h"
+#include "engine/verify/place_ledger.h"
 #include "engine/verify/verify_task.h"
 
 namespace mw::engine {
@@ -15,16 +16,21 @@ struct MeshFindings {
   std::optional<audit::Check> overlap;  ///< where labels were left out
   audit::Offenders turned{"tets"};      ///< see audit::changed_orientations()
   std::vector<audit::RegionBetti> betti;
-  std::optional<audit::Places> places;  ///< if asked for
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
 };
 
-/// Fills pieces with the interface if that is asked for.  validity: what is asked.
+/// Where interfaces go, if they are asked for.
+struct InterfaceSinks {
+  PieceBuckets* pieces = nullptr;  ///< for distances
+  PlaceLedger* places = nullptr;   ///< not of a mesh with gaps
+};
+
+/// validity: what is asked.  ENSURES: the mesh's side of sinks.places is closed.
 /// REQUIRES: mesh.input_check() passed.
 [[nodiscard]] MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
                                         const audit::ValidityTask& validity, const VerifyTask& task,
-                                        PieceBuckets* pieces);
+                                        const InterfaceSinks& sinks);
 
 }  // namespace mw::engine

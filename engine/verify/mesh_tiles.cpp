@@ -157,13 +157,4 @@ LoadedMesh MeshTiles::load(std::uint32_t tile) const {
   return out;
 }
 
-LoadedMesh MeshTiles::load_all() const {
-  std::vector<Tet> tets;
-  for (std::uint32_t tile = 0; tile < grid_.size(); ++tile) tets_.load(tile, tets);
-  std::sort(tets.begin(), tets.end(), [](const Tet& a, const Tet& b) { return a.id < b.id; });
-  const auto same = [](const Tet& a, const Tet& b) { return a.id == b.id; };
-  tets.erase(std::unique(tets.begin(), tets.end(), same), tets.end());
-  return make(tets);
-}
-
 }  // namespace mw::engine

@@ -69,8 +69,6 @@ class MeshTiles : public io::MeshSink {
 
   /// REQUIRES: finished, and input_check() passed.  Thread-safe.
   [[nodiscard]] LoadedMesh load(std::uint32_t tile) const;
-  /// The whole mesh as one tile that owns all.
-  [[nodiscard]] LoadedMesh load_all() const;
 
  private:
   struct Tet {

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "io/file/external_sort.h"
-#include "kernels/audit/parts_union.h"
-
 namespace mw::engine {
 
 /// Items (tets, voxels) by number, in runs, each in a part of a tile.
@@ -21,8 +19,10 @@ class PartLinks {
   void add(std::uint64_t first, std::uint64_t count, std::uint32_t part) {
     runs_.add({first, count, part});
   }
-  /// Makes all parts one that have an item in common.  REQUIRES: called once.
-  void unite(audit::PartsUnion& parts) {
+  /// Makes all parts one that have an item in common, by parts.unite(a, b).
+  /// REQUIRES: called once.
+  template <class Parts>
+  void unite(Parts& parts) {
     std::vector<Run> open;  // those that reach beyond the last one's beginning
     runs_.each([&](const std::array<std::uint64_t, 3>& record) {
       const Run run{record[0] + record[1], static_cast<std::uint32_t>(record[2])};

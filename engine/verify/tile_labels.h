@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "kernels/audit/part_graph.h"
+#include "kernels/audit/places.h"
+#include "kernels/audit/regions.h"
 #include "kernels/audit/subject.h"
 
 namespace mw::engine {
@@ -56,6 +58,17 @@ class TileLabels {
   void to_whole(audit::PartsPiece& piece) const {
     for (Label& label : piece.part_class) label = of_whole(label);
     for (audit::ClassCells& cells : piece.cells) cells.label = of_whole(cells.label);
+  }
+  void to_whole(audit::RegionsPiece& piece) const {
+    for (audit::RegionTally& tally : piece.tallies) tally.label = of_whole(tally.label);
+    for (audit::OpenSet& set : piece.open) set.label = of_whole(set.label);
+  }
+  void to_whole(audit::PlacesPiece& piece) const {
+    for (audit::PlaceTally& tally : piece.tallies) {
+      for (Label& label : tally.labels) {
+        if (label != audit::kNoLabel) label = of_whole(label);
+      }
+    }
   }
 
  private:

@@ -8,10 +8,10 @@
 
 namespace mw::engine {
 
-/// As audit::audit(), tile by tile: a tile of the mesh, then a tile of the volume with what is near
-/// it, is all that a thread has in memory.  The whole mesh is in memory only where labels were left
-/// out (task.options.kept), mesh and volume where interfaces are counted (count_places).
-/// Memory: besides, 24 bytes a part of a label in a tile, and 8 for each other one that it touches.
+/// A tile of the mesh, then a tile of the volume with what is near it, is all that a thread has in
+/// memory.
+/// Memory: besides, 24 bytes a part of a label in a tile, and 8 for each other one that it touches;
+/// where interfaces are counted, 4 a part of one that goes on in another tile.
 /// ENSURES: the report depends on mesh and volume only, but for distances farther than memory lets
 /// it look (DistanceReport::far_samples); sums are rounded in the order of the tiles.
 /// ERRORS: kResource when a temporary file cannot be written.

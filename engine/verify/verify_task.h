@@ -14,7 +14,7 @@ struct VerifyTask {
   audit::AuditOptions options;
   int threads = 1;
   /// What tiles, sorts and buffers may take together.  More is taken where a tile with its
-  /// interfaces needs more, and for what looks at a mesh as a whole (verify_mesh()).
+  /// interfaces needs more, and for parts of labels (verify_mesh()).
   std::uint64_t memory_bytes = std::uint64_t{256} << 20U;
   std::filesystem::path folder;           ///< of temporary files
   std::function<void()> between = [] {};  ///< called after each tile; may throw

@@ -12,6 +12,7 @@
 #include "engine/verify/tile_labels.h"
 #include "kernels/audit/distance_tile.h"
 #include "kernels/audit/layered_labels.h"
+#include "kernels/audit/parts_union.h"
 #include "kernels/core/layers.h"
 
 namespace mw::engine {
@@ -26,6 +27,7 @@ struct TileDistances {
 struct TileFindings {
   audit::PartsPiece parts;
   std::vector<audit::SharedRun> shared;
+  audit::PlacesPiece places;
   std::vector<std::pair<Label, std::uint64_t>> voxels;
   TileDistances distances;
 };
@@ -58,11 +60,12 @@ Box3 scaled(const Box3& box, Index3 by) {
 class VolumeStage {
  public:
   VolumeStage(const io::DenseVolume& volume, const TileGrid& grid, const VerifyTask& task,
-              const PieceBuckets* pieces)
+              const MeshInterface& mesh)
       : volume_(volume),
         grid_(grid),
         task_(task),
-        pieces_(pieces),
+        pieces_(mesh.pieces),
+        places_(mesh.places),
         label_count_(volume.table().size()),
         layers_(task.options.layers),
         limit_(audit::distance_limit(task.options.max_distance)),
@@ -78,6 +81,7 @@ class VolumeStage {
         [this](std::uint32_t tile, TileFindings&& found) { merge(tile, std::move(found)); });
     links_.unite(parts_);
     found_.betti = parts_.betti_of_volume();
+    if (places_ != nullptr) places_->close(PlaceLedger::Side::kVolume, parts_.cavities());
     if (pieces_ != nullptr) conclude_distances();
     return std::move(found_);
   }
@@ -129,11 +133,14 @@ class VolumeStage {
     const auto end = [](std::int64_t hi, std::int64_t last) { return hi == last ? hi + 1 : hi; };
     const Box3 owned{box.lo,
                      {end(box.hi.x, all.hi.x), end(box.hi.y, all.hi.y), end(box.hi.z, all.hi.z)}};
-    audit::VoxelParts parts = audit::voxel_parts(
-        {{needed.shape(), voxels.labels}, grid_.shape(), needed, owned}, names.size());
+    const audit::VoxelTile tile{{needed.shape(), voxels.labels}, grid_.shape(), needed, owned};
+    audit::VoxelParts parts = audit::voxel_parts(tile, names.size());
     out.parts = std::move(parts.piece);
     out.shared = std::move(parts.shared);
     names.to_whole(out.parts);
+    if (places_ == nullptr) return;
+    out.places = audit::voxel_places(tile, names.size());
+    names.to_whole(out.places);
   }
 
   static void count_voxels(const Box3& box, const LoadedVoxels& voxels, const TileLabels& names,
@@ -215,6 +222,7 @@ class VolumeStage {
       links_.add(run.first, run.count, first + run.part);
     }
     for (const auto& [label, count] : found.voxels) found_.voxels[label] += count;
+    if (places_ != nullptr) places_->add(PlaceLedger::Side::kVolume, found.places);
     if (has_far(found.distances)) {
       far_.push_back(tile);
       note_presence(found.distances);
@@ -286,6 +294,7 @@ class VolumeStage {
   const TileGrid& grid_;
   const VerifyTask& task_;
   const PieceBuckets* pieces_;
+  PlaceLedger* places_;
   std::size_t label_count_;
   Index3 layers_;
   double limit_;
@@ -300,8 +309,8 @@ class VolumeStage {
 }  // namespace
 
 VolumeFindings look_at_volume(const io::DenseVolume& volume, const TileGrid& grid,
-                              const VerifyTask& task, const PieceBuckets* pieces) {
-  return VolumeStage(volume, grid, task, pieces).run();
+                              const VerifyTask& task, const MeshInterface& mesh) {
+  return VolumeStage(volume, grid, task, mesh).run();
 }
 
 }  // namespace mw::engine

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/verify/piece_buckets.h"
+#include "engine/verify/place_ledger.h"
 #include "engine/verify/verify_task.h"
 #include "io/labels/label_table.h"
 
@@ -16,8 +17,14 @@ struct VolumeFindings {
   std::optional<audit::DistanceReport> distance;
 };
 
-/// pieces: the mesh's interface; nullptr when no distances are asked for.
+/// The mesh's interface.
+struct MeshInterface {
+  const PieceBuckets* pieces = nullptr;  ///< nullptr: no distances are asked for
+  PlaceLedger* places = nullptr;         ///< where the volume's go, if they are asked for
+};
+
+/// ENSURES: the volume's side of mesh.places is closed.
 [[nodiscard]] VolumeFindings look_at_volume(const io::DenseVolume& volume, const TileGrid& grid,
-                                            const VerifyTask& task, const PieceBuckets* pieces);
+                                            const VerifyTask& task, const MeshInterface& mesh);
 
 }  // namespace mw::engine

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <string>
 
-#include "kernels/audit/layered_labels.h"
-#include "kernels/audit/region_betti.h"
-
 namespace mw::audit {
 namespace {
 
@@ -103,20 +100,6 @@ std::string distance_text(const DistanceReport& distance) {
          (distance.is_finite() ? ", mean " + number(distance.mean_voxels) : "");
 }
 
-/// In voxels of the lattice that the options ask for.
-DistanceReport measure_in_lattice(const VoxelLabels& volume, std::size_t label_count,
-                                  const AuditMesh& mesh, const Frame& frame,
-                                  const AuditOptions& options) {
-  const Index3 layers = options.layers;
-  const double limit = distance_limit(options.max_distance);
-  if (layers == Index3{1, 1, 1}) {
-    return measure_distance(volume, label_count, mesh, frame, options.kept, limit);
-  }
-  const LayeredLabels lattice = layered_labels(volume, layers);
-  return measure_distance(lattice.view(), label_count, mesh, layered_frame(frame, layers),
-                          options.kept, limit);
-}
-
 /// Without the labels that were left out.
 VolumeReport only_kept(VolumeReport report, const KeptLabels& kept) {
   if (kept.empty()) return report;
@@ -178,13 +161,6 @@ bool AuditReport::passed() const {
   return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed; });
 }
 
-PlacesReport compare_places(const Places& before, const Places& after) {
-  return {.interfaces = before.interfaces.size(),
-          .meetings = before.meetings.size(),
-          .interfaces_changed = changes(before.interfaces, after.interfaces),
-          .meetings_changed = changes(before.meetings, after.meetings)};
-}
-
 AuditReport judge(AuditFindings findings, const AuditOptions& options) {
   AuditReport report{.checks = findings.validity.checks,
                      .voxels = std::move(findings.voxels),
@@ -214,26 +190,6 @@ AuditReport judge(AuditFindings findings, const AuditOptions& options) {
   }
   report.shape = findings.shape;
   return report;
-}
-
-AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const AuditMesh& mesh,
-                  const Frame& frame, const AuditOptions& options) {
-  AuditFindings found{.voxels = voxel_betti(volume, label_count),
-                      .validity = check_validity(mesh, volume, frame, label_count, options.kept)};
-  if (!found.validity.checks.front().passed) return judge(std::move(found), options);
-  found.mesh =
-      options.kept.empty() ? mesh_betti(mesh, label_count) : region_betti(mesh, label_count);
-  if (options.count_places) {
-    found.places =
-        compare_places(voxel_places(volume, label_count), mesh_places(mesh, label_count));
-  }
-  found.quality = measure_quality(mesh);
-  if (options.measure_distance || options.max_distance) {
-    found.distance = measure_in_lattice(volume, label_count, mesh, frame, options);
-  }
-  found.volumes = measure_volumes(volume, label_count, mesh, frame, options.layers);
-  found.shape = measure_shape(mesh);
-  return judge(std::move(found), options);
 }
 
 }  // namespace mw::audit

@@ -33,16 +33,6 @@ struct AuditOptions {
   std::optional<double> max_volume_error = 0.05;
 };
 
-/// Interfaces and meetings of labels (places.h).
-struct PlacesReport {
-  std::size_t interfaces = 0;  ///< of the volume
-  std::size_t meetings = 0;
-  std::vector<PlaceChange> interfaces_changed;
-  std::vector<PlaceChange> meetings_changed;
-};
-
-[[nodiscard]] PlacesReport compare_places(const Places& before, const Places& after);
-
 /// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
 struct AuditReport {
   /// Those of validity, then "P1 topology", as AuditOptions ask "P1 interfaces" and
@@ -80,14 +70,5 @@ struct AuditFindings {
 
 /// The verdict.  Only voxels and validity are looked at when "P2 input" failed.
 [[nodiscard]] AuditReport judge(AuditFindings findings, const AuditOptions& options);
-
-/// Judges a mesh of any tool against its volume.  Shares no code with the mesher but kernels/core.
-/// label_count: size of the label table; the volume's labels are below it.
-/// Errors: kInput for an unusable volume; whatever is wrong with the mesh is a failed check.
-/// Cost: see voxel_betti, mesh_betti, check_validity, measure_shape and measure_distance.
-/// Deterministic, one thread.
-[[nodiscard]] AuditReport audit(const VoxelLabels& volume, std::size_t label_count,
-                                const AuditMesh& mesh, const Frame& frame,
-                                const AuditOptions& options = {});
 
 }  // namespace mw::audit

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Places of a mesh: every vertex, edge and triangle once, with all labels around it.
+// Places of a mesh: every vertex, edge and triangle with all labels around it.
 #include <algorithm>
 #include <utility>
 
@@ -10,33 +10,36 @@
 namespace mw::audit {
 namespace {
 
-/// b2 of all interfaces.
-Cavities cavities_of(const MeshStars& stars, Label exterior) {
-  const Parts parts = parts_of_mesh(stars, exterior);
-  PairSet pairs;
-  visit_faces(stars, [&](const MeshFace& face) {
-    std::uint32_t previous =
-        face.sides.size() == 1 ? parts.of_member.back() : parts.of_member[face.sides[0].tet];
-    for (const FaceSide& side : face.sides) {
-      pairs.add(previous, parts.of_member[side.tet]);
-      previous = parts.of_member[side.tet];
-    }
-  });
-  return cavities_of_interfaces(parts.part_class, pairs.take());
+/// Other tiles have to do with the vertices of tets that they have too.
+PlaceVertices vertices_of(const MeshStars& stars) {
+  PlaceVertices out;
+  for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
+    out.owned.push_back(stars.owns(v));
+    out.shared.push_back(!stars.owns(v));
+    out.ids.push_back(stars.tile().vertex_id(v));
+  }
+  for (const TetRow& tet : stars.mesh().tets) {
+    const bool is_shared =
+        !std::all_of(tet.begin(), tet.end(), [&](std::uint64_t v) { return stars.owns(v); });
+    if (!is_shared) continue;
+    for (const std::uint64_t v : tet) out.shared[v] = true;
+  }
+  return out;
 }
 
 class MeshPlaceSweep {
  public:
   MeshPlaceSweep(const MeshStars& stars, Label exterior)
-      : stars_(stars), exterior_(exterior), box_(box_cells(stars)), sweep_(stars.vertex_count()) {}
+      : stars_(stars), exterior_(exterior), box_(box_cells(stars)), sweep_(vertices_of(stars)) {}
 
-  Places run(const Cavities& cavities) {
+  PlacesPiece run() {
     for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (!stars_.owns(v)) continue;
       add_vertex(v);
       add_edges(v);
-      visit_faces_at(stars_, v, sides_, [this](const MeshFace& face) { add_face(face); });
     }
-    return sweep_.take(cavities);
+    visit_whole_faces(stars_, [this](const MeshFace& face) { add_face(face); });
+    return sweep_.take();
   }
 
  private:
@@ -65,8 +68,9 @@ class MeshPlaceSweep {
         if (other > v) edges_.push_back({other, class_of(tet)});
       }
     }
-    for (; next_box_edge_ < box_.edges.size() && box_.edges[next_box_edge_] >> 32 == v;
+    for (; next_box_edge_ < box_.edges.size() && box_.edges[next_box_edge_] >> 32 <= v;
          ++next_box_edge_) {
+      if (box_.edges[next_box_edge_] >> 32 < v) continue;
       edges_.push_back({box_.edges[next_box_edge_] & 0xffffffffU, exterior_});
     }
     std::sort(edges_.begin(), edges_.end());
@@ -100,10 +104,8 @@ class MeshPlaceSweep {
 
 }  // namespace
 
-Places mesh_places(const AuditMesh& mesh, std::size_t label_count) {
-  const MeshStars stars(mesh);
-  const auto exterior = static_cast<Label>(label_count);
-  return MeshPlaceSweep(stars, exterior).run(cavities_of(stars, exterior));
+PlacesPiece mesh_places(const MeshStars& stars, std::size_t label_count) {
+  return MeshPlaceSweep(stars, static_cast<Label>(label_count)).run();
 }
 
 }  // namespace mw::audit

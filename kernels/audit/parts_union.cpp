@@ -76,15 +76,26 @@ std::vector<RegionBetti> PartsUnion::betti_of_mesh() {
   return betti(std::move(euler));
 }
 
-std::vector<RegionBetti> PartsUnion::betti(EulerSums euler) {
+void PartsUnion::join() {
+  if (std::exchange(is_joined_, true)) return;
   sets();
-  const Parts parts = number_parts(std::move(*sets_), label_count_ + 2,
-                                   [&](std::size_t part) { return part_class_[part]; });
-  std::vector<RegionBetti> out =
-      betti_of_parts(parts.part_class, renumbered(std::exchange(face_pairs_, {}), parts.of_member),
-                     renumbered(std::exchange(vertex_pairs_, {}), parts.of_member), euler);
+  Parts parts = number_parts(std::move(*sets_), label_count_ + 2,
+                             [&](std::size_t part) { return part_class_[part]; });
+  part_class_ = std::move(parts.part_class);
+  face_pairs_ = renumbered(std::exchange(face_pairs_, {}), parts.of_member);
+  vertex_pairs_ = renumbered(std::exchange(vertex_pairs_, {}), parts.of_member);
+}
+
+std::vector<RegionBetti> PartsUnion::betti(EulerSums euler) {
+  join();
+  std::vector<RegionBetti> out = betti_of_parts(part_class_, face_pairs_, vertex_pairs_, euler);
   out.resize(label_count_ + 1);
   return out;
+}
+
+Cavities PartsUnion::cavities() {
+  join();
+  return cavities_of_interfaces(part_class_, face_pairs_);
 }
 
 }  // namespace mw::audit

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/audit/betti.h"
+#include "kernels/audit/cavities.h"
 #include "kernels/audit/disjoint_sets.h"
 #include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/part_graph.h"
@@ -52,11 +53,15 @@ class PartsUnion {
   /// These two, numbered through all pieces, are one.  REQUIRES: all pieces were added.
   void unite(std::uint32_t a, std::uint32_t b);
 
-  /// label_count + 1 rows; the last is the exterior.  Nothing is left afterwards.
+  /// label_count + 1 rows; the last is the exterior.  Nothing is united afterwards.
   [[nodiscard]] std::vector<RegionBetti> betti_of_volume();
   [[nodiscard]] std::vector<RegionBetti> betti_of_mesh();
+  /// Of all interfaces.  Nothing is united afterwards.
+  [[nodiscard]] Cavities cavities();
 
  private:
+  /// Numbers parts that are one by one number.
+  void join();
   /// The exterior is one cell that no tile has counted.
   [[nodiscard]] std::vector<RegionBetti> betti(EulerSums euler);
   [[nodiscard]] EulerSums sums() const;
@@ -69,6 +74,7 @@ class PartsUnion {
   std::vector<ClassCells> cells_;
   std::int64_t total_ = 0;
   std::optional<DisjointSets> sets_;
+  bool is_joined_ = false;
 };
 
 }  // namespace mw::audit

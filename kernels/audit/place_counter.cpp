@@ -1,22 +1,17 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Cells by sorting, components by union-find, cavities by duality.
+// Cells by sorting, components by union-find.
 #include "kernels/audit/place_counter.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "kernels/audit/disjoint_sets.h"
 #include "kernels/core/error.h"
 
 namespace mw::audit {
 namespace {
 
 constexpr PlaceLabels kNoPlace{kNoLabel, kNoLabel, kNoLabel, kNoLabel};
-
-PlaceLabels pair_of(Label a, Label b) {
-  return {std::min(a, b), std::max(a, b), kNoLabel, kNoLabel};
-}
 
 /// Calls visit(PlaceLabels) for every set of 2 .. kMostLabelsOfPlace of the labels, given that the
 /// first `size` of `place` are chosen and the others come from labels[next ..].
@@ -33,27 +28,6 @@ void each_place(std::span<const Label> labels, std::size_t next, PlaceLabels pla
 
 }  // namespace
 
-Cavities cavities_of_interfaces(std::span<const Label> part_class,
-                                const std::vector<PartPair>& face_pairs) {
-  std::vector<PlaceLabels> groups;
-  const auto group_of = [&](const PartPair& p) {
-    return pair_of(part_class[p.a], part_class[p.b]);
-  };
-  for (const PartPair& p : face_pairs) groups.push_back(group_of(p));
-  std::sort(groups.begin(), groups.end());
-  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-  std::vector<GroupedPair> pairs;
-  for (const PartPair& p : face_pairs) {
-    const auto found = std::lower_bound(groups.begin(), groups.end(), group_of(p));
-    const auto group = static_cast<std::uint32_t>(found - groups.begin());
-    pairs.push_back({p, group, group});
-  }
-  const auto components = components_leaving_out(part_class.size(), pairs, groups.size());
-  Cavities out;
-  for (std::size_t i = 0; i < groups.size(); ++i) out[groups[i]] = components[i] - 1;
-  return out;
-}
-
 std::uint64_t PlaceCounter::id(const PlaceLabels& place) {
   if (place == last_place_ && !ids_.empty()) return last_id_;
   last_place_ = place;
@@ -67,15 +41,15 @@ void PlaceCounter::add_vertex(const PlaceLabels& place, std::uint64_t v) {
 }
 
 void PlaceCounter::add_edge(const PlaceLabels& place, std::uint64_t v, std::uint64_t w) {
-  links_.add({node(place, std::min(v, w)), node(place, std::max(v, w))});
+  links_.add({node(place, v), node(place, w)});
+  if (!vertices_.owned[w]) nodes_.add(node(place, w));
 }
 
 void PlaceCounter::add_face(const PlaceLabels& pair) {
   ++euler_[id(pair)];
 }
 
-void PlaceCounter::count_cells() {
-  const std::vector<std::uint64_t>& nodes = nodes_.sorted();
+DisjointSets PlaceCounter::link(const std::vector<std::uint64_t>& nodes) {
   if (nodes.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorKind::kResource, "audit: more than 2^32 vertices on interfaces; audit parts");
   }
@@ -86,25 +60,32 @@ void PlaceCounter::count_cells() {
   DisjointSets sets(nodes.size());
   for (const Link& link : links_.sorted()) {
     sets.unite(row(link.a), row(link.b));
-    --euler_[link.a / vertex_count_];
+    --euler_[link.a / vertices_.count()];
   }
-  components_.assign(ids_.size(), 0);
-  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-    const std::uint64_t place = nodes[i] / vertex_count_;
-    ++euler_[place];
-    if (sets.find(i) == i) ++components_[place];
+  for (const std::uint64_t node : nodes) {
+    if (vertices_.owned[node % vertices_.count()]) ++euler_[node / vertices_.count()];
   }
+  return sets;
 }
 
-std::vector<PlaceBetti> PlaceCounter::take(const Cavities& cavities) {
-  count_cells();
-  std::vector<PlaceBetti> out;
+void PlaceCounter::take(PlaceKind kind, PlacesPiece& out) {
+  const std::vector<std::uint64_t>& nodes = nodes_.sorted();
+  DisjointSets sets = link(nodes);
+  std::vector<std::uint32_t> tally_of(ids_.size());
   for (const auto& [place, id] : ids_) {
-    const auto found = cavities.find(place);
-    const std::int64_t b0 = components_[id], b2 = found == cavities.end() ? 0 : found->second;
-    out.push_back({place, {b0, b0 + b2 - euler_[id], b2}});
+    tally_of[id] = static_cast<std::uint32_t>(out.tallies.size());
+    out.tallies.push_back({place, kind, 0, euler_[id]});
   }
-  return out;
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(nodes.size(), kNone);
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    const std::uint32_t tally = tally_of[nodes[i] / vertices_.count()], root = sets.find(i);
+    const std::uint64_t v = nodes[i] % vertices_.count();
+    if (root == i) ++out.tallies[tally].components;
+    if (!vertices_.shared[v]) continue;
+    if (number[root] == kNone) number[root] = out.open_sets++;
+    out.shared.push_back({tally, vertices_.ids[v], number[root]});
+  }
 }
 
 void PlaceSweep::add_vertex(std::span<const Label> labels, std::uint64_t v) {
@@ -118,19 +99,27 @@ void PlaceSweep::add_edge(std::span<const Label> labels, std::uint64_t v, std::u
 }
 
 void PlaceSweep::add_face(std::span<const Label> labels, std::span<const std::uint64_t> vertices) {
+  if (labels.size() < 2) return;
+  const bool is_owned = vertices_.owned[*std::min_element(vertices.begin(), vertices.end())];
   const auto add = [&](const PlaceLabels& place) {
-    meetings_.add_face(place);
-    interfaces_.add_face(place);
+    if (is_owned) {
+      meetings_.add_face(place);
+      interfaces_.add_face(place);
+    }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      interfaces_.add_vertex(place, vertices[i]);
-      interfaces_.add_edge(place, vertices[i], vertices[(i + 1) % vertices.size()]);
+      const auto [v, w] = std::minmax(vertices[i], vertices[(i + 1) % vertices.size()]);
+      if (vertices_.owned[vertices[i]]) interfaces_.add_vertex(place, vertices[i]);
+      if (vertices_.owned[v]) interfaces_.add_edge(place, v, w);
     }
   };
   each_place(labels, 0, kNoPlace, 0, add);
 }
 
-Places PlaceSweep::take(const Cavities& cavities) {
-  return {interfaces_.take(cavities), meetings_.take(cavities)};
+PlacesPiece PlaceSweep::take() {
+  PlacesPiece out;
+  interfaces_.take(PlaceKind::kInterface, out);
+  meetings_.take(PlaceKind::kMeeting, out);
+  return out;
 }
 
 }  // namespace mw::audit

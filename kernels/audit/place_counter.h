@@ -9,18 +9,19 @@
 #include <span>
 #include <vector>
 
-#include "kernels/audit/part_graph.h"
+#include "kernels/audit/disjoint_sets.h"
 #include "kernels/audit/places.h"
 
 namespace mw::audit {
 
-/// Cavities (b2) by pair of labels, where there are any.
-using Cavities = std::map<PlaceLabels, std::int64_t>;
+/// The vertices that a tile has to do with, by row.
+struct PlaceVertices {
+  std::vector<bool> owned;
+  std::vector<bool> shared;        ///< other tiles have to do with it; all that are not owned
+  std::vector<std::uint64_t> ids;  ///< in the whole; ascending
 
-/// b2 of every interface: by Alexander duality in the 3-sphere, the components of the part graph
-/// without the pairs of parts that bear these two labels, less one.
-[[nodiscard]] Cavities cavities_of_interfaces(std::span<const Label> part_class,
-                                              const std::vector<PartPair>& face_pairs);
+  [[nodiscard]] std::size_t count() const { return ids.size(); }
+};
 
 /// A list that is given the same values again and again.  Memory: at most twice the distinct ones,
 /// or kFirstLimit if that is more.
@@ -38,7 +39,7 @@ class DistinctList {
   }
 
  private:
-  static constexpr std::size_t kFirstLimit = std::size_t{1} << 20;
+  static constexpr std::size_t kFirstLimit = std::size_t{1} << 16;
 
   void compact() {
     std::sort(values_.begin(), values_.end());
@@ -53,16 +54,17 @@ class DistinctList {
 /// Collects the cells of the places of one kind.  Labels are ascending and distinct.
 class PlaceCounter {
  public:
-  /// Vertices are below vertex_count.
-  explicit PlaceCounter(std::uint64_t vertex_count) : vertex_count_(vertex_count) {}
+  /// vertices outlive this.
+  explicit PlaceCounter(const PlaceVertices& vertices) : vertices_(vertices) {}
 
   /// Vertices and edges may come again; faces, of two labels, may not.
+  /// REQUIRES: v, and the face, are owned; v < w.
   void add_vertex(const PlaceLabels& place, std::uint64_t v);
   void add_edge(const PlaceLabels& place, std::uint64_t v, std::uint64_t w);
   void add_face(const PlaceLabels& pair);
 
-  /// Betti numbers of all places; with b2 given, b1 follows from the Euler characteristic.
-  [[nodiscard]] std::vector<PlaceBetti> take(const Cavities& cavities);
+  /// Adds all places to the piece, ascending.
+  void take(PlaceKind kind, PlacesPiece& out);
 
  private:
   struct Link {
@@ -73,36 +75,42 @@ class PlaceCounter {
 
   [[nodiscard]] std::uint64_t id(const PlaceLabels& place);
   [[nodiscard]] std::uint64_t node(const PlaceLabels& place, std::uint64_t v) {
-    return id(place) * vertex_count_ + v;
+    return id(place) * vertices_.count() + v;
   }
-  void count_cells();
+  /// Connected sets of all nodes, ascending; counts vertices and edges.
+  [[nodiscard]] DisjointSets link(const std::vector<std::uint64_t>& nodes);
 
-  std::uint64_t vertex_count_;
+  const PlaceVertices& vertices_;
   std::map<PlaceLabels, std::uint64_t> ids_;
   PlaceLabels last_place_{};  ///< what id() was asked for last
   std::uint64_t last_id_ = 0;
   DistinctList<std::uint64_t> nodes_;  ///< a vertex in a place
   DistinctList<Link> links_;
-  std::vector<std::int64_t> euler_, components_;  ///< by id
+  std::vector<std::int64_t> euler_;  ///< by id
 };
 
-/// The two kinds of places, fed by cells with all labels around them.
+/// The two kinds of places of a tile, fed by cells with all labels around them.
 class PlaceSweep {
  public:
-  explicit PlaceSweep(std::uint64_t vertex_count)
-      : interfaces_(vertex_count), meetings_(vertex_count) {}
+  explicit PlaceSweep(PlaceVertices vertices) : vertices_(std::move(vertices)) {}
+  PlaceSweep(const PlaceSweep&) = delete;
+  PlaceSweep& operator=(const PlaceSweep&) = delete;
 
+  [[nodiscard]] bool owns(std::uint64_t v) const { return vertices_.owned[v]; }
+
+  /// Vertices and edges whose smaller vertex the tile owns.
   /// Labels ascending, distinct; nothing happens for a single one.
   void add_vertex(std::span<const Label> labels, std::uint64_t v);
   void add_edge(std::span<const Label> labels, std::uint64_t v, std::uint64_t w);
-  /// A face with its vertices in cyclic order.
+  /// All faces with a vertex that the tile owns; vertices in cyclic order.
   void add_face(std::span<const Label> labels, std::span<const std::uint64_t> vertices);
 
-  [[nodiscard]] Places take(const Cavities& cavities);
+  [[nodiscard]] PlacesPiece take();
 
  private:
-  PlaceCounter interfaces_;
-  PlaceCounter meetings_;
+  PlaceVertices vertices_;
+  PlaceCounter interfaces_{vertices_};
+  PlaceCounter meetings_{vertices_};
 };
 
 }  // namespace mw::audit

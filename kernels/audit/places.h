@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Betti numbers of the places where labels meet, of a volume and of a mesh (P1 with interfaces).
+// Places where labels meet, of a volume and of a mesh (P1 with interfaces), tile by tile.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "kernels/audit/betti.h"
+#include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/subject.h"
 
 namespace mw::audit {
@@ -15,35 +17,48 @@ namespace mw::audit {
 /// Largest set of labels whose meeting is looked at.
 inline constexpr std::size_t kMostLabelsOfPlace = 4;
 
-/// Labels of a place, ascending; unused entries are kNoLabel.
+/// Labels of a place, ascending; unused entries are kNoLabel.  Label label_count is the exterior,
+/// which is one more label as in voxel_betti, and label_count + 1 stands for all labels that are
+/// not the volume's.
 using PlaceLabels = std::array<Label, kMostLabelsOfPlace>;
 inline constexpr Label kNoLabel = 0xffffffffU;
 
-/// One place; b0 is never 0.
-struct PlaceBetti {
-  PlaceLabels labels{};
-  Betti betti;
-
-  friend bool operator==(const PlaceBetti&, const PlaceBetti&) = default;
+enum class PlaceKind : std::uint8_t {
+  /// Of two labels, the closure of the faces between them.
+  kInterface,
+  /// Of two to kMostLabelsOfPlace labels, the points that all their closed regions share; for two
+  /// that is the interface and whatever edges and vertices they touch in besides.
+  kMeeting,
 };
 
-/// All places, ascending by labels.  Label label_count is the exterior, which is one more label as
-/// in voxel_betti, and label_count + 1 stands for all labels that are not the volume's.
-struct Places {
-  /// Interfaces: of two labels, the closure of the faces between them.
-  std::vector<PlaceBetti> interfaces;
-  /// Meetings: of two to kMostLabelsOfPlace labels, the points that all their closed regions share;
-  /// for two that is the interface and whatever edges and vertices they touch in besides.
-  std::vector<PlaceBetti> meetings;
+/// Cells and connected sets of a place in one tile.
+struct PlaceTally {
+  PlaceLabels labels{};
+  PlaceKind kind = PlaceKind::kInterface;
+  std::int64_t components = 0;
+  std::int64_t euler = 0;  ///< of the cells that the tile owns
+};
+
+/// What one tile tells, its open sets (those that go on in other tiles) numbered from 0.
+struct PlacesPiece {
+  /// Sets with the same vertex in the same place are one.
+  struct Node {
+    std::uint32_t tally = 0;
+    std::uint64_t vertex = 0;  ///< of the whole mesh, or of the volume's lattice
+    std::uint32_t set = 0;
+  };
+  std::vector<PlaceTally> tallies;  ///< open sets are counted too
+  std::uint32_t open_sets = 0;
+  std::vector<Node> shared;
 };
 
 /// REQUIRES and errors: as voxel_betti; kResource also from 2^32 pairs of place and vertex on.
 /// Cost: one pass over the voxels, then sorts of the vertices and edges on interfaces, 8 and 16
-/// bytes each and place; cavities as in betti_of_parts.  Deterministic.
-[[nodiscard]] Places voxel_places(const VoxelLabels& volume, std::size_t label_count);
+/// bytes each and place.  Deterministic.
+[[nodiscard]] PlacesPiece voxel_places(const VoxelTile& tile, std::size_t label_count);
 
 /// The same of a mesh; see mesh_betti.
-[[nodiscard]] Places mesh_places(const AuditMesh& mesh, std::size_t label_count);
+[[nodiscard]] PlacesPiece mesh_places(const MeshStars& stars, std::size_t label_count);
 
 /// A place that differs; all zeros where it is absent.
 struct PlaceChange {
@@ -52,8 +67,12 @@ struct PlaceChange {
   Betti after;
 };
 
-/// Ascending.
-[[nodiscard]] std::vector<PlaceChange> changes(const std::vector<PlaceBetti>& before,
-                                               const std::vector<PlaceBetti>& after);
+/// A mesh's places held against its volume's.
+struct PlacesReport {
+  std::size_t interfaces = 0;  ///< of the volume
+  std::size_t meetings = 0;
+  std::vector<PlaceChange> interfaces_changed;  ///< ascending
+  std::vector<PlaceChange> meetings_changed;
+};
 
 }  // namespace mw::audit

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Places of a volume: one look at every lattice vertex and the cells that it owns.
+// Places of a volume: one look at every lattice vertex and the cells towards +x, +y, +z.
 #include <algorithm>
 #include <array>
 
 #include "kernels/audit/place_counter.h"
-#include "kernels/audit/voxel_runs.h"
 
 namespace mw::audit {
 namespace {
@@ -27,39 +26,77 @@ class FewLabels {
   std::size_t count_ = 0;
 };
 
-/// A vertex owns itself and the cells towards +x, +y, +z.
-class LatticeSweep {
+/// The lattice vertices of the cells around those that a tile owns, and one row more on each side.
+class TileLattice {
  public:
-  LatticeSweep(const VoxelLabels& volume, std::size_t label_count)
-      : volume_(volume),
-        exterior_(static_cast<Label>(label_count)),
-        vertices_{volume.shape.x + 1, volume.shape.y + 1, volume.shape.z + 1},
-        sweep_(static_cast<std::uint64_t>(vertices_.product())) {}
+  explicit TileLattice(const VoxelTile& tile)
+      : tile_(tile),
+        all_{{0, 0, 0}, tile.shape + Index3{1, 1, 1}},
+        box_(intersection({tile.owned.lo - Index3{1, 1, 1}, tile.owned.hi + Index3{1, 1, 1}},
+                          all_)) {}
 
-  Places run(const Cavities& cavities) {
-    Index3 v;
-    for (v.z = 0; v.z < vertices_.z; ++v.z) {
-      for (v.y = 0; v.y < vertices_.y; ++v.y) {
-        for (v.x = 0; v.x < vertices_.x; ++v.x) look_at(v);
+  [[nodiscard]] const Box3& box() const { return box_; }
+  [[nodiscard]] bool owns(Index3 v) const { return tile_.owned.contains(v); }
+  [[nodiscard]] std::uint64_t row(Index3 v) const {
+    return static_cast<std::uint64_t>(box_.offset(v));
+  }
+
+  [[nodiscard]] PlaceVertices vertices() const {
+    PlaceVertices out;
+    for (Index3 v = box_.lo; v.z < box_.hi.z; ++v.z) {
+      for (v.y = box_.lo.y; v.y < box_.hi.y; ++v.y) {
+        for (v.x = box_.lo.x; v.x < box_.hi.x; ++v.x) {
+          out.owned.push_back(owns(v));
+          out.shared.push_back(!owns(v) || is_on_lower_side(v));
+          out.ids.push_back(static_cast<std::uint64_t>(all_.offset(v)));
+        }
       }
     }
-    return sweep_.take(cavities);
+    return out;
+  }
+
+ private:
+  /// Edges that other tiles own end here.
+  [[nodiscard]] bool is_on_lower_side(Index3 v) const {
+    const Index3 lo = tile_.owned.lo;
+    return (lo.x > 0 && v.x == lo.x) || (lo.y > 0 && v.y == lo.y) || (lo.z > 0 && v.z == lo.z);
+  }
+
+  const VoxelTile& tile_;
+  Box3 all_;
+  Box3 box_;
+};
+
+/// Cells by their smallest vertices.
+class LatticeSweep {
+ public:
+  LatticeSweep(const VoxelTile& tile, std::size_t label_count)
+      : tile_(tile),
+        exterior_(static_cast<Label>(label_count)),
+        lattice_(tile),
+        sweep_(lattice_.vertices()) {}
+
+  PlacesPiece run() {
+    const Box3 box = intersection(lattice_.box(), {{0, 0, 0}, tile_.owned.hi});
+    for (Index3 v = box.lo; v.z < box.hi.z; ++v.z) {
+      for (v.y = box.lo.y; v.y < box.hi.y; ++v.y) {
+        for (v.x = box.lo.x; v.x < box.hi.x; ++v.x) look_at(v);
+      }
+    }
+    return sweep_.take();
   }
 
  private:
   static constexpr std::array<unsigned, 3> kUpper{0b10101010, 0b11001100, 0b11110000};
 
+  /// Voxels that are not loaded are asked for, but count only where the exterior is.
   [[nodiscard]] Label label_at(Index3 v) const {
-    const Index3 s = volume_.shape;
-    if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= s.x || v.y >= s.y || v.z >= s.z) return exterior_;
-    return volume_.labels[static_cast<std::size_t>((v.z * s.y + v.y) * s.x + v.x)];
-  }
-  [[nodiscard]] std::uint64_t row(Index3 v) const {
-    return static_cast<std::uint64_t>((v.z * vertices_.y + v.y) * vertices_.x + v.x);
+    if (!tile_.loaded.contains(v)) return exterior_;
+    return tile_.voxels.labels[static_cast<std::size_t>(tile_.loaded.offset(v))];
   }
   [[nodiscard]] std::uint64_t stride(unsigned axis) const {
-    const std::int64_t s = axis == 0 ? 1 : axis == 1 ? vertices_.x : vertices_.x * vertices_.y;
-    return static_cast<std::uint64_t>(s);
+    const Index3 s = lattice_.box().shape();
+    return static_cast<std::uint64_t>(axis == 0 ? 1 : axis == 1 ? s.x : s.x * s.y);
   }
 
   void look_at(Index3 v) {
@@ -68,15 +105,29 @@ class LatticeSweep {
           label_at({v.x - 1 + (i & 1), v.y - 1 + (i >> 1 & 1), v.z - 1 + (i >> 2)});
     }
     if (std::count(around_.begin(), around_.end(), around_[0]) == 8) return;
-    const std::uint64_t here = row(v);
+    const std::uint64_t here = lattice_.row(v);
+    if (lattice_.owns(v)) add_vertex_and_edges(here);
+    // A face all of whose vertices come before the tile's is none of its own.
+    const Index3 lo = tile_.owned.lo;
+    const std::array<bool, 3> is_before{v.x < lo.x, v.y < lo.y, v.z < lo.z};
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if (!is_before[axis]) add_face(axis, here);
+    }
+  }
+
+  void add_vertex_and_edges(std::uint64_t here) {
     sweep_.add_vertex(labels_in(0xff).all(), here);
     for (unsigned axis = 0; axis < 3; ++axis) {
       sweep_.add_edge(labels_in(kUpper[axis]).all(), here, here + stride(axis));
-      const unsigned u = (axis + 1) % 3, w = (axis + 2) % 3;
-      const FewLabels face = labels_in(kUpper[u] & kUpper[w]);
-      const std::uint64_t a = here + stride(u), b = here + stride(w);
-      sweep_.add_face(face.all(), std::array{here, a, a + stride(w), b});
     }
+  }
+
+  /// axis: across the face.
+  void add_face(unsigned axis, std::uint64_t here) {
+    const unsigned u = (axis + 1) % 3, w = (axis + 2) % 3;
+    const FewLabels face = labels_in(kUpper[u] & kUpper[w]);
+    const std::uint64_t a = here + stride(u), b = here + stride(w);
+    sweep_.add_face(face.all(), std::array{here, a, a + stride(w), b});
   }
 
   /// Labels of the voxels around the vertex that `mask` names.
@@ -88,64 +139,17 @@ class LatticeSweep {
     return out;
   }
 
-  VoxelLabels volume_;
+  const VoxelTile& tile_;
   Label exterior_;
-  Index3 vertices_;
+  TileLattice lattice_;
   PlaceSweep sweep_;
   std::array<Label, 8> around_{};
 };
 
-/// Parts that share a face.  Each row is compared with the one before in y and in z.
-class FacePairs {
- public:
-  explicit FacePairs(const VoxelRuns& runs) : runs_(runs) {}
-
-  std::vector<PartPair> run() {
-    for (std::int64_t z = 0; z <= runs_.shape().z; ++z) {
-      for (std::int64_t y = 0; y <= runs_.shape().y; ++y) {
-        expand(y, z, here_);
-        expand(y - 1, z, other_);
-        for (std::size_t x = 0; x < here_.size(); ++x) pairs_.add(here_[x], other_[x]);
-        expand(y, z - 1, other_);
-        for (std::size_t x = 0; x < here_.size(); ++x) pairs_.add(here_[x], other_[x]);
-        std::uint32_t before = runs_.exterior_part();
-        for (const std::uint32_t part : here_) {
-          pairs_.add(before, part);
-          before = part;
-        }
-        pairs_.add(before, runs_.exterior_part());
-      }
-    }
-    return pairs_.take();
-  }
-
- private:
-  /// The part of every voxel of a row.
-  void expand(std::int64_t y, std::int64_t z, std::vector<std::uint32_t>& out) const {
-    const auto nx = static_cast<std::size_t>(runs_.shape().x);
-    out.assign(nx, runs_.exterior_part());
-    const RunRow row = runs_.row(y, z);
-    for (std::size_t i = 0; i < row.starts.size(); ++i) {
-      const std::size_t end = i + 1 < row.starts.size() ? row.starts[i + 1] : nx;
-      std::fill(out.begin() + row.starts[i], out.begin() + static_cast<std::ptrdiff_t>(end),
-                row.parts[i]);
-    }
-  }
-
-  const VoxelRuns& runs_;
-  PairSet pairs_;
-  std::vector<std::uint32_t> here_, other_;
-};
-
 }  // namespace
 
-Places voxel_places(const VoxelLabels& volume, std::size_t label_count) {
-  Cavities cavities;
-  {
-    const VoxelRuns runs(volume, label_count);
-    cavities = cavities_of_interfaces(runs.part_class(), FacePairs(runs).run());
-  }
-  return LatticeSweep(volume, label_count).run(cavities);
+PlacesPiece voxel_places(const VoxelTile& tile, std::size_t label_count) {
+  return LatticeSweep(tile, label_count).run();
 }
 
 }  // namespace mw::audit

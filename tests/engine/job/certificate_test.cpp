@@ -4,6 +4,7 @@
 #include "engine/job/certificate.h"
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "kernels/core/error.h"
 #include "tests/engine/cli/run_program.h"
@@ -88,6 +89,11 @@ class CertificateTest : public ProgramTest {
     report_ = json::parse(read("r.json"));
     return report_["certificate"];
   }
+  static std::set<std::string> checks_of(const json& certificate) {
+    std::set<std::string> names;
+    for (const json& check : certificate["checks"]) names.insert(check["name"]);
+    return names;
+  }
   json report_;
 };
 
@@ -108,12 +114,29 @@ TEST_F(CertificateTest, SaysWhyThereIsNone) {
   EXPECT_NE(certificate("--memory 128MiB")["why"].get<std::string>().find("352"),
             std::string::npos);
   EXPECT_EQ(certificate("--certify off")["why"], "not asked for");
-  EXPECT_EQ(certificate("--memory 1GiB --background 1")["made"], false);
-  EXPECT_EQ(certificate("--memory 1GiB --topology interfaces")["made"], false);
   EXPECT_EQ(report_["topology"]["checked"], false);
   expect_failure(2, "mesh v.npy -o v.vtu --certify on --memory 128MiB", "--certify on: needs");
-  expect_failure(2, "mesh v.npy -o v.vtu --certify on --memory 1GiB --background 1",
-                 "--certify on: labels are left out");
+}
+
+TEST_F(CertificateTest, IsMadeWhereLabelsAreLeftOut) {
+  const json made = certificate("--memory 1GiB --background 1");
+  EXPECT_EQ(made["made"], true);
+  EXPECT_TRUE(checks_of(made).contains("P2 overlap"));
+  for (const json& check : made["checks"]) EXPECT_EQ(check["passed"], true) << check;
+  for (const json& row : report_["shape"]["per_label"]) {
+    EXPECT_EQ(row["betti_of_volume"], row["betti_of_mesh"]);
+    EXPECT_GE(row["betti_of_mesh"]["closed"][0], 1) << row;
+  }
+}
+
+TEST_F(CertificateTest, CountsInterfacesWhereTheyAreKept) {
+  const json made = certificate("--memory 1GiB --topology interfaces");
+  EXPECT_EQ(made["made"], true);
+  EXPECT_TRUE(checks_of(made).contains("P1 interfaces"));
+  EXPECT_TRUE(checks_of(made).contains("P1 meetings"));
+  for (const json& check : made["checks"]) EXPECT_EQ(check["passed"], true) << check;
+  EXPECT_FALSE(checks_of(certificate("--memory 1GiB --topology interfaces --background 1"))
+                   .contains("P1 interfaces"));
 }
 
 }  // namespace

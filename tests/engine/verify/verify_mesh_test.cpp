@@ -5,6 +5,7 @@
 
 #include "kernels/core/layers.h"
 #include "tests/engine/memory_run.h"
+#include "tests/oracle/whole_audit.h"
 #include "tests/temp_folder.h"
 
 namespace mw::engine {
@@ -139,6 +140,15 @@ void expect_same_distance(const audit::DistanceReport& tiled, const audit::Dista
   }
 }
 
+void expect_same_changes(const std::vector<audit::PlaceChange>& tiled,
+                         const std::vector<audit::PlaceChange>& whole) {
+  ASSERT_EQ(tiled.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(tiled[i].labels, whole[i].labels);
+    EXPECT_TRUE(tiled[i].before == whole[i].before && tiled[i].after == whole[i].after);
+  }
+}
+
 void expect_same(const AuditReport& tiled, const AuditReport& whole) {
   ASSERT_EQ(tiled.checks.size(), whole.checks.size());
   for (std::size_t i = 0; i < whole.checks.size(); ++i) {
@@ -172,7 +182,10 @@ void expect_same(const AuditReport& tiled, const AuditReport& whole) {
   if (whole.distance) expect_same_distance(*tiled.distance, *whole.distance);
   ASSERT_EQ(tiled.places.has_value(), whole.places.has_value());
   if (whole.places) {
+    EXPECT_EQ(tiled.places->interfaces, whole.places->interfaces);
     EXPECT_EQ(tiled.places->meetings, whole.places->meetings);
+    expect_same_changes(tiled.places->interfaces_changed, whole.places->interfaces_changed);
+    expect_same_changes(tiled.places->meetings_changed, whole.places->meetings_changed);
   }
 }
 
@@ -181,8 +194,8 @@ TEST(VerifyMesh, IsTheAuditOfTheWholeWhateverTheTiles) {
   for (int trial = 0; trial < 400 && !HasFailure(); ++trial) {
     const Case c = random_case(random);
     SCOPED_TRACE("trial " + std::to_string(trial) + "\n" + c.volume.text());
-    const AuditReport whole =
-        audit::audit(c.volume.view(), c.volume.label_count, c.mesh.view(), c.frame, c.options);
+    const AuditReport whole = audit::test::audit(c.volume.view(), c.volume.label_count,
+                                                 c.mesh.view(), c.frame, c.options);
     expect_same(by_tiles(c, 1 + trial % 5, 1), whole);
     expect_same(by_tiles(c, 2, 3), whole);
   }

@@ -12,10 +12,12 @@
 
 #include "kernels/core/error.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/oracle/whole_audit.h"
 
 namespace mw::audit {
 namespace {
 
+using test::audit;
 using test::five_tet_mesh;
 using test::random_volume;
 using test::SmallMesh;

@@ -16,10 +16,12 @@
 #include "kernels/audit/distance_mesh.h"
 #include "kernels/audit/distance_tile.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/oracle/whole_audit.h"
 
 namespace mw::audit {
 namespace {
 
+using test::audit;
 using test::below;
 using test::five_tet_mesh;
 using test::kVolumeKinds;

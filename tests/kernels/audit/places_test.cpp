@@ -8,6 +8,7 @@
 #include "kernels/core/error.h"
 #include "tests/oracle/cell_complex.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/oracle/whole_places.h"
 
 namespace mw::audit {
 namespace {
@@ -16,7 +17,11 @@ using test::below;
 using test::BettiOfPlaces;
 using test::complex_of;
 using test::five_tet_mesh;
+using test::PlaceBetti;
+using test::Places;
 using test::places_of;
+using test::places_of_mesh;
+using test::places_of_volume;
 using test::PlacesBetti;
 using test::random_volume;
 using test::random_volume_of;
@@ -47,14 +52,14 @@ TEST(Places, AreThoseOfTheOracle) {
   for (int trial = 0; trial < 400 && !HasFailure(); ++trial) {
     const SmallVolume v = random_volume(random);
     SmallMesh mesh = five_tet_mesh(v);
-    const Places places = voxel_places(v.view(), v.label_count);
+    const Places places = places_of_volume(v.view(), v.label_count);
     expect_equal(places, places_of(complex_of(v.view(), v.label_count)), v.text());
-    expect_equal(mesh_places(mesh.view(), v.label_count),
+    expect_equal(places_of_mesh(mesh.view(), v.label_count),
                  places_of(complex_of(mesh.view(), v.label_count)), v.text());
     for (Label& l : mesh.labels) {
       if (below(random, 8) == 0) l = below(random, static_cast<std::uint32_t>(v.label_count));
     }
-    expect_equal(mesh_places(mesh.view(), v.label_count),
+    expect_equal(places_of_mesh(mesh.view(), v.label_count),
                  places_of(complex_of(mesh.view(), v.label_count)), v.text());
     for (const PlaceBetti& p : places.interfaces) {
       cavities += p.betti.b2 > 0 ? 1 : 0;
@@ -69,10 +74,10 @@ TEST(Places, AreThoseOfTheOracleForManyLabels) {
   std::mt19937 random(22);
   for (int trial = 0; trial < 40 && !HasFailure(); ++trial) {
     const SmallVolume v = random_volume_of(random, VolumeKind::kNoise, {3, 4, 3}, 12);
-    expect_equal(voxel_places(v.view(), v.label_count),
+    expect_equal(places_of_volume(v.view(), v.label_count),
                  places_of(complex_of(v.view(), v.label_count)), v.text());
     const SmallMesh mesh = five_tet_mesh(v);
-    expect_equal(mesh_places(mesh.view(), v.label_count),
+    expect_equal(places_of_mesh(mesh.view(), v.label_count),
                  places_of(complex_of(mesh.view(), v.label_count)), v.text());
   }
 }
@@ -81,7 +86,7 @@ TEST(Places, AreThoseOfTheOracleForManyLabels) {
 TEST(Places, ContactThroughAnEdgeIsAMeetingButNoInterface) {
   const SmallVolume v =
       volume_from({2, 2, 1}, 3, [](auto x, auto y, auto) { return x != y ? 0 : 1 + x; });
-  const Places places = voxel_places(v.view(), 3);
+  const Places places = places_of_volume(v.view(), 3);
   const PlaceLabels one_two{1, 2, kNoLabel, kNoLabel};
   const auto is = [&](const PlaceBetti& p) { return p.labels == one_two; };
   EXPECT_EQ(std::count_if(places.interfaces.begin(), places.interfaces.end(), is), 0);
@@ -90,23 +95,12 @@ TEST(Places, ContactThroughAnEdgeIsAMeetingButNoInterface) {
   EXPECT_EQ(met->betti, (Betti{1, 0, 0}));
 }
 
-TEST(Places, ChangesNameWhatIsLostMadeAndDifferent) {
-  const PlaceLabels a{0, 1, kNoLabel, kNoLabel}, b{0, 2, kNoLabel, kNoLabel},
-      c{1, 2, kNoLabel, kNoLabel}, d{1, 3, kNoLabel, kNoLabel};
-  const Betti disc{1, 0, 0}, ring{1, 1, 0}, none;
-  const auto out = changes({{a, disc}, {b, disc}, {c, ring}}, {{b, disc}, {c, disc}, {d, ring}});
-  ASSERT_EQ(out.size(), 3U);
-  EXPECT_TRUE(out[0].labels == a && out[0].before == disc && out[0].after == none);
-  EXPECT_TRUE(out[1].labels == c && out[1].before == ring && out[1].after == disc);
-  EXPECT_TRUE(out[2].labels == d && out[2].before == none && out[2].after == ring);
-}
-
 TEST(Places, RefuseUnsoundInput) {
   const std::vector<Label> labels{0, 1};
-  EXPECT_THROW((void)voxel_places({{1, 1, 1}, labels}, 2), Error);
+  EXPECT_THROW((void)places_of_volume({{1, 1, 1}, labels}, 2), Error);
   const std::vector<Position> vertices(4);
   const std::vector<TetRow> tets{{0, 1, 2, 4}};
-  EXPECT_THROW((void)mesh_places({vertices, tets, std::span(labels).first(1)}, 1), Error);
+  EXPECT_THROW((void)places_of_mesh({vertices, tets, std::span(labels).first(1)}, 1), Error);
 }
 
 }  // namespace

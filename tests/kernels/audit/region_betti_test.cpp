@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
+#include "kernels/audit/regions.h"
+#include "tests/kernels/audit/mesh_parts_by_owner.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::audit {
@@ -74,6 +78,66 @@ TEST(RegionBetti, AgreesWithTheWholeMeshOfRandomlyLabelledTets) {
     ASSERT_EQ(region_betti(mesh.view(), labels), without_exterior(mesh_betti(mesh.view(), labels)))
         << trial;
   }
+}
+
+/// Random labels on the tets of a mesh, some of them left out, some damaged.
+SmallMesh random_mesh(std::mt19937& random, std::uint32_t labels) {
+  SmallVolume v = random_volume(random);
+  SmallMesh mesh = five_tet_mesh(v);
+  for (Label& label : mesh.labels) {
+    label = below(random, 3) == 0 ? below(random, labels + 1) : label % labels;
+    if (label == labels) label = kUnknown;
+  }
+  const auto some = [&] { return below(random, static_cast<std::uint32_t>(mesh.tets.size())); };
+  for (std::uint32_t i = below(random, 3); i > 0; --i) {
+    mesh.tets.push_back(mesh.tets[some()]);
+    mesh.labels.push_back(below(random, labels));
+  }
+  for (std::uint32_t i = below(random, 2); i > 0; --i) mesh.tets[some()][2] = mesh.tets[some()][1];
+  std::vector<bool> kept;
+  for (std::uint32_t l = 0; l < labels; ++l) kept.push_back(below(random, 4) != 0);
+  for (Label& label : mesh.labels) {
+    if (label == kUnknown) label = labels;
+  }
+  kept.push_back(true);
+  return kept_part(mesh, kept);
+}
+
+/// Joins pieces with maps.
+std::vector<RegionBetti> joined(const std::vector<RegionsPiece>& pieces, std::size_t labels) {
+  RegionsUnion regions(labels);
+  std::multimap<std::uint64_t, std::uint32_t> items;
+  std::map<std::uint64_t, std::vector<RegionsPiece::Meeting>> meetings;
+  for (const RegionsPiece& piece : pieces) {
+    const std::uint32_t first = regions.add(piece);
+    for (const auto& [item, set] : piece.shared) items.emplace(item, first + set);
+    for (const auto& [vertex, part, inner] : piece.meetings) {
+      meetings[vertex].push_back({vertex, first + part, first + inner});
+    }
+  }
+  for (const auto& [item, set] : items) regions.unite(items.find(item)->second, set);
+  for (auto& [vertex, here] : meetings) regions.meet(here);
+  return regions.betti();
+}
+
+TEST(RegionBetti, IsThatOfTheWholeWhateverVerticesATileOwns) {
+  std::mt19937 random(13);
+  std::size_t meetings = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    const std::uint32_t labels = 1 + below(random, 4);
+    const SmallMesh mesh = random_mesh(random, labels);
+    const std::uint32_t tiles = 1 + below(random, 5);
+    const auto owner = test::random_owners(random, mesh.vertices.size(), tiles);
+    std::vector<RegionsPiece> pieces;
+    for (std::uint32_t tile = 0; tile < tiles; ++tile) {
+      const test::OwnedPart part = test::part_of_owner(mesh, owner, tile);
+      const MeshStars stars(part.view());
+      pieces.push_back(regions_of(stars, labels));
+      meetings += pieces.back().meetings.size();
+    }
+    ASSERT_EQ(joined(pieces, labels), region_betti(mesh.view(), labels)) << trial;
+  }
+  EXPECT_GT(meetings, 1000U);
 }
 
 }  // namespace

@@ -12,10 +12,12 @@
 #include "kernels/audit/audit.h"
 #include "kernels/core/lattice.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/oracle/whole_audit.h"
 
 namespace mw::audit {
 namespace {
 
+using test::audit;
 using test::below;
 using test::five_tet_mesh;
 using test::random_volume;

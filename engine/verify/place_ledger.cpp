@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sorted by place, what tiles counted adds up; sets that are one count one less.
+#include "engine/verify/place_ledger.h"
+
+#include <limits>
+
+#include "kernels/audit/disjoint_sets.h"
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::PlaceKind;
+using audit::PlaceLabels;
+
+// Two labels a word: words are in the order of the labels.
+std::array<std::uint64_t, 2> words_of(const PlaceLabels& l) {
+  return {std::uint64_t{l[0]} << 32 | l[1], std::uint64_t{l[2]} << 32 | l[3]};
+}
+PlaceLabels labels_of(std::uint64_t first, std::uint64_t second) {
+  return {static_cast<Label>(first >> 32), static_cast<Label>(first),  //
+          static_cast<Label>(second >> 32), static_cast<Label>(second)};
+}
+
+std::uint64_t word(PlaceKind kind) {
+  return kind == PlaceKind::kMeeting ? 1 : 0;
+}
+PlaceKind kind_of(std::uint64_t word) {
+  return (word & 1U) != 0 ? PlaceKind::kMeeting : PlaceKind::kInterface;
+}
+
+}  // namespace
+
+PlaceLedger::PlaceLedger(std::filesystem::path folder, std::size_t memory_bytes)
+    : folder_(std::move(folder)), share_(memory_bytes / 2), cells_(folder_, share_) {}
+
+void PlaceLedger::add_sums(Side side, const PlaceLabels& labels, PlaceKind kind, Sums sums) {
+  const auto [first, second] = words_of(labels);
+  cells_.add({first, second, word(kind) << 1U | static_cast<std::uint64_t>(side),
+              static_cast<std::uint64_t>(sums.components), static_cast<std::uint64_t>(sums.euler)});
+}
+
+void PlaceLedger::add(Side side, const audit::PlacesPiece& piece) {
+  for (const audit::PlaceTally& t : piece.tallies) {
+    add_sums(side, t.labels, t.kind, {t.components, t.euler});
+  }
+  if (!nodes_) nodes_.emplace(folder_, share_);
+  for (const audit::PlacesPiece::Node& node : piece.shared) {
+    const audit::PlaceTally& tally = piece.tallies[node.tally];
+    const auto [first, second] = words_of(tally.labels);
+    nodes_->add({first, second, node.vertex << 1U | word(tally.kind), sets_ + node.set});
+  }
+  sets_ += piece.open_sets;
+  if (sets_ >= std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorKind::kResource,
+                "verify: more than 2^32 parts of interfaces; verify a --crop");
+  }
+}
+
+void PlaceLedger::close(Side side, audit::Cavities cavities) {
+  cavities_[static_cast<std::size_t>(side)] = std::move(cavities);
+  audit::DisjointSets sets(sets_);
+  std::array<std::uint64_t, 4> last{};
+  bool is_first = true;
+  const auto join = [&](const std::array<std::uint64_t, 4>& node) {
+    const auto set = static_cast<std::uint32_t>(node[3]);
+    const auto other = static_cast<std::uint32_t>(last[3]);
+    const bool is_same = !is_first && std::equal(node.begin(), node.begin() + 3, last.begin());
+    if (is_same && sets.find(set) != sets.find(other)) {
+      sets.unite(set, other);
+      add_sums(side, labels_of(node[0], node[1]), kind_of(node[2]), {-1, 0});
+    }
+    last = node;
+    is_first = false;
+  };
+  if (nodes_) nodes_->each(join);
+  nodes_.reset();
+  sets_ = 0;
+}
+
+audit::Betti PlaceLedger::betti_of(const Row& row, Side side) const {
+  const Sums& sums = row.sums[static_cast<std::size_t>(side)];
+  if (sums.components == 0) return {};
+  const audit::Cavities& cavities = cavities_[static_cast<std::size_t>(side)];
+  const auto found = cavities.find(row.labels);
+  const std::int64_t b2 = found == cavities.end() ? 0 : found->second;
+  return {sums.components, sums.components + b2 - sums.euler, b2};
+}
+
+void PlaceLedger::report(const Row& row, audit::PlacesReport& out) const {
+  const bool is_interface = row.kind == PlaceKind::kInterface;
+  const audit::Betti before = betti_of(row, Side::kVolume), after = betti_of(row, Side::kMesh);
+  if (before.b0 > 0) ++(is_interface ? out.interfaces : out.meetings);
+  if (before == after) return;
+  (is_interface ? out.interfaces_changed : out.meetings_changed)
+      .push_back({row.labels, before, after});
+}
+
+audit::PlacesReport PlaceLedger::compare() {
+  audit::PlacesReport out;
+  std::optional<Row> row;
+  cells_.each([&](const std::array<std::uint64_t, 5>& cells) {
+    const PlaceLabels labels = labels_of(cells[0], cells[1]);
+    const PlaceKind kind = kind_of(cells[2] >> 1U);
+    if (row && (row->labels != labels || row->kind != kind)) {
+      report(*row, out);
+      row.reset();
+    }
+    if (!row) row = Row{labels, kind, {}};
+    Sums& sums = row->sums[cells[2] & 1U];
+    sums.components += static_cast<std::int64_t>(cells[3]);
+    sums.euler += static_cast<std::int64_t>(cells[4]);
+  });
+  if (row) report(*row, out);
+  return out;
+}
+
+}  // namespace mw::engine

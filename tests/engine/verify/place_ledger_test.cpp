@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Places put together from tiles against those of wholes.
+#include "engine/verify/place_ledger.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/audit/parts_union.h"
+#include "tests/kernels/audit/mesh_parts_by_owner.h"
+#include "tests/oracle/small_volumes.h"
+#include "tests/oracle/whole_places.h"
+#include "tests/temp_folder.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::test::below;
+using audit::test::SmallMesh;
+using audit::test::SmallVolume;
+using Side = PlaceLedger::Side;
+
+/// A volume, and a mesh of it with other labels on some tets.
+struct Case {
+  SmallVolume volume;
+  SmallMesh mesh;
+};
+
+Case random_case(std::mt19937& random) {
+  Case out;
+  const auto edge = [&] { return std::int64_t{1 + below(random, 6)}; };
+  const auto kind = static_cast<audit::test::VolumeKind>(below(random, audit::test::kVolumeKinds));
+  out.volume =
+      audit::test::random_volume_of(random, kind, {edge(), edge(), edge()}, 1 + below(random, 6));
+  out.mesh = audit::test::five_tet_mesh(out.volume);
+  const std::uint32_t rate = 1 + below(random, 20);
+  const auto labels = static_cast<std::uint32_t>(out.volume.label_count);
+  for (Label& label : out.mesh.labels) {
+    if (below(random, rate) == 1) label = below(random, labels);
+    if (below(random, 40 * rate) == 1) label = audit::kUnknown;
+  }
+  return out;
+}
+
+audit::Cavities cavities(const audit::PartsPiece& piece, std::size_t labels) {
+  audit::PartsUnion parts(labels);
+  parts.add(piece);
+  return parts.cavities();
+}
+
+/// Boxes of voxels with those around the vertices that they own.
+void add_tiles(const SmallVolume& volume, std::int64_t edge, PlaceLedger& ledger) {
+  const Box3 all{{0, 0, 0}, volume.shape};
+  const Index3 last = volume.shape + Index3{1, 1, 1};
+  for (std::int64_t z = 0; z < last.z; z += edge) {
+    for (std::int64_t y = 0; y < last.y; y += edge) {
+      for (std::int64_t x = 0; x < last.x; x += edge) {
+        const Box3 owned =
+            intersection({{x, y, z}, {x + edge, y + edge, z + edge}}, {{0, 0, 0}, last});
+        const Box3 loaded = intersection({owned.lo - Index3{1, 1, 1}, owned.hi}, all);
+        std::vector<Label> labels;
+        for (Index3 v = loaded.lo; v.z < loaded.hi.z; ++v.z) {
+          for (v.y = loaded.lo.y; v.y < loaded.hi.y; ++v.y) {
+            for (v.x = loaded.lo.x; v.x < loaded.hi.x; ++v.x) {
+              labels.push_back(volume.labels[static_cast<std::size_t>(all.offset(v))]);
+            }
+          }
+        }
+        ledger.add(Side::kVolume,
+                   audit::voxel_places({{loaded.shape(), labels}, volume.shape, loaded, owned},
+                                       volume.label_count));
+      }
+    }
+  }
+}
+
+void add_shreds(std::mt19937& random, const Case& c, PlaceLedger& ledger) {
+  const std::uint32_t tiles = 1 + below(random, 5);
+  const auto owner = audit::test::random_owners(random, c.mesh.vertices.size(), tiles);
+  for (std::uint32_t tile = 0; tile < tiles; ++tile) {
+    const audit::test::OwnedPart part = audit::test::part_of_owner(c.mesh, owner, tile);
+    ledger.add(Side::kMesh,
+               audit::mesh_places(audit::MeshStars(part.view()), c.volume.label_count));
+  }
+}
+
+void expect_same(const std::vector<audit::PlaceChange>& tiled,
+                 const std::vector<audit::PlaceChange>& whole) {
+  ASSERT_EQ(tiled.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(tiled[i].labels, whole[i].labels);
+    EXPECT_TRUE(tiled[i].before == whole[i].before && tiled[i].after == whole[i].after);
+  }
+}
+
+TEST(PlaceLedger, TellsWhatTheWholeTellsWhateverTheTiles) {
+  std::mt19937 random(31);
+  std::size_t changed = 0;
+  for (int trial = 0; trial < 250 && !HasFailure(); ++trial) {
+    const Case c = random_case(random);
+    const std::size_t labels = c.volume.label_count;
+    SCOPED_TRACE("trial " + std::to_string(trial) + "\n" + c.volume.text());
+    const ::mw::test::TempFolder folder;
+    // So little memory that everything goes through the disk, or so much that nothing does.
+    PlaceLedger ledger(folder.path(), trial % 2 == 0 ? 4096 : 1 << 20);
+    add_shreds(random, c, ledger);
+    const audit::MeshStars stars(c.mesh.view());
+    ledger.close(Side::kMesh, cavities(audit::mesh_parts(stars, labels).piece, labels));
+    add_tiles(c.volume, 1 + trial % 4, ledger);
+    ledger.close(Side::kVolume,
+                 cavities(audit::voxel_parts(audit::whole(c.volume.view()), labels).piece, labels));
+    const audit::PlacesReport tiled = ledger.compare();
+    const audit::PlacesReport whole =
+        audit::test::compare_places(audit::test::places_of_volume(c.volume.view(), labels),
+                                    audit::test::places_of_mesh(c.mesh.view(), labels));
+    EXPECT_EQ(tiled.interfaces, whole.interfaces);
+    EXPECT_EQ(tiled.meetings, whole.meetings);
+    expect_same(tiled.interfaces_changed, whole.interfaces_changed);
+    expect_same(tiled.meetings_changed, whole.meetings_changed);
+    changed += whole.meetings_changed.size();
+  }
+  EXPECT_GT(changed, 500U);
+}
+
+}  // namespace
+}  // namespace mw::engine
