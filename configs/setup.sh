@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that are missing and builds build/release.  Quiet unless it fails.
-# Usage: setup.sh [program|all|packages].  program: without tests and benchmarks, and what only they
-# need; packages: builds nothing.
+# Usage: setup.sh [program|all|packages|scheduled].  program: without tests and benchmarks, and what
+# only they need; packages: builds nothing; scheduled: the same with what .ci/scheduled needs.
 set -euo pipefail
 
 what="${1:-all}"
@@ -27,6 +27,7 @@ quietly() {
 wanted_packages() {
   local lists=("$root/configs/packages.txt")
   [[ "$what" == program ]] || lists+=("$root/configs/test-packages.txt")
+  [[ "$what" != scheduled ]] || lists+=("$root/configs/scheduled-packages.txt")
   sed 's/#.*//' "${lists[@]}" | tr -s ' \t' '\n' | sed '/^$/d'
 }
 
@@ -77,6 +78,7 @@ build() {
   quietly cmake --build --preset release --parallel 2 || die "the build failed (see above)"
 }
 
-[[ "$what" =~ ^(program|all|packages)$ ]] || die "'$what' is none of program, all and packages"
+[[ "$what" =~ ^(program|all|packages|scheduled)$ ]] ||
+  die "'$what' is none of program, all, packages and scheduled"
 install_packages
-[[ "$what" == packages ]] || build
+[[ "$what" == packages || "$what" == scheduled ]] || build

@@ -18,13 +18,20 @@ namespace {
              "write the one volume of it that is meant, as [z, y, x]");
 }
 
-/// The key of each axis: "zyxc"; empty when the text is no list of axes.
-std::string keys_of(const std::string& axistags) {
-  const auto json = nlohmann::json::parse(axistags, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) return {};
+/// The key of each axis: "zyxc"; empty without axistags.
+std::string keys_of(const Hdf5Description& description, std::string_view file) {
+  if (description.axistags.empty()) return {};
+  const auto json = nlohmann::json::parse(description.axistags, nullptr,
+                                          /*allow_exceptions=*/false);
+  constexpr const char* kNoList = "its axistags are no list of axes";
+  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) {
+    fail(description, file, kNoList);
+  }
   std::string keys;
   for (const auto& axis : json["axes"]) {
-    if (!axis.is_object() || !axis.contains("key") || !axis["key"].is_string()) return {};
+    if (!axis.is_object() || !axis.contains("key") || !axis["key"].is_string()) {
+      fail(description, file, kNoList);
+    }
     const auto& key = axis["key"].get_ref<const std::string&>();
     keys += key.size() == 1 ? key[0] : '?';
   }
@@ -67,7 +74,7 @@ std::vector<std::size_t> three_of(const Hdf5Description& description, bool last_
 }  // namespace
 
 Hdf5Axes find_axes(const Hdf5Description& description, std::string_view file) {
-  const std::string keys = keys_of(description.axistags);
+  const std::string keys = keys_of(description, file);
   if (!keys.empty()) return tagged_axes(description, keys, file);
   const bool of_dream3d = description.numbers.contains("SPACING");
   const std::vector<std::size_t> left = three_of(description, of_dream3d);

@@ -52,13 +52,13 @@ class Reader {
     const Hdf5Handle attribute = opened(H5Aopen(object, name, H5P_DEFAULT), &H5Aclose, name);
     const Hdf5Handle type = opened(H5Aget_type(attribute.get()), &H5Tclose, name);
     const Hdf5Handle space = opened(H5Aget_space(attribute.get()), &H5Sclose, name);
-    if (H5Tget_class(type.get()) != H5T_STRING) return {};
-    if (demand(H5Sget_simple_extent_npoints(space.get()), name) != 1) return {};
+    const bool is_text = H5Tget_class(type.get()) == H5T_STRING;
+    if (!is_text || demand(H5Sget_simple_extent_npoints(space.get()), name) != 1) refuse(name);
     if (demand(H5Tis_variable_str(type.get()), name) > 0) {
       return variable_text(attribute.get(), type.get(), name);
     }
     const std::size_t size = H5Tget_size(type.get());
-    if (size > kMostTextBytes) return {};
+    if (size > kMostTextBytes) refuse(name);
     std::string out(size, '\0');
     demand(H5Aread(attribute.get(), type.get(), out.data()), name);
     return out.substr(0, out.find('\0'));
@@ -79,6 +79,11 @@ class Reader {
   }
 
  private:
+  [[noreturn]] void refuse(const char* name) const {
+    fail_input(file_, name, text("is not one text of up to ", kMostTextBytes, " bytes"),
+               "the file is damaged: check it with h5dump, or h5repack it");
+  }
+
   /// What the library returned, unless it is negative: it failed.
   template <class Result>
   Result demand(Result result, const char* name) const {
@@ -110,7 +115,8 @@ class Reader {
     if (bytes == nullptr) return {};
     std::string out(bytes);
     H5free_memory(bytes);
-    return out.size() <= kMostTextBytes ? out : std::string();
+    if (out.size() > kMostTextBytes) refuse(name);
+    return out;
   }
 
   std::string_view file_;
