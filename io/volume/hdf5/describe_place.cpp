@@ -15,6 +15,7 @@ namespace mw::io {
 namespace {
 
 constexpr hssize_t kMostNumbers = H5S_MAX_RANK;
+constexpr const char* kDamaged = "the file is damaged: check it with h5dump, or h5repack it";
 constexpr std::size_t kMostTextBytes = 1 << 14;
 
 /// Looks things up by name.  None is an answer; a look-up that fails is damage.
@@ -80,16 +81,14 @@ class Reader {
 
  private:
   [[noreturn]] void refuse(const char* name) const {
-    fail_input(file_, name, text("is not one text of up to ", kMostTextBytes, " bytes"),
-               "the file is damaged: check it with h5dump, or h5repack it");
+    fail_input(file_, name, text("is not one text of up to ", kMostTextBytes, " bytes"), kDamaged);
   }
 
   /// What the library returned, unless it is negative: it failed.
   template <class Result>
   Result demand(Result result, const char* name) const {
     if (result < 0) {
-      fail_input(file_, name, text("cannot be read: ", hdf5_reason()),
-                 "the file is damaged: check it with h5dump, or h5repack it");
+      fail_input(file_, name, text("cannot be read: ", hdf5_reason()), kDamaged);
     }
     return result;
   }
@@ -106,16 +105,20 @@ class Reader {
     const H5T_class_t kind = H5Tget_class(type.get());
     const hssize_t count = demand(H5Sget_simple_extent_npoints(space.get()), name);
     const bool numbers = kind == H5T_INTEGER || kind == H5T_FLOAT;
-    return numbers && count <= kMostNumbers ? static_cast<std::size_t>(count) : 0;
+    if (!numbers) return 0;
+    if (count > kMostNumbers) {
+      fail_input(file_, name, text("holds ", count, " numbers, more than a place has"), kDamaged);
+    }
+    return static_cast<std::size_t>(count);
   }
 
   [[nodiscard]] std::string variable_text(hid_t attribute, hid_t type, const char* name) const {
     char* bytes = nullptr;
     demand(H5Aread(attribute, type, static_cast<void*>(&bytes)), name);
-    if (bytes == nullptr) return {};
-    std::string out(bytes);
+    // A heap that has lost the text gives none.
+    std::string out(bytes == nullptr ? "" : bytes);
     H5free_memory(bytes);
-    if (out.size() > kMostTextBytes) refuse(name);
+    if (out.empty() || out.size() > kMostTextBytes) refuse(name);
     return out;
   }
 
