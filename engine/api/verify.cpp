@@ -43,7 +43,6 @@ Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, c
         .steps = mw::api::input_steps(options),
         .choice = mw::api::label_choice(options),
         .bounds = [&](const mw::io::MeshRecord& record) { return bounds_of(options, record); },
-        .max_volume_error = mw::audit::AuditOptions{}.max_volume_error,
         .threads = options.threads,
         .memory = mw::api::memory_of(options),
         .folder = mw::io::scratch_folder(),

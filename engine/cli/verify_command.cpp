@@ -26,7 +26,7 @@ report::Verdict judge(const VerifyRequest& request) {
       .steps = request.volume.steps,
       .choice = request.choice,
       .bounds = [&](const io::MeshRecord& record) { return bounds_of(request, record); },
-      .max_volume_error = request.max_volume_error,
+      .checks = request.checks,
       .threads = request.threads,
       .memory = *request.memory,
       .folder = io::scratch_folder()};

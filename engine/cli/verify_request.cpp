@@ -62,14 +62,16 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
                        "[the run's, else smooth]",
                .choices = {"smooth", kVoxel},
                .assign = [&](const std::string& text) { request.in_layers = text != kVoxel; }});
-  options.add(
-      {.name = "max-volume-error",
-       .value = "E",
-       .help = "P8 fails when a label of 1000 voxels or more is off by a larger share of its "
-               "volume, or none",
-       .kind = ValueKind::kNumberOrNone,
-       .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
-       .assign = [&](const std::string& text) { request.max_volume_error = parse_bound(text); }});
+  options.add({.name = "max-volume-error",
+               .value = "E",
+               .help =
+                   "P8 fails when a label of 1000 voxels or more is off by a larger share of its "
+                   "volume, or none",
+               .kind = ValueKind::kNumberOrNone,
+               .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
+               .assign = [&](const std::string& text) {
+                 request.checks.max_volume_error = parse_bound(text);
+               }});
   add_resource_options(options, request.threads, request.memory,
                        "what lists and buffers may take together, beside a tile a thread");
   options.add({.name = "report",

@@ -21,8 +21,8 @@ struct VerifyRequest {
   std::optional<bool> count_places;
   std::optional<double> quality_floor;
   std::optional<std::optional<double>> max_distance;
-  std::optional<bool> in_layers;  ///< distances in voxels of the lattice of smooth surfaces
-  std::optional<double> max_volume_error;
+  std::optional<bool> in_layers;        ///< distances in voxels of the lattice of smooth surfaces
+  audit::AuditOptions checks;           ///< bounds that no run promises
   int threads = 0;                      ///< 0: all cores
   std::optional<std::uint64_t> memory;  ///< bytes; after check_verify_request() never empty
 };

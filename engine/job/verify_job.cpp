@@ -21,12 +21,11 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   MeshTiles mesh(info, verdict.table, {job.folder, job.memory / 8});
   deliver(mesh);
   verdict.bounds = job.bounds(mesh.header().record);
-  VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space),
+  VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space, job.checks),
                   .threads = thread_count(job.threads),
                   .memory_bytes = job.memory / 2,
                   .folder = job.folder,
                   .between = job.between};
-  task.options.max_volume_error = job.max_volume_error;
   task.options.kept = kept_labels(job.choice, verdict.table);
   verdict.layers = task.options.layers;
   verdict.audit = verify_mesh(io::DenseVolume(volume, verdict.table), mesh, task);
@@ -43,11 +42,14 @@ audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& t
   return leaves_out ? kept : audit::KeptLabels{};
 }
 
-audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::VolumeSpace& space) {
-  return {.radius_ratio_floor = promises.quality_floor,
-          .count_places = promises.interfaces,
-          .max_distance = promises.max_distance,
-          .layers = promises.smooth ? layers_of(space.spacing) : Index3{1, 1, 1}};
+audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::VolumeSpace& space,
+                                  const audit::AuditOptions& others) {
+  audit::AuditOptions options = others;
+  options.radius_ratio_floor = promises.quality_floor;
+  options.count_places = promises.interfaces;
+  options.max_distance = promises.max_distance;
+  options.layers = promises.smooth ? layers_of(space.spacing) : Index3{1, 1, 1};
+  return options;
 }
 
 }  // namespace mw::engine

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 
 #include "engine/output/label_choice.h"
 #include "engine/report/verify_report.h"
@@ -20,11 +19,11 @@ struct VerifyJob {
   LabelChoice choice;  ///< that the mesh was made with
   /// What is asked, given what the mesh tells of the run that made it.
   std::function<report::Bounds(const io::MeshRecord& record)> bounds;
-  std::optional<double> max_volume_error;  ///< a share of the label's volume
-  int threads = 0;                         ///< 0: all cores
-  std::uint64_t memory = 0;                ///< bytes
-  std::filesystem::path folder;            ///< of temporary files
-  std::function<void()> between = [] {};   ///< called after each tile; may throw
+  audit::AuditOptions checks = {};        ///< bounds that no run promises; the rest is overruled
+  int threads = 0;                        ///< 0: all cores
+  std::uint64_t memory = 0;               ///< bytes
+  std::filesystem::path folder;           ///< of temporary files
+  std::function<void()> between = [] {};  ///< called after each tile; may throw
 };
 
 /// P1 to P4 and P8 of the mesh that deliver() writes into a sink, begin to finish.
@@ -35,8 +34,9 @@ struct VerifyJob {
 /// The labels that a mesh is to hold; empty when all are.
 [[nodiscard]] audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& table);
 
-/// What the bounds ask, without the labels that are kept.
+/// `others` with what was promised in it.
 [[nodiscard]] audit::AuditOptions audit_options(const io::MeshPromises& promises,
-                                                const io::VolumeSpace& space);
+                                                const io::VolumeSpace& space,
+                                                const audit::AuditOptions& others = {});
 
 }  // namespace mw::engine
