@@ -6,6 +6,7 @@
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/grid_mesh.h"
+#include "tests/io/mesh/mesh_endings.h"
 #include "tests/io/test_files.h"
 
 namespace mw::io {
@@ -22,28 +23,27 @@ MeshData solid(bool labels_signed) {
   return mesh;
 }
 
-std::vector<std::string> extensions() {
-  std::vector<std::string> out;
-  std::string all = mesh_extensions() + ",";
-  for (std::size_t at = 0; at < all.size();) {
-    const std::size_t end = all.find(',', at);
-    out.push_back(all.substr(at, end - at));
-    at = all.find_first_not_of(", ", end);
-    if (at == all.npos) break;
+/// Formats without room for the middles of edges say so.
+bool takes_ten_nodes(const std::filesystem::path& path) {
+  try {
+    static_cast<void>(open_mesh_sink(path, Element::kTet10));
+    return true;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage) << error.what();
+    return false;
   }
-  return out;
 }
 
 TEST(EveryFormat, ToEveryOther) {
-  EXPECT_GE(extensions().size(), 8U);
+  EXPECT_GE(mesh_endings().size(), 8U);
   for (const bool labels_signed : {false, true}) {
     const TempDir dir;
     const MeshData mesh = solid(labels_signed);
     const std::string digest = mesh_digest(mesh);
-    for (const std::string& from : extensions()) {
+    for (const std::string& from : mesh_endings()) {
       const auto path = dir.path() / ("a" + from);
       write_mesh(mesh, *open_mesh_sink(path));
-      for (const std::string& to : extensions()) {
+      for (const std::string& to : mesh_endings()) {
         SCOPED_TRACE(from + " to " + to);
         const auto copy = dir.path() / ("b" + to);
         copy_mesh(path, *open_mesh_sink(copy));
@@ -60,16 +60,19 @@ TEST(EveryFormat, ToEveryOther) {
 TEST(EveryFormat, OfTenNodesIsTheSameMesh) {
   const TempDir dir;
   const MeshData mesh = solid(false);
-  for (const std::string& extension : extensions()) {
-    if (extension == ".mesh") continue;
+  int tried = 0;
+  for (const std::string& extension : mesh_endings()) {
     SCOPED_TRACE(extension);
     const auto path = dir.path() / ("a" + extension);
+    if (!takes_ten_nodes(path)) continue;
+    ++tried;
     write_mesh(mesh, *open_mesh_sink(path, Element::kTet10));
     const std::uintmax_t bytes = std::filesystem::file_size(path);
     EXPECT_EQ(mesh_digest(read_mesh(path)), mesh_digest(mesh));
     write_mesh(mesh, *open_mesh_sink(path));
     EXPECT_TRUE(extension == ".xdmf" || std::filesystem::file_size(path) < bytes);
   }
+  EXPECT_GE(tried, 7);
 }
 
 }  // namespace

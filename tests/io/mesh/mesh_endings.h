@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Every format that meshes are written in, for tests that hold for all of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/mesh/open_mesh.h"
+
+namespace mw::io {
+
+/// ".vtkhdf", ".vtu" and so on.
+inline std::vector<std::string> mesh_endings() {
+  std::vector<std::string> out;
+  const std::string all = mesh_extensions();
+  for (std::size_t at = 0; at != all.npos;) {
+    const std::size_t end = all.find(", ", at);
+    out.push_back(all.substr(at, end == all.npos ? end : end - at));
+    at = end == all.npos ? end : end + 2;
+  }
+  return out;
+}
+
+}  // namespace mw::io
