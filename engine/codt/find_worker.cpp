@@ -44,11 +44,13 @@ fs::path object_of_this_code() {
 }  // namespace
 
 WorkerHost this_host() {
-  return {.program = fs::read_symlink("/proc/self/exe"), .object = object_of_this_code()};
+  std::error_code ignored;  // without /proc the program is not known
+  return {.program = fs::read_symlink("/proc/self/exe", ignored), .object = object_of_this_code()};
 }
 
 std::vector<fs::path> worker_places(const WorkerHost& host) {
-  std::vector<fs::path> places{host.program.parent_path() / kProgram};
+  std::vector<fs::path> places;
+  if (!host.program.empty()) places.push_back(host.program.parent_path() / kProgram);
   const fs::path folder = host.object.parent_path();
   if (!folder.empty()) places.push_back(folder / kProgram);
   for (const char* const tail : {MW_INSTALLED_LIBRARY, MW_INSTALLED_PYTHON}) {

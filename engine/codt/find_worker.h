@@ -13,7 +13,7 @@ inline constexpr const char* kWorkerVariable = "MW_CODT_WORKER";
 
 /// Who may need a worker; a program that loads the library, as python3 does, has none beside it.
 struct WorkerHost {
-  std::filesystem::path program;  ///< the running one, absolute
+  std::filesystem::path program;  ///< the running one, absolute; empty: unknown
   std::filesystem::path
       object;  ///< program, library or module that this code is in, absolute; empty: unknown
 };

@@ -18,9 +18,9 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 set(CPACK_COMPONENTS_ALL)
 
 set(mw_what [[
-A window marches over a volume of labelled voxels (EM connectomics, CT and MRI
-segmentations, polycrystals) and leaves one conforming tetrahedral mesh in which
-every label keeps its topology, whatever the size of the volume.]])
+A window marches over a volume of labelled voxels (EM connectomics, CT and
+MRI segmentations, polycrystals) and leaves one conforming tetrahedral mesh in
+which every label keeps its topology, whatever the size of the volume.]])
 
 # Paths that only a package has: copyright, changelog, a packed manual page.
 set(folder ${CMAKE_BINARY_DIR}/package)
@@ -53,7 +53,7 @@ mw_package(program mwmesh "labelled voxels to tetrahedral meshes, topology kept"
 mw_package(library ${library_name} "labelled voxels to tetrahedral meshes - shared library"
   "This package has the C++ library.")
 mw_package(development libmwmesh-dev "labelled voxels to tetrahedral meshes - development files"
-  "This package has the header, the static library, and files for CMake and pkg-config.")
+  "This package has the header, the static library, and what CMake and\npkg-config need.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS mwmesh-codt)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS mwmesh-codt)
@@ -65,7 +65,7 @@ string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libblosc-dev libbz2-d
   libzstd-dev zlib1g-dev pkgconf)
 if(TARGET mwmesh-codt)
   mw_package(worker mwmesh-codt "labelled voxels to tetrahedral meshes - TetGen worker"
-    "This package has the program that --optimizer tetgen starts. It is linked with\nTetGen and so under the AGPL, version 3 or later.")
+    "This package has the program that --optimizer tetgen starts. It is linked\nwith TetGen and so under the AGPL, version 3 or later.")
 endif()
 if(TARGET mwmesh_python)
   mw_package(python python3-mwmesh "labelled voxels to tetrahedral meshes - Python package"

@@ -67,6 +67,11 @@ TEST(FindWorker, LooksWhereTheBuildIsInstalled) {
   EXPECT_EQ(places_of({}).back(), Path(MW_INSTALL_PREFIX) / kPrograms / "mwmesh-codt");
 }
 
+// As in a chroot without /proc.
+TEST(FindWorker, LooksWhereTheBuildIsInstalledWhenNothingIsKnown) {
+  EXPECT_EQ(worker_places({}).size(), 1U);
+}
+
 // Whoever may write to /tmp must not decide what a library in /tmp/x starts.
 TEST(FindWorker, LooksNowhereAboveAFolderThatIsNoPrefix) {
   EXPECT_EQ(places_of("/tmp/x/libmwmesh.so").size(), 3U);
