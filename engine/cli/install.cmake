@@ -11,7 +11,7 @@ function(mw_generated what folder name)
     COMMAND $<TARGET_FILE:mwmesh> generate ${what} > ${file}
     DEPENDS mwmesh VERBATIM)
   add_custom_target(mwmesh_${what} ALL DEPENDS ${file})
-  install(FILES ${file} DESTINATION ${ARGV3})
+  install(FILES ${file} DESTINATION ${ARGV3} COMPONENT program)
 endfunction()
 
 mw_generated(man man/man1 mwmesh.1 ${CMAKE_INSTALL_MANDIR}/man1)
@@ -20,7 +20,7 @@ mw_generated(bash bash-completion/completions mwmesh
 mw_generated(zsh zsh/site-functions _mwmesh ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 mw_generated(fish fish/vendor_completions.d mwmesh.fish
   ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-install(TARGETS mwmesh DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS mwmesh DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 if(TARGET mwmesh-codt)
-  install(TARGETS mwmesh-codt DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS mwmesh-codt DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT worker)
 endif()

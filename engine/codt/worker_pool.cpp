@@ -3,31 +3,7 @@
 // Workers are taken from a stack and put back.
 #include "engine/codt/worker_pool.h"
 
-#include <unistd.h>
-
-#include <cstdlib>
-
-#include "kernels/core/error.h"
-
 namespace mw::engine::codt {
-namespace {
-
-constexpr const char* kProgram = "mwmesh-codt";
-
-}  // namespace
-
-std::filesystem::path find_worker() {
-  const char* const wanted = std::getenv(kWorkerVariable);  // NOLINT(concurrency-mt-unsafe)
-  const std::filesystem::path program =
-      wanted != nullptr ? std::filesystem::path(wanted)
-                        : std::filesystem::read_symlink("/proc/self/exe").parent_path() / kProgram;
-  std::error_code ignored;
-  const bool is_file = std::filesystem::is_regular_file(program, ignored);
-  if (is_file && ::access(program.c_str(), X_OK) == 0) return program;
-  throw Error(ErrorKind::kUsage,
-              "--optimizer tetgen: there is no program " + program.string() +
-                  "; it is built with -DMW_WITH_TETGEN=ON, and MW_CODT_WORKER names another place");
-}
 
 WorkerPool::WorkerPool(PoolOptions options) : options_(std::move(options)) {
   if (options_.program.empty()) options_.program = find_worker();

@@ -10,16 +10,10 @@
 #include <mutex>
 #include <vector>
 
+#include "engine/codt/find_worker.h"
 #include "engine/codt/worker_process.h"
 
 namespace mw::engine::codt {
-
-/// Names another worker program.
-inline constexpr const char* kWorkerVariable = "MW_CODT_WORKER";
-
-/// The worker program: that of kWorkerVariable, or mwmesh-codt beside the running program.
-/// ERRORS: kUsage when it is not there or cannot be executed.
-[[nodiscard]] std::filesystem::path find_worker();
 
 struct PoolOptions {
   std::filesystem::path program;               ///< empty: find_worker()

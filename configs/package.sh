@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+# Builds the Debian packages into build/packages; tests/packages.sh tries them.  Needs what
+# configs/setup.sh installs, and dpkg-dev.
+#   mwmesh  libmwmesh0.1  libmwmesh-dev  python3-mwmesh  mwmesh-codt (AGPL: linked with TetGen)
+set -euo pipefail
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+tree="$root/build/packaging"
+out="$root/build/packages"
+cd "$root"
+
+command -v dpkg-shlibdeps >/dev/null || {
+  echo "package: needs dpkg-shlibdeps: apt-get install dpkg-dev" >&2
+  exit 2
+}
+# Packages of one commit are of one date.
+SOURCE_DATE_EPOCH="${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}"
+export SOURCE_DATE_EPOCH
+link="-Wl,-z,relro,-z,now"
+cmake --preset release -B "$tree" -DCMAKE_INSTALL_PREFIX=/usr -DMW_PACKAGING=ON \
+  -DMW_BUILD_TESTS=OFF -DMW_BUILD_BENCH=OFF -DCMAKE_EXE_LINKER_FLAGS="$link" \
+  -DCMAKE_SHARED_LINKER_FLAGS="$link" -DCMAKE_MODULE_LINKER_FLAGS="$link" >/dev/null
+cmake --build "$tree" --parallel "${JOBS:-2}"
+umask 022
+rm -rf "$out"
+(cd "$tree" && cpack -B "$out" >"$tree/cpack.log") || {
+  tail -n 20 "$tree/cpack.log" >&2
+  exit 1
+}
+rm -rf "$out/_CPack_Packages"
+ls "$out"

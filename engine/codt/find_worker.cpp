@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Places are tried one by one; engine/install/folders.cmake tells which folders a prefix has.
+#include "engine/codt/find_worker.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "kernels/core/error.h"
+
+namespace mw::engine::codt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "mwmesh-codt";
+
+bool can_be_run(const fs::path& program) {
+  std::error_code ignored;
+  return fs::is_regular_file(program, ignored) && ::access(program.c_str(), X_OK) == 0;
+}
+
+/// What `folder` is in when it ends in `tail`, as "/opt/mw/lib" in "lib" is in "/opt/mw".
+std::optional<fs::path> prefix_of(const fs::path& folder, const std::string& tail) {
+  const std::string text = folder.string();
+  if (tail.empty() || !text.ends_with("/" + tail)) return std::nullopt;
+  return fs::path(text.substr(0, text.size() - tail.size()));
+}
+
+/// Empty when the system tells no absolute path: a name that PATH resolved means nothing here.
+fs::path object_of_this_code() {
+  Dl_info info{};
+  std::error_code ignored;
+  if (::dladdr(reinterpret_cast<const void*>(&find_worker), &info) == 0) return {};
+  if (!fs::path(info.dli_fname).is_absolute()) return {};
+  const fs::path object = fs::canonical(info.dli_fname, ignored);
+  return ignored ? fs::path() : object;
+}
+
+}  // namespace
+
+WorkerHost this_host() {
+  std::error_code ignored;  // without /proc the program is not known
+  return {.program = fs::read_symlink("/proc/self/exe", ignored), .object = object_of_this_code()};
+}
+
+std::vector<fs::path> worker_places(const WorkerHost& host) {
+  std::vector<fs::path> places;
+  if (!host.program.empty()) places.push_back(host.program.parent_path() / kProgram);
+  const fs::path folder = host.object.parent_path();
+  if (!folder.empty()) places.push_back(folder / kProgram);
+  for (const char* const tail : {MW_INSTALLED_LIBRARY, MW_INSTALLED_PYTHON}) {
+    const auto prefix = prefix_of(folder, tail);
+    if (prefix) places.push_back(*prefix / MW_INSTALLED_PROGRAMS / kProgram);
+  }
+  places.push_back(fs::path(MW_INSTALL_PREFIX) / MW_INSTALLED_PROGRAMS / kProgram);
+  return places;
+}
+
+fs::path find_worker() {
+  const char* const wanted = std::getenv(kWorkerVariable);  // NOLINT(concurrency-mt-unsafe)
+  const auto places =
+      wanted != nullptr ? std::vector<fs::path>{wanted} : worker_places(this_host());
+  for (const fs::path& program : places) {
+    if (can_be_run(program)) return program;
+  }
+  throw Error(ErrorKind::kUsage,
+              "--optimizer tetgen: there is no program " + places.front().string() +
+                  "; it is built with -DMW_WITH_TETGEN=ON, and MW_CODT_WORKER names another place");
+}
+
+}  // namespace mw::engine::codt

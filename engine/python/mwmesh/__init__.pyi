@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+# Types of what the package offers.
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, Protocol, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+__all__ = [
+    "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Mesh",
+    "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
+    "read", "settings", "synth",
+]
+
+Path: TypeAlias = str | os.PathLike[str]
+Three: TypeAlias = Sequence[float] | npt.NDArray[Any]
+Box: TypeAlias = tuple[Sequence[int], Sequence[int]]
+Specks: TypeAlias = int | tuple[int, int]
+Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
+Certify: TypeAlias = Literal["auto", "on", "off"]
+Axes: TypeAlias = Literal["zyx", "xyz"]
+Element: TypeAlias = Literal["tet4", "tet10"]
+#: None is "none"; a dictionary has sizes by label.
+Setting: TypeAlias = str | float | bool | Mapping[int, float] | None
+
+class RegionArray(Protocol):
+    """What is read box by box: h5py, Zarr, dask."""
+
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    @property
+    def dtype(self) -> Any: ...
+    def __getitem__(self, key: Any, /) -> Any: ...
+
+class Image(Protocol):
+    """A nibabel image."""
+
+    @property
+    def dataobj(self) -> Any: ...
+    @property
+    def affine(self) -> Any: ...
+    @property
+    def header(self) -> Any: ...
+
+class Volume:
+    """A volume that as_volume() made."""
+
+    @property
+    def shape(self) -> list[int]: ...
+    @property
+    def labels_are_signed(self) -> bool: ...
+
+Source: TypeAlias = Path | RegionArray | Image | Volume | npt.NDArray[Any]
+
+class Error(Exception): ...
+class InternalError(Error): ...
+class UsageError(Error, ValueError): ...
+class InputError(Error, ValueError): ...
+class ResourceError(Error): ...
+class CheckFailedError(Error): ...
+class CancelledError(Error): ...
+
+class Surface(NamedTuple):
+    points: npt.NDArray[np.float64]
+    triangles: npt.NDArray[np.int64]
+
+class Verdict:
+    passed: bool
+    checks: list[tuple[str, bool, str]]
+    report: dict[str, Any]
+    def __init__(self, verdict: Any) -> None: ...
+    def __bool__(self) -> bool: ...
+
+class Mesh:
+    points: npt.NDArray[np.float64]
+    tets: npt.NDArray[np.int64]
+    labels: npt.NDArray[np.int64] | npt.NDArray[np.uint64]
+    report: dict[str, Any] | None
+    def __init__(
+        self,
+        points: npt.ArrayLike,
+        tets: npt.ArrayLike,
+        labels: npt.ArrayLike,
+        names: Mapping[int, str] | None = None,
+    ) -> None: ...
+    @property
+    def names(self) -> dict[int, str]: ...
+    @property
+    def digest(self) -> str: ...
+    def label_list(self) -> npt.NDArray[np.int64] | npt.NDArray[np.uint64]: ...
+    def tet_volumes(self) -> npt.NDArray[np.float64]: ...
+    def volumes(self) -> dict[int, float]: ...
+    def facets(self, a: int, b: int) -> npt.NDArray[np.int64]: ...
+    def surface(self, label: int, closed: bool = True) -> Surface: ...
+    def contacts(self) -> dict[tuple[int, int], float]: ...
+    def save(self, path: Path, element: Element = "tet4") -> None: ...
+    def verify(
+        self,
+        volume: Source,
+        *,
+        threads: int = 0,
+        memory: int | str | None = None,
+        labels: Iterable[int] | None = None,
+        background: int | None = None,
+        merge: Mapping[int, int] | None = None,
+        drop_specks: Specks | None = None,
+        **place: Any,
+    ) -> Verdict: ...
+    def to_meshio(self) -> Any: ...
+    def to_vtk(self) -> Any: ...
+    def to_pyvista(self) -> Any: ...
+
+def as_volume(
+    source: Source,
+    *,
+    spacing: float | Three | None = None,
+    origin: Three | None = None,
+    affine: npt.ArrayLike | None = None,
+    frame: str | None = None,
+    unit: str | None = None,
+    axes: Axes | None = None,
+    names: Mapping[int, str] | None = None,
+    dataset: str | None = None,
+    scale: int | None = None,
+    crop: Box | None = None,
+) -> Volume: ...
+def mesh(
+    volume: Source,
+    *,
+    progress: Progress | None = None,
+    spacing: float | Three | None = ...,
+    origin: Three | None = ...,
+    affine: npt.ArrayLike | None = ...,
+    frame: str | None = ...,
+    unit: str | None = ...,
+    axes: Axes | None = ...,
+    names: Mapping[int, str] | None = ...,
+    dataset: str | None = ...,
+    scale: int | None = ...,
+    crop: Box | None = ...,
+    threads: int = ...,
+    memory: int | str | None = ...,
+    labels: Iterable[int] | None = ...,
+    background: int | None = ...,
+    merge: Mapping[int, int] | None = ...,
+    drop_specks: Specks | None = ...,
+    workdir: Path | None = ...,
+    resume: bool = ...,
+    certify: Certify = ...,
+    report: bool = ...,
+    **settings: Setting,
+) -> Mesh: ...
+def mesh_to_file(
+    volume: Source,
+    path: Path,
+    *,
+    element: Element = "tet4",
+    progress: Progress | None = None,
+    **arguments: Any,
+) -> dict[str, Any] | None: ...
+def read(path: Path) -> Mesh: ...
+def synth(
+    kind: Literal["voronoi", "tubes", "spheres", "noise", "checkerboard"],
+    shape: Sequence[int],
+    labels: int = 2,
+    seed: int = 0,
+) -> npt.NDArray[np.uint64]: ...
+def settings() -> dict[str, tuple[str, str, list[str]]]: ...

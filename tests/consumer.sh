@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+# Installs a build into a folder and uses it from there as others would: by CMake (shared and static),
+# by pkg-config, from Python and as a program, all of which must make one mesh.
+#
+#   bash tests/consumer.sh [BUILD]      default: build/release, all of it built
+set -euo pipefail
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+build="$(realpath "${1:-$root/build/release}")"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+prefix="$folder/prefix"
+# What is found must be in the prefix.
+unset MW_CODT_WORKER PYTHONPATH LD_LIBRARY_PATH CMAKE_PREFIX_PATH
+
+fail() {
+  echo "consumer: FAILED: $*" >&2
+  exit 1
+}
+
+expect() { # WHAT DIGEST ; the same as the program's
+  [[ "$2" == "$wanted" ]] || fail "$1 made $2, the program $wanted"
+  echo "consumer: $1: the program's mesh"
+}
+
+# Nothing but what mwmesh.h declares leaves the library.
+check_symbols() { # LIBRARY
+  local strange
+  strange="$(nm -DC --defined-only "$1" | grep -v -E ' (mwmesh::|(typeinfo|typeinfo name|vtable) for mwmesh::|MWMESH_)' || true)"
+  [[ -z "$strange" ]] || fail "$1 has other symbols: $strange"
+  nm -DC --defined-only "$1" | grep -q ' mwmesh::mesh(' || fail "$1 has no mwmesh::mesh"
+}
+
+by_program() {
+  "$prefix/bin/mwmesh" mesh "$folder/v.raw" --shape 24,20,16 --dtype u8 --optimizer "$1" -o "$folder/m.vtu" >/dev/null
+  "$prefix/bin/mwmesh" digest "$folder/m.vtu"
+}
+
+by_python() {
+  PYTHONPATH="$python" /usr/bin/python3 -B - "$folder/v.raw" "$1" <<'END'
+import sys
+import mwmesh
+import numpy as np
+voxels = np.fromfile(sys.argv[1], dtype=np.uint8).reshape(16, 20, 24)
+print(mwmesh.mesh(voxels, optimizer=sys.argv[2]).digest)
+END
+}
+
+cmake --install "$build" --prefix "$prefix" >"$folder/log" || fail "cmake --install: $(tail -n 3 "$folder/log")"
+library="$(find "$prefix" -name libmwmesh.so -printf '%h\n')"
+python="$(find "$prefix" -path '*/mwmesh/__init__.py' -printf '%h\n' | xargs -r dirname)"
+check_symbols "$library/libmwmesh.so"
+for note in LICENSE THIRD_PARTY.md CHANGELOG.md; do
+  [[ -s "$prefix/share/doc/mwmesh/$note" ]] || fail "no $note"
+done
+
+cmake -S "$root/tests/consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$prefix" >"$folder/log" 2>&1 ||
+  fail "find_package: $(cat "$folder/log")"
+cmake --build "$folder/cmake" >"$folder/log" 2>&1 || fail "the build by CMake: $(cat "$folder/log")"
+export PKG_CONFIG_PATH="$library/pkgconfig"
+read -ra flags <<<"$(pkg-config --cflags --libs mwmesh)"
+"${CXX:-g++}" -std=c++20 "$root/tests/consumer/main.cpp" "${flags[@]}" -o "$folder/by_pkg_config"
+
+"$folder/cmake/consumer_shared" "$folder/v.raw" local >/dev/null
+optimizers=(local)
+[[ ! -x "$prefix/bin/mwmesh-codt" ]] || optimizers+=(tetgen)
+for optimizer in "${optimizers[@]}"; do
+  wanted="$(by_program "$optimizer")"
+  [[ "$wanted" == sha256:* ]] || fail "the program has no digest: $wanted"
+  expect "shared, $optimizer" "$("$folder/cmake/consumer_shared" "$folder/v.raw" "$optimizer")"
+  expect "by pkg-config, $optimizer" "$(LD_LIBRARY_PATH="$library" "$folder/by_pkg_config" "$folder/v.raw" "$optimizer")"
+  [[ -z "$python" ]] || expect "Python, $optimizer" "$(by_python "$optimizer")"
+done
+wanted="$(by_program local)"
+expect "static" "$("$folder/cmake/consumer_static" "$folder/v.raw" local)"
