@@ -43,11 +43,13 @@ class CMakeBuild(build_ext):
         subprocess.run(["strip", "--strip-unneeded", place], check=True)
 
 
+BUILD.mkdir(parents=True, exist_ok=True)
 setup(
     version=version(),
     ext_modules=[Extension("mwmesh._core", sources=[])],
     cmdclass={"build_ext": CMakeBuild},
     options={
         "build": {"build_base": str(BUILD / "setuptools")},
+        "egg_info": {"egg_base": str(BUILD)},
     },
 )

@@ -15,18 +15,18 @@ __all__ = [
     "read", "settings", "synth",
 ]
 
-Path: TypeAlias = str | os.PathLike[str]
-Three: TypeAlias = Sequence[float] | npt.NDArray[Any]
-Box: TypeAlias = tuple[Sequence[int], Sequence[int]]
-Specks: TypeAlias = int | tuple[int, int]
-Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
-Certify: TypeAlias = Literal["auto", "on", "off"]
-Axes: TypeAlias = Literal["zyx", "xyz"]
-Element: TypeAlias = Literal["tet4", "tet10"]
+_Path: TypeAlias = str | os.PathLike[str]
+_Three: TypeAlias = Sequence[float] | npt.NDArray[Any]
+_Box: TypeAlias = tuple[Sequence[int], Sequence[int]]
+_Specks: TypeAlias = int | tuple[int, int]
+_Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
+_Certify: TypeAlias = Literal["auto", "on", "off"]
+_Axes: TypeAlias = Literal["zyx", "xyz"]
+_Element: TypeAlias = Literal["tet4", "tet10"]
 #: None is "none"; a dictionary has sizes by label.
-Setting: TypeAlias = str | float | bool | Mapping[int, float] | None
+_Setting: TypeAlias = str | float | bool | Mapping[int, float] | None
 
-class RegionArray(Protocol):
+class _RegionArray(Protocol):
     """What is read box by box: h5py, Zarr, dask."""
 
     @property
@@ -35,7 +35,7 @@ class RegionArray(Protocol):
     def dtype(self) -> Any: ...
     def __getitem__(self, key: Any, /) -> Any: ...
 
-class Image(Protocol):
+class _Image(Protocol):
     """A nibabel image."""
 
     @property
@@ -45,7 +45,7 @@ class Image(Protocol):
     @property
     def header(self) -> Any: ...
 
-class Volume:
+class _Volume:
     """A volume that as_volume() made."""
 
     @property
@@ -53,7 +53,7 @@ class Volume:
     @property
     def labels_are_signed(self) -> bool: ...
 
-Source: TypeAlias = Path | RegionArray | Image | Volume | npt.NDArray[Any]
+_Source: TypeAlias = _Path | _RegionArray | _Image | _Volume | npt.NDArray[Any]
 
 class Error(Exception): ...
 class InternalError(Error): ...
@@ -96,17 +96,17 @@ class Mesh:
     def facets(self, a: int, b: int) -> npt.NDArray[np.int64]: ...
     def surface(self, label: int, closed: bool = True) -> Surface: ...
     def contacts(self) -> dict[tuple[int, int], float]: ...
-    def save(self, path: Path, element: Element = "tet4") -> None: ...
+    def save(self, path: _Path, element: _Element = "tet4") -> None: ...
     def verify(
         self,
-        volume: Source,
+        volume: _Source,
         *,
         threads: int = 0,
         memory: int | str | None = None,
         labels: Iterable[int] | None = None,
         background: int | None = None,
         merge: Mapping[int, int] | None = None,
-        drop_specks: Specks | None = None,
+        drop_specks: _Specks | None = None,
         **place: Any,
     ) -> Verdict: ...
     def to_meshio(self) -> Any: ...
@@ -114,54 +114,54 @@ class Mesh:
     def to_pyvista(self) -> Any: ...
 
 def as_volume(
-    source: Source,
+    source: _Source,
     *,
-    spacing: float | Three | None = None,
-    origin: Three | None = None,
+    spacing: float | _Three | None = None,
+    origin: _Three | None = None,
     affine: npt.ArrayLike | None = None,
     frame: str | None = None,
     unit: str | None = None,
-    axes: Axes | None = None,
+    axes: _Axes | None = None,
     names: Mapping[int, str] | None = None,
     dataset: str | None = None,
     scale: int | None = None,
-    crop: Box | None = None,
-) -> Volume: ...
+    crop: _Box | None = None,
+) -> _Volume: ...
 def mesh(
-    volume: Source,
+    volume: _Source,
     *,
-    progress: Progress | None = None,
-    spacing: float | Three | None = ...,
-    origin: Three | None = ...,
+    progress: _Progress | None = None,
+    spacing: float | _Three | None = ...,
+    origin: _Three | None = ...,
     affine: npt.ArrayLike | None = ...,
     frame: str | None = ...,
     unit: str | None = ...,
-    axes: Axes | None = ...,
+    axes: _Axes | None = ...,
     names: Mapping[int, str] | None = ...,
     dataset: str | None = ...,
     scale: int | None = ...,
-    crop: Box | None = ...,
+    crop: _Box | None = ...,
     threads: int = ...,
     memory: int | str | None = ...,
     labels: Iterable[int] | None = ...,
     background: int | None = ...,
     merge: Mapping[int, int] | None = ...,
-    drop_specks: Specks | None = ...,
-    workdir: Path | None = ...,
+    drop_specks: _Specks | None = ...,
+    workdir: _Path | None = ...,
     resume: bool = ...,
-    certify: Certify = ...,
+    certify: _Certify = ...,
     report: bool = ...,
-    **settings: Setting,
+    **settings: _Setting,
 ) -> Mesh: ...
 def mesh_to_file(
-    volume: Source,
-    path: Path,
+    volume: _Source,
+    path: _Path,
     *,
-    element: Element = "tet4",
-    progress: Progress | None = None,
+    element: _Element = "tet4",
+    progress: _Progress | None = None,
     **arguments: Any,
 ) -> dict[str, Any] | None: ...
-def read(path: Path) -> Mesh: ...
+def read(path: _Path) -> Mesh: ...
 def synth(
     kind: Literal["voronoi", "tubes", "spheres", "noise", "checkerboard"],
     shape: Sequence[int],
