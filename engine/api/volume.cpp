@@ -5,8 +5,8 @@
 #include "engine/api/guarded.h"
 #include "engine/api/spaces.h"
 #include "engine/api/volume_access.h"
-#include "io/labels/label_table.h"
 #include "io/names/named_volume.h"
+#include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
 #include "kernels/synth/synth.h"
 
@@ -16,10 +16,7 @@ namespace {
 namespace io = mw::io;
 
 io::FrameChoice frame_choice(const std::string& name) {
-  if (name == "file") return io::FrameChoice::kFile;
-  if (name == "ras") return io::FrameChoice::kRas;
-  if (name == "lps") return io::FrameChoice::kLps;
-  if (name == "voxel") return io::FrameChoice::kVoxel;
+  if (const auto choice = io::parse_frame_choice(name)) return *choice;
   throw mw::Error(mw::ErrorKind::kUsage, "frame " + name + ": expected file, ras, lps or voxel");
 }
 

@@ -181,7 +181,7 @@ int threads_at_hand(int asked) {
 
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
-  (void)engine::plan_certificate(job_of(request));
+  (void)engine::plan_certificate(job_of(request));  // refused before any file is opened
   const report::ResourceMeter meter;
   MeshFiles files(request);
   spdlog::info("reading {}", request.volume.path.string());

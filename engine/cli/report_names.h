@@ -3,7 +3,6 @@
 // What reports are made of, by the names that commands use.
 #pragma once
 
-#include "engine/report/distance_facts.h"
 #include "engine/report/json_rows.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/report/name_facts.h"
@@ -19,9 +18,7 @@ using report::kRows;
 using report::label_json;
 using report::label_text;
 using report::named_row_json;
-using report::print_quality;
 using report::print_specks;
-using report::quality_json;
 using report::specks_json;
 using report::TakeRow;
 using report::volume_row_json;

@@ -8,6 +8,7 @@
 #include "engine/cli/values.h"
 #include "io/names/named_volume.h"
 #include "io/names/read_names.h"
+#include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
 #include "io/volume/voxel_type.h"
 #include "kernels/core/error.h"
@@ -70,12 +71,6 @@ void add_raw_options(OptionSet& options, VolumeRequest& request) {
                }});
 }
 
-io::FrameChoice parse_frame(const std::string& text) {
-  if (text == "ras") return io::FrameChoice::kRas;
-  if (text == "lps") return io::FrameChoice::kLps;
-  return text == "voxel" ? io::FrameChoice::kVoxel : io::FrameChoice::kFile;
-}
-
 int parse_scale(const std::string& text) {
   constexpr std::int64_t kMostScale = 1000;
   const std::int64_t scale = parse_integer(text);
@@ -102,7 +97,9 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                    "them is turned to; voxel, spacing times voxel corner",
                .fallback = "file",
                .choices = {"file", "ras", "lps", "voxel"},
-               .assign = [&](const std::string& text) { request.frame = parse_frame(text); }});
+               .assign = [&](const std::string& text) {
+                 request.frame = io::parse_frame_choice(text).value();
+               }});
 }
 
 void add_array_options(OptionSet& options, VolumeRequest& request) {

@@ -124,6 +124,14 @@ std::array<Vector3, 3> steps_of(const Vector3& spacing) {
   return {{{spacing[0], 0, 0}, {0, spacing[1], 0}, {0, 0, spacing[2]}}};
 }
 
+std::optional<FrameChoice> parse_frame_choice(std::string_view text) {
+  if (text == "file") return FrameChoice::kFile;
+  if (text == "ras") return FrameChoice::kRas;
+  if (text == "lps") return FrameChoice::kLps;
+  if (text == "voxel") return FrameChoice::kVoxel;
+  return std::nullopt;
+}
+
 VolumeSpace placed(std::string_view file, const FileSpace& space, const OpenOptions& options) {
   VolumeSpace out{.unit = space.unit, .frame = space.frame};
   const bool has_directions = std::all_of(space.steps.begin(), space.steps.end(), is_direction);

@@ -30,6 +30,9 @@ struct FileSpace {
 /// Steps along the axes of the array, of these lengths.
 [[nodiscard]] std::array<Vector3, 3> steps_of(const Vector3& spacing);
 
+/// "file", "ras", "lps", "voxel".
+[[nodiscard]] std::optional<FrameChoice> parse_frame_choice(std::string_view text);
+
 /// The options' spacing replaces the lengths of the steps, their origin the first corner, their
 /// frame the axes: in kRas and kLps a file of the other turns its x and y; kVoxel keeps nothing but
 /// the spacing.  What the options replace is not looked at.

@@ -59,7 +59,7 @@ def _three(values, what):
 
 
 def _chunk(array):
-    """(x, y, z) of what an array is stored in, given its axes z, y, x; zeros where it does not
+    """The shape of what an array is stored in, in the order of its axes; zeros where it does not
     say."""
     chunks = getattr(array, "chunks", None)
     if not chunks or len(chunks) != 3:
