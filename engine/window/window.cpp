@@ -76,10 +76,9 @@ void take_samples(const WindowContent& content, const BlockTet& tet, Share& shar
   for (const TriangleKey& face : faces) {
     if (!may_carry(face[0]) || !may_carry(face[1]) || !may_carry(face[2])) continue;
     if (!content.samples.has(face, tet.label)) continue;
-    content.samples.each(face, [&](FaceSamples s) {
+    for (const FaceSamples s : content.samples.of(face)) {
       share.samples.push_back({face, tet.label, s});
-      return true;
-    });
+    }
   }
 }
 

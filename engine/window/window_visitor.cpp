@@ -51,6 +51,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor,
                 .surface = surface_weights(settings),
+                .moves_fitted = false,
                 .demands = {.sizes = labels.sizes()}},
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
       max_distance_(settings.max_distance),
@@ -59,10 +60,11 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
 }
 
 void WindowVisitor::polish(const WindowOrder& order) {
-  constexpr int kSweeps = 3, kSmoothSweeps = 4;
+  constexpr int kSweeps = 3, kSmoothSweeps = 6;
   constexpr double kFlipBelow = 0.7;
   optimise_.sweeps *= optimise_.surface ? kSmoothSweeps : kSweeps;
   optimise_.flip_below = kFlipBelow;
+  optimise_.moves_fitted = true;
   if (optimise_.surface) order_ = order;
   simplify_.demands.inner = optimise_.demands.inner = labels_.inner();
 }

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Linear probing with removal by shifting back; a free list of nodes.
+// Linear probing with removal by shifting back; lists that grow move to the end of the pool.
 #include "kernels/distance/carried_samples.h"
 
 #include <utility>
+
+#include "kernels/core/assert.h"
 
 namespace mw {
 namespace {
 
 constexpr std::size_t kFirstSlots = 64;
+constexpr std::size_t kFirstPool = 256;
 
 /// As ==, which is a call to memcmp.
 bool is_same(const TriangleKey& a, const TriangleKey& b) {
@@ -26,38 +29,102 @@ std::size_t CarriedSamples::home(const TriangleKey& key) const {
 
 std::size_t CarriedSamples::find(const TriangleKey& key) const {
   std::size_t at = home(key);
-  while (slots_[at].head != kNone && !is_same(slots_[at].key, key)) {
+  while (slots_[at].list.size != 0 && !is_same(slots_[at].key, key)) {
     at = (at + 1) & (slots_.size() - 1);
   }
   return at;
 }
 
-void CarriedSamples::add(const TriangleKey& key, Label side, FaceSamples sample) {
+/// The slot of the triangle, which is made when there is none; the caller fills it.
+CarriedSamples::Slot& CarriedSamples::open(const TriangleKey& key, Label side) {
   if (2 * (used_ + 1) > slots_.size()) grow();
   Slot& slot = slots_[find(key)];
-  if (slot.head == kNone) {
-    slot = {key, side, kNone};
+  if (slot.list.size == 0) {
+    slot = {key, {.side = side}};
     ++used_;
   }
-  std::uint32_t node = free_nodes_;
-  if (node == kNone) {
-    node = static_cast<std::uint32_t>(pool_.size());
-    pool_.emplace_back();
-  } else {
-    free_nodes_ = pool_[node].next;
-  }
-  pool_[node] = {sample, slot.head};
-  slot.head = node;
+  return slot;
 }
 
-void CarriedSamples::erase(const TriangleKey& key) {
+void CarriedSamples::add(const TriangleKey& key, Label side, FaceSamples sample) {
+  if (pool_.size() > kFirstPool && pool_.size() > 2 * live_) compact();
+  Taken& list = open(key, side).list;
+  make_room(list);
+  pool_[list.begin + list.size++] = sample;
+}
+
+/// For one more sample.
+void CarriedSamples::make_room(Taken& list) {
+  if (list.size < list.capacity) return;
+  const bool is_last = list.capacity > 0 && list.begin + list.capacity == pool_.size();
+  const std::uint32_t more = is_last || list.size == 0 ? 1 : 1 + list.size / 2;
+  if (!is_last) {
+    const auto begin = static_cast<std::uint32_t>(pool_.size());
+    pool_.resize(pool_.size() + list.size);
+    std::copy_n(pool_.begin() + list.begin, list.size, pool_.begin() + begin);
+    live_ -= list.capacity - list.size;
+    list.begin = begin;
+    list.capacity = list.size;
+  }
+  pool_.resize(pool_.size() + more);
+  list.capacity += more;
+  live_ += more;
+}
+
+/// Drops what no list has.
+void CarriedSamples::compact() {
+  std::vector<FaceSamples> pool;
+  pool.reserve(live_ + live_ / 2);
+  for (Slot& slot : slots_) {
+    Taken& list = slot.list;
+    if (list.size == 0) continue;
+    const auto begin = static_cast<std::uint32_t>(pool.size());
+    pool.insert(pool.end(), pool_.begin() + list.begin, pool_.begin() + list.begin + list.size);
+    list.begin = begin;
+    list.capacity = list.size;
+  }
+  pool_ = std::move(pool);
+  live_ = pool_.size();
+}
+
+CarriedSamples::Taken CarriedSamples::take(const TriangleKey& key) {
+  if (used_ == 0) return {};
+  const std::size_t at = find(key);
+  const Taken list = slots_[at].list;
+  if (list.size == 0) return {};
+  live_ -= list.capacity;
+  --used_;
+  close_gap(at);
+  return list;
+}
+
+void CarriedSamples::give(const TriangleKey& key, const Taken& list) {
+  if (list.size == 0) return;
+  Taken& own = open(key, list.side).list;
+  if (own.size == 0) {
+    own = list;
+    live_ += list.capacity;
+    return;
+  }
+  for (std::uint32_t i = 0; i < list.size; ++i) {
+    make_room(own);
+    pool_[own.begin + own.size++] = pool_[list.begin + i];
+  }
+}
+
+void CarriedSamples::keep(const TriangleKey& key, const std::vector<bool>& kept) {
   if (used_ == 0) return;
   const std::size_t at = find(key);
-  if (slots_[at].head == kNone) return;
-  std::uint32_t last = slots_[at].head;
-  while (pool_[last].next != kNone) last = pool_[last].next;
-  pool_[last].next = free_nodes_;
-  free_nodes_ = slots_[at].head;
+  Taken& list = slots_[at].list;
+  MW_ASSERT(kept.size() == list.size);
+  std::uint32_t left = 0;
+  for (std::uint32_t i = 0; i < list.size; ++i) {
+    if (kept[i]) pool_[list.begin + left++] = pool_[list.begin + i];
+  }
+  const bool was_there = list.size > 0;
+  list.size = left;
+  if (left > 0 || !was_there) return;
+  live_ -= list.capacity;
   --used_;
   close_gap(at);
 }
@@ -65,20 +132,20 @@ void CarriedSamples::erase(const TriangleKey& key) {
 /// Moves later slots of the run back, so that no search stops short of them.
 void CarriedSamples::close_gap(std::size_t gap) {
   const std::size_t mask = slots_.size() - 1;
-  for (std::size_t at = (gap + 1) & mask; slots_[at].head != kNone; at = (at + 1) & mask) {
+  for (std::size_t at = (gap + 1) & mask; slots_[at].list.size != 0; at = (at + 1) & mask) {
     const std::size_t wanted = home(slots_[at].key);
     if (((at - wanted) & mask) < ((at - gap) & mask)) continue;
     slots_[gap] = slots_[at];
     gap = at;
   }
-  slots_[gap].head = kNone;
+  slots_[gap].list = {};
 }
 
 void CarriedSamples::grow() {
   const std::vector<Slot> old =
       std::exchange(slots_, std::vector<Slot>(std::max(kFirstSlots, 2 * slots_.size())));
   for (const Slot& slot : old) {
-    if (slot.head != kNone) slots_[find(slot.key)] = slot;
+    if (slot.list.size != 0) slots_[find(slot.key)] = slot;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernels/core/face_sample.h"
@@ -23,57 +24,66 @@ using TriangleKey = std::array<LocalVertex, 3>;
   return {a, b, c};
 }
 
-/// Lists of samples by triangle: a hash table with linear probing over chains in one pool, so that
+/// Lists of samples by triangle: a hash table with linear probing over ranges of one pool, so that
 /// nothing is allocated while a window is worked on, but when the pool grows.
-/// Nothing depends on the order of triangles in the table.  Sums over a list follow its order,
-/// which is that of the calls of add(), hence a function of the window's content.
+/// Nothing depends on the order of triangles in the table.  A list keeps the order in which it was
+/// filled, hence is a function of the window's content.
+/// Memory: at most 32 bytes a sample, and 64 a triangle, or three times that while the table grows.
 class CarriedSamples {
  public:
+  /// A list that was taken away from its triangle.
+  struct Taken {
+    Label side = 0;
+    std::uint32_t begin = 0;
+    std::uint32_t size = 0;
+    std::uint32_t capacity = 0;
+  };
+
   [[nodiscard]] bool empty() const { return used_ == 0; }
   /// True when the triangle carries samples and `side` is the smaller label at it.
   [[nodiscard]] bool has(const TriangleKey& key, Label side) const {
     if (used_ == 0) return false;
     const Slot& slot = slots_[find(key)];
-    return slot.head != kNone && slot.side == side;
+    return slot.list.size != 0 && slot.list.side == side;
+  }
+  /// The samples of the triangle, until the next change.
+  [[nodiscard]] std::span<const FaceSamples> of(const TriangleKey& key) const {
+    if (used_ == 0) return {};
+    const Taken& list = slots_[find(key)].list;
+    return {pool_.data() + list.begin, list.size};
   }
 
   void add(const TriangleKey& key, Label side, FaceSamples sample);
-  void erase(const TriangleKey& key);
+  void erase(const TriangleKey& key) { static_cast<void>(take(key)); }
 
-  /// Calls visit(sample) for each sample of the triangle, until it returns false.
-  /// ENSURES: false when visit did.
-  template <typename Visit>
-  bool each(const TriangleKey& key, Visit visit) const {
-    if (used_ == 0) return true;
-    for (std::uint32_t n = slots_[find(key)].head; n != kNone; n = pool_[n].next) {
-      if (!visit(pool_[n].sample)) return false;
-    }
-    return true;
-  }
+  /// Removes the triangle; its list waits to be given to another, or is forgotten.
+  /// REQUIRES: give() or no call at all before the next one of add().
+  [[nodiscard]] Taken take(const TriangleKey& key);
+  /// Appends a list that was taken to that of a triangle.
+  void give(const TriangleKey& key, const Taken& list);
+  /// Leaves the triangle the samples of its list that these bits say, in order; without any it is
+  /// removed.  REQUIRES: a bit for each.
+  void keep(const TriangleKey& key, const std::vector<bool>& kept);
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffU;
-
   struct Slot {
     TriangleKey key{};
-    Label side = 0;
-    std::uint32_t head = kNone;  ///< kNone: the slot is free
-  };
-  struct Node {
-    FaceSamples sample = 0;
-    std::uint32_t next = kNone;
+    Taken list;  ///< empty: the slot is free
   };
 
   [[nodiscard]] std::size_t home(const TriangleKey& key) const;
   /// Where the triangle is, or the free slot where it would be.  REQUIRES: slots_ not empty.
   [[nodiscard]] std::size_t find(const TriangleKey& key) const;
+  [[nodiscard]] Slot& open(const TriangleKey& key, Label side);
+  void make_room(Taken& list);
+  void compact();
   void grow();
   void close_gap(std::size_t gap);
 
   std::vector<Slot> slots_;
   std::size_t used_ = 0;
-  std::vector<Node> pool_;
-  std::uint32_t free_nodes_ = kNone;
+  std::vector<FaceSamples> pool_;
+  std::size_t live_ = 0;  ///< capacities of the lists in slots_
 };
 
 }  // namespace mw

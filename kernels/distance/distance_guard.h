@@ -45,18 +45,16 @@ class DistanceGuard {
   /// depends on the window's content only.
   template <typename Visit>
   void each_piece(const TriangleKey& key, Label low, Visit visit) const {
-    samples_.each(key, [&](FaceSamples s) {
-      visit(piece(s, low));
-      return true;
-    });
+    for (const FaceSamples s : samples_.of(key)) visit(piece(s, low));
   }
 
   /// Would contracting (keep, drop) to `target` keep the bound?  Remembers where the samples go.
   /// REQUIRES: both ends free; not yet contracted.
   [[nodiscard]] bool allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
                                         Point target);
-  /// The same for a move of v.
-  [[nodiscard]] bool allows_move(const TetMesh& mesh, LocalVertex v, Point target);
+  /// The same for a move of v, whose interface triangles are at hand.
+  [[nodiscard]] bool allows_move(const TetMesh& mesh, LocalVertex v,
+                                 std::span<const FanTriangle> fan, Point target);
   /// The same for a flip that replaces interface triangles (p, q, a) and (p, q, b) by (a, b, p) and
   /// (a, b, q).  The normals of (a, b, q) and (b, a, p) point to label `towards`, away from
   /// `other`.
@@ -75,6 +73,10 @@ class DistanceGuard {
     Label high = 0;
     bool vanishes = false;
     bool stays = false;  ///< not changed at all; may receive samples
+    /// Rows of kept_ that say which of its samples it keeps; none: all of them.
+    std::size_t kept_begin = 0;
+    std::size_t kept_end = 0;
+    CarriedSamples::Taken taken{};  ///< while samples change hands
   };
   struct Handover {
     std::size_t to = 0;
@@ -93,12 +95,14 @@ class DistanceGuard {
   [[nodiscard]] Piece piece(FaceSamples samples, Label low) const;
   [[nodiscard]] double sign_of(FaceSamples samples, Label low) const;
   void add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other, LocalVertex survivor,
-                   Point target);
+                   Point target, std::span<const FanTriangle> fan);
   void add_neighbours();
   void add_neighbours_at(LocalVertex w);
   [[nodiscard]] bool keeps_bound();
   [[nodiscard]] bool place_samples(std::size_t from);
+  [[nodiscard]] unsigned keepers(std::span<const FaceSamples> samples, const Changed& t) const;
   [[nodiscard]] bool place(FaceSamples samples, std::size_t from);
+  [[nodiscard]] bool keeps(const Wanderer& w) const;
   [[nodiscard]] std::optional<std::size_t> receiver(const Wanderer& w) const;
   [[nodiscard]] std::optional<std::size_t> receiver_nearby(const Wanderer& w);
   [[nodiscard]] std::optional<std::size_t> nearest(const Wanderer& w, std::size_t first,
@@ -116,6 +120,7 @@ class DistanceGuard {
   std::vector<Changed> changed_;       ///< and behind them neighbours that stay
   std::size_t neighbours_ = 0;         ///< row of the first of those; 0: not looked for
   std::vector<Handover> handovers_;
+  std::vector<bool> kept_;
 };
 
 }  // namespace mw

@@ -26,13 +26,19 @@ class InterfaceFan {
   void collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out);
 
  private:
+  /// One side of triangle (v, a, b), until the other one comes.
   struct Side {
-    std::uint64_t edge = 0;  ///< its smaller vertex in the upper half
+    std::uint64_t edge = 0;   ///< its smaller vertex in the upper half
+    std::uint32_t stamp = 0;  ///< of the call that it belongs to
     Label label = 0;
     bool ascends = false;  ///< the normal of (v, smaller, larger) points into the tet
-    friend auto operator<=>(const Side&, const Side&) = default;
   };
-  std::vector<Side> sides_;
+
+  void make_room(std::size_t sides);
+  void add_side(LocalVertex a, LocalVertex b, Label label, std::vector<FanTriangle>& out);
+
+  std::vector<Side> sides_;  ///< hash table with linear probing; what bears another stamp is free
+  std::uint32_t stamp_ = 0;
 };
 
 }  // namespace mw

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/core/lanes.h"
+
 namespace mw {
 namespace {
 
@@ -15,9 +17,50 @@ constexpr double kRoundingGuard = 1e-9;
 /// Pieces with no edge longer than this share of the bound are not halved again.
 constexpr double kSmallestPiece = 1.0 / 16.0;
 
-double gap(double x, std::int64_t lo) {
-  const auto low = static_cast<double>(lo);
-  return std::max({low - x, x - (low + 1.0), 0.0});
+/// k-th of [lo, hi) from the middle outwards: what is near all corners lies there.
+std::int64_t from_middle(std::int64_t lo, std::int64_t hi, std::int64_t k) {
+  const std::int64_t middle = lo + (hi - lo - 1) / 2;
+  return k % 2 == 0 ? middle - k / 2 : middle + (k + 1) / 2;
+}
+
+/// One coordinate of the three corners, the last twice.
+MW_LANES Lanes along(const LabelReach::Triangle& t, int axis) {
+  return Lanes{t[0][axis], t[1][axis], t[2][axis], t[2][axis]};
+}
+
+/// Squared distance along an axis to the voxel that begins at lo.
+MW_LANES Lanes squared_gap(const Lanes& x, std::int64_t lo) {
+  const Lanes low = lanes(static_cast<double>(lo));
+  const Lanes below = low - x, above = x - (low + 1.0), zero = lanes(0.0);
+  const Lanes away = below > above ? below : above;
+  const Lanes gap = away > zero ? away : zero;
+  return gap * gap;
+}
+
+/// Bits 0 and 1: labels `wanted` that a voxel of `near` bears which is near all corners.  Stops
+/// when all in `missing` are found.
+MW_WIDE unsigned find_labels(const LabelReach::Triangle& t, const LabelBox& labels,
+                             const Box3& near, double squared_distance,
+                             const std::array<Label, 2>& wanted, unsigned missing) {
+  const Lanes px = along(t, 0), py = along(t, 1), pz = along(t, 2);
+  unsigned found = 0;
+  for (std::int64_t k = 0; k < near.hi.z - near.lo.z; ++k) {
+    const std::int64_t z = from_middle(near.lo.z, near.hi.z, k);
+    const Lanes of_z = squared_gap(pz, z);
+    for (std::int64_t i = 0; i < near.hi.y - near.lo.y; ++i) {
+      const std::int64_t y = from_middle(near.lo.y, near.hi.y, i);
+      const Lanes left = squared_distance - (of_z + squared_gap(py, y));
+      if (any(left < 0.0)) continue;
+      const Label* label = labels.labels.data() + labels.box.offset({near.lo.x, y, z});
+      for (std::int64_t x = near.lo.x; x < near.hi.x; ++x, ++label) {
+        const unsigned bit = (*label == wanted[0] ? 1U : 0U) | (*label == wanted[1] ? 2U : 0U);
+        if ((bit & missing & ~found) == 0 || any(squared_gap(px, x) > left)) continue;
+        found |= bit;
+        if ((missing & ~found) == 0) return found;
+      }
+    }
+  }
+  return found;
 }
 
 /// As std::floor, which is a call on processors of the baseline.
@@ -51,29 +94,13 @@ Box3 LabelReach::voxels_near(const Triangle& t) const {
           {std::min(hi[0], box.hi.x), std::min(hi[1], box.hi.y), std::min(hi[2], box.hi.z)}};
 }
 
-bool LabelReach::is_near(const Triangle& t, Index3 voxel) const {
-  return std::all_of(t.begin(), t.end(), [&](const Vec3& p) {
-    const double x = gap(p[0], voxel.x), y = gap(p[1], voxel.y), z = gap(p[2], voxel.z);
-    return x * x + y * y + z * z <= squared_distance_;
-  });
-}
-
 LabelReach::Wanted LabelReach::unseen(const Triangle& t, Wanted wanted) const {
   const Box3 near = voxels_near(t);
-  for (Index3 v = near.lo; v.z < near.hi.z; ++v.z) {
-    for (v.y = near.lo.y; v.y < near.hi.y; ++v.y) {
-      v.x = near.lo.x;
-      if (v.x >= near.hi.x) return wanted;
-      const Label* row = labels_.labels.data() + labels_.box.offset(v);
-      for (; v.x < near.hi.x; ++v.x, ++row) {
-        if (*row == kExterior || (*row != wanted.a && *row != wanted.b)) continue;
-        if (!is_near(t, v)) continue;
-        (*row == wanted.a ? wanted.a : wanted.b) = kExterior;
-        if (wanted.nothing()) return wanted;
-      }
-    }
-  }
-  return wanted;
+  if (near.lo.x >= near.hi.x) return wanted;
+  const unsigned missing = (wanted.a != kExterior ? 1U : 0U) | (wanted.b != kExterior ? 2U : 0U);
+  const unsigned found =
+      find_labels(t, labels_, near, squared_distance_, {wanted.a, wanted.b}, missing);
+  return {(found & 1U) != 0 ? kExterior : wanted.a, (found & 2U) != 0 ? kExterior : wanted.b};
 }
 
 bool LabelReach::prove(const Triangle& t, Wanted wanted) const {

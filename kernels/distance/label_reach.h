@@ -45,7 +45,6 @@ class LabelReach {
   /// What is left when labels of voxels near all three corners are taken away.
   [[nodiscard]] Wanted unseen(const Triangle& t, Wanted wanted) const;
   [[nodiscard]] Box3 voxels_near(const Triangle& t) const;
-  [[nodiscard]] bool is_near(const Triangle& t, Index3 voxel) const;
 
   const LabelBox& labels_;
   double max_distance_;

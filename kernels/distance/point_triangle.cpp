@@ -13,6 +13,46 @@ namespace {
 /// noise.
 constexpr double kNarrow = 1e-9;
 
+MW_LANES Lanes load(const std::array<double, kLanes>& stored) {
+  Lanes v;
+  std::memcpy(&v, stored.data(), sizeof v);
+  return v;
+}
+
+/// Corners, edges, inward normals and inverse squares as in DistanceTriangle.
+struct Flat {
+  const std::array<Vec3, 3>& corners;
+  const std::array<Vec3, 3>& edges;
+  const std::array<Vec3, 3>& inward;
+  const std::array<double, 3>& inverse_squares;
+  const Vec3& unit_normal;
+};
+
+MW_LANES Lanes to_edge(const Flat& t, std::size_t i, const Lanes3& from) {
+  const Lanes3 edge = lanes(t.edges[i]);
+  const Lanes zero = lanes(0.0), one = lanes(1.0);
+  Lanes share = dot(from, edge) * t.inverse_squares[i];
+  share = share < zero ? zero : share;
+  share = share > one ? one : share;
+  const Lanes3 away = from - share * edge;
+  return dot(away, away);
+}
+
+MW_WIDE unsigned within_squared(const Flat& t, const PointLanes& points, double squared) {
+  const Lanes3 p{load(points[0]), load(points[1]), load(points[2])};
+  const Lanes3 a = p - lanes(t.corners[0]), b = p - lanes(t.corners[1]),
+               c = p - lanes(t.corners[2]);
+  const Lanes height = dot(a, lanes(t.unit_normal));
+  const LaneMask inside = (dot(a, lanes(t.inward[0])) >= 0.0) &
+                          (dot(b, lanes(t.inward[1])) >= 0.0) & (dot(c, lanes(t.inward[2])) >= 0.0);
+  const LaneMask near_edge =
+      (to_edge(t, 0, a) <= squared) | (to_edge(t, 1, b) <= squared) | (to_edge(t, 2, c) <= squared);
+  const LaneMask near = (inside & (height * height <= squared)) | (~inside & near_edge);
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) bits |= near[k] != 0 ? 1U << k : 0U;
+  return bits;
+}
+
 }  // namespace
 
 DistanceTriangle::DistanceTriangle(const std::array<Vec3, 3>& corners)
@@ -27,6 +67,8 @@ DistanceTriangle::DistanceTriangle(const std::array<Vec3, 3>& corners)
     inward_[i] = normal.cross(edges_[i]);
     longest = std::max(longest, square);
   }
+  constexpr double kRoundedUp = 1.0 + 1e-9;
+  radius_ = kRoundedUp * std::sqrt(std::max(edges_[0].squaredNorm(), edges_[2].squaredNorm()));
   is_flat_ = area <= kNarrow * longest;
   unit_normal_ = is_flat_ ? Vec3::Zero() : Vec3(normal / area);
 }
@@ -43,6 +85,19 @@ double DistanceTriangle::squared_distance(const Vec3& p) const {
     return (from[i] - t * edges_[i]).squaredNorm();
   };
   return std::min({to_edge(0), to_edge(1), to_edge(2)});
+}
+
+unsigned DistanceTriangle::within(const PointLanes& points, double squared) const {
+  if (!is_flat_) {
+    return within_squared({corners_, edges_, inward_, inverse_squares_, unit_normal_}, points,
+                          squared);
+  }
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const Vec3 p(points[0][k], points[1][k], points[2][k]);
+    bits |= squared_distance(p) <= squared ? 1U << k : 0U;
+  }
+  return bits;
 }
 
 }  // namespace mw

@@ -5,9 +5,13 @@
 
 #include <array>
 
+#include "kernels/core/lanes.h"
 #include "kernels/core/metric.h"
 
 namespace mw {
+
+/// x, y and z of some points.
+using PointLanes = std::array<std::array<double, kLanes>, 3>;
 
 /// A triangle made ready for many distances; degenerate ones included.
 class DistanceTriangle {
@@ -19,6 +23,13 @@ class DistanceTriangle {
   [[nodiscard]] const Vec3& unit_normal() const { return unit_normal_; }
   /// Squared distance from p to the nearest point of the triangle.
   [[nodiscard]] double squared_distance(const Vec3& p) const;
+  /// One bit for each point whose squared distance is at most `squared`.
+  [[nodiscard]] unsigned within(const PointLanes& points, double squared) const;
+  /// True only when p is farther than `distance` away, and at little cost.
+  [[nodiscard]] bool is_beyond(const Vec3& p, double distance) const {
+    const double reach = radius_ + distance;
+    return (p - corners_[0]).squaredNorm() > reach * reach;
+  }
 
  private:
   std::array<Vec3, 3> corners_;
@@ -26,6 +37,7 @@ class DistanceTriangle {
   std::array<Vec3, 3> inward_;             ///< across edge i, in the plane
   std::array<double, 3> inverse_squares_;  ///< of the edges' lengths; 0 for none
   Vec3 unit_normal_;
+  double radius_ = 0.0;   ///< around the first corner, rounded up
   bool is_flat_ = false;  ///< so narrow that its edges are as near as it gets
 };
 

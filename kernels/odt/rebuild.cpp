@@ -53,10 +53,7 @@ CarriedSamples moved_samples(const CarriedSamples& samples, std::span<const Loca
       const TriangleKey key = triangle_key(f.a, f.b, f.c);
       if (!samples.has(key, t.label)) continue;
       const TriangleKey moved = triangle_key(row[f.a], row[f.b], row[f.c]);
-      samples.each(key, [&](FaceSamples s) {
-        out.add(moved, t.label, s);
-        return true;
-      });
+      for (const FaceSamples s : samples.of(key)) out.add(moved, t.label, s);
     }
   }
   return out;

@@ -14,6 +14,9 @@
 namespace mw {
 namespace {
 
+/// Of the first sweep; later ones start near the minimum.
+constexpr int kFirstNewtonSteps = 2;
+
 /// Which vertices have a turn in a sweep: all, until those of later calls are left out.
 class Turns {
  public:
@@ -112,14 +115,20 @@ std::uint64_t unfold_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOp
 }
 
 std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
-                           DistanceGuard* guard, VolumeDebts& debts, const Turns& turns) {
-  Smoother smoother(
-      mesh, metric,
-      {options.smooth_below, options.quality_floor, options.surface, options.demands.sizes}, guard,
-      &debts);
+                           DistanceGuard* guard, VolumeDebts& debts, const Turns& turns,
+                           int newton_steps) {
+  Smoother smoother(mesh, metric,
+                    {.smooth_below = options.smooth_below,
+                     .quality_floor = options.quality_floor,
+                     .surface = options.surface,
+                     .newton_steps = newton_steps,
+                     .sizes = options.demands.sizes},
+                    guard, &debts);
+  const bool leaves_interfaces = smoother.fits_interfaces() && !options.moves_fitted;
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!turns.has(v) || !mesh.is_alive(v) || !mesh.is_free(v)) continue;
+    if (leaves_interfaces && mesh.on_interface(v)) continue;
     moves += smoother.smooth(v) ? 1U : 0U;
   }
   return moves;
@@ -143,7 +152,8 @@ OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOption
     if (sweep == 1) turns.leave_out(mesh, options.later);
     stats.flips += flip_sweep(mesh, metric, options, guard, turns);
     if (unfolds) stats.flips += unfold_sweep(mesh, metric, options, *guard, turns);
-    stats.moves += smooth_sweep(mesh, metric, options, guard, debts, turns);
+    const int newton_steps = sweep == 0 ? kFirstNewtonSteps : 1;
+    stats.moves += smooth_sweep(mesh, metric, options, guard, debts, turns, newton_steps);
   }
   return stats;
 }
@@ -158,8 +168,13 @@ std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const Optimise
                                .junction_area = 0.03,
                                .bend = 0.0,
                                .with_pressure = false};
+  // A step a visit: vertices that contraction leaves come again.
   Smoother smoother(mesh, metric,
-                    {options.smooth_below, options.quality_floor, weights, options.demands.sizes},
+                    {.smooth_below = options.smooth_below,
+                     .quality_floor = options.quality_floor,
+                     .surface = weights,
+                     .newton_steps = 1,
+                     .sizes = options.demands.sizes},
                     guard);
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {

@@ -16,7 +16,6 @@ namespace mw {
 namespace {
 
 constexpr double kInterfaceSlack = 0.25;
-constexpr int kNewtonSteps = 2;
 
 /// Weight of the quadric beside the energy: at its limit it costs this share of the star.
 constexpr double kQuadricShare = 0.1;
@@ -134,8 +133,8 @@ struct Best {
   }
 };
 
-void search(const Mover& mover, Best& best) {
-  for (int i = 0; i < kNewtonSteps; ++i) {
+void search(const Mover& mover, Best& best, int steps) {
+  for (int i = 0; i < steps; ++i) {
     const Point start = best.position;
     const Vec3 way = mover.newton_step(start);
     bool moved = false;
@@ -224,7 +223,7 @@ bool Smoother::smooth(LocalVertex v) {
   const Mover mover(mesh_, metric_, star_, fitted ? &surface_energy_ : nullptr, v, present, least);
   const Point start = mesh_.position(v);
   Best best{start, present.energy};
-  search(mover, best);
+  search(mover, best, options_.newton_steps);
   const bool folded =
       fitted && options_.surface->bend > 0.0 && surface_energy_.least_cosine() < kSharpCosine;
   if (folded) search_around(mover, surface_, best);
@@ -241,7 +240,9 @@ bool Smoother::smooth(LocalVertex v) {
 bool Smoother::move_to(LocalVertex v, Point target) {
   if (!limits_.allow_star(v, v, target)) return false;
   const bool guarded = guard_ != nullptr && mesh_.on_interface(v);
-  if (guarded && !guard_->allows_move(mesh_, v, target)) return false;
+  if (guarded && !fits_interfaces()) fan_.collect(mesh_, v, triangles_);
+  const std::span<const FanTriangle> fan = fits_interfaces() ? surface_.fan() : triangles_;
+  if (guarded && !guard_->allows_move(mesh_, v, fan, target)) return false;
   const Vec3 move = metric_.vector(mesh_.position(v), target);
   mesh_.move(v, target, mesh_.quadric(v).shifted(move));
   if (guarded) guard_->commit();

@@ -21,6 +21,7 @@ struct SmoothOptions {
   /// With a guard: interface vertices, however good their tets, go where SurfaceEnergy and the
   /// shape energy together are least.  None, or no guard: where shapes are best within the slack.
   std::optional<SurfaceWeights> surface;
+  int newton_steps = 2;              ///< the most that a vertex takes in a call
   const SizeField* sizes = nullptr;  ///< edges keep to these limits; null: none
 };
 
@@ -56,7 +57,9 @@ class Smoother {
   DistanceGuard* guard_;
   VolumeDebts* debts_;
   StarBatch star_;
-  SurfaceStar surface_;
+  InterfaceFan fan_;
+  std::vector<FanTriangle> triangles_;  ///< at an interface vertex that is not fitted
+  SurfaceStar surface_;                 ///< of one that is
   SurfaceEnergy surface_energy_;
   CurvatureField curvature_;  ///< as it was before the first move
 };

@@ -182,7 +182,10 @@ StarShape StarBatch::shape_at(const Vec3& x) {
 
 double StarBatch::energy_at(const Vec3& x, double least, double enough) {
   gather_all();
-  double sum = 0.0;
+  constexpr double kRounding = 1e-12;
+  // No energy is below 1.
+  double sum = 0.0, rest = static_cast<double>(size_) * (1.0 - kRounding);
+  if (rest > enough) return rest;
   const double most = 1.0 / least;
   std::array<double, kLanes> e;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
@@ -191,7 +194,8 @@ double StarBatch::energy_at(const Vec3& x, double least, double enough) {
       if (e[k] > most) return std::numeric_limits<double>::infinity();
       sum += e[k];
     }
-    if (sum > enough) break;
+    rest -= static_cast<double>(used_lanes(i));
+    if (sum + rest > enough) return sum + rest;
   }
   return sum;
 }

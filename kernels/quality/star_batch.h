@@ -7,8 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "kernels/core/lanes.h"
 #include "kernels/mesh/tet_mesh.h"
-#include "kernels/quality/lanes.h"
 
 namespace mw {
 
@@ -41,8 +41,8 @@ class StarBatch {
 
   [[nodiscard]] StarShape shape_at(const Vec3& x);
 
-  /// The sum of energies; infinite when a tet is below `least`; not finished when it exceeds
-  /// `enough`.
+  /// The sum of energies; infinite when a tet is below `least`; a lower bound of it when that
+  /// exceeds `enough`.
   [[nodiscard]] double energy_at(const Vec3& x, double least, double enough);
 
   /// The sum of s^3 / v^2, s the sum of a tet's six squared edges and v its volume (times 6): a

@@ -26,6 +26,14 @@ inline constexpr double kSharpCosine = 0.5;
   return excess * excess;
 }
 
+/// The same for two normals of any length, by their product and that of their squares; 0 when one
+/// of them is zero.  Most bends are free, which takes no root to see.
+[[nodiscard]] inline double bend_energy(double product, double squares) {
+  constexpr double kSurelyFree = 1.0 - 0.999 * kFreeBend;
+  if (product > 0.0 && product * product >= kSurelyFree * kSurelyFree * squares) return 0.0;
+  return squares > 0.0 ? bend_energy(product / std::sqrt(squares)) : 0.0;
+}
+
 /// Cosine between two normals of any length; 1 when one of them is zero.
 [[nodiscard]] inline double cosine_between(const Vec3& m, const Vec3& n) {
   const double squares = m.squaredNorm() * n.squaredNorm();

@@ -10,10 +10,9 @@ namespace mw {
 namespace {
 
 /// Share of the way from `from` to `to` of the point that is nearest to p.
-double share_of_way(const Vec3& p, const Vec3& from, const Vec3& to) {
-  const Vec3 way = to - from;
-  const double square = way.squaredNorm();
-  return square > 0.0 ? std::clamp((p - from).dot(way) / square, 0.0, 1.0) : 0.0;
+/// along: the product with an edge of this squared length.
+double share_of_way(double along, double square) {
+  return square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
 }
 
 }  // namespace
@@ -28,12 +27,13 @@ Foot foot_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b) {
     return {{1.0 - along_a - along_b, along_a, along_b},
             (p - along_a * a - along_b * b).squaredNorm()};
   }
-  const double on_a = share_of_way(p, Vec3::Zero(), a), on_b = share_of_way(p, Vec3::Zero(), b),
-               on_ab = share_of_way(p, a, b);
+  const Vec3 ab_edge = b - a;
+  const double on_a = share_of_way(pa, aa), on_b = share_of_way(pb, bb),
+               on_ab = share_of_way((p - a).dot(ab_edge), ab_edge.squaredNorm());
   const std::array<Foot, 3> feet{
       {{{1.0 - on_a, on_a, 0.0}, (p - on_a * a).squaredNorm()},
        {{1.0 - on_b, 0.0, on_b}, (p - on_b * b).squaredNorm()},
-       {{0.0, 1.0 - on_ab, on_ab}, (p - a - on_ab * (b - a)).squaredNorm()}}};
+       {{0.0, 1.0 - on_ab, on_ab}, (p - a - on_ab * ab_edge).squaredNorm()}}};
   return *std::min_element(feet.begin(), feet.end(), [](const Foot& f, const Foot& g) {
     return f.squared_distance < g.squared_distance;
   });

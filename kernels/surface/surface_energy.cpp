@@ -15,6 +15,9 @@ namespace {
 /// Bends count by their mean over the spokes of a usual star.
 constexpr double kUsualSpokes = 6.0;
 
+/// More than what squared distances are rounded by.
+constexpr double kRoundedUp = 1.0 + 1e-9;
+
 Vec3 unit(const Vec3& normal) {
   const double length = normal.norm();
   return length > 0.0 ? Vec3(normal / length) : Vec3::Zero();
@@ -81,6 +84,9 @@ std::pair<std::size_t, Foot> SurfaceEnergy::foot_of(const Vec3& p, std::size_t c
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
     if (i == carrier || !t.is_between(own.low, own.high)) continue;
+    // No farther than its plane, which goes through v.
+    const double height = unit_normals_[i].dot(p);
+    if (height * height > kRoundedUp * best.second.squared_distance) continue;
     const Foot foot = foot_on_triangle(p, t.to_a, t.to_b);
     if (foot.squared_distance < best.second.squared_distance) best = {i, foot};
   }
@@ -173,16 +179,18 @@ double SurfaceEnergy::least_cosine() const {
 
 double SurfaceEnergy::raw_value_at(const Vec3& x) const {
   double value = 0.0;
+  const bool has_area = mass_ > 0.0 && area_weight_ > 0.0, has_bends = weights_.bend > 0.0;
+  if (has_area || has_bends) star_->normals_at(x, normals_);
   if (mass_ > 0.0) {
     value = x.dot(square_ * x) - 2.0 * linear_.dot(x);
-    if (area_weight_ > 0.0) {
+    if (has_area) {
       double area = 0.0;
-      for (const SurfaceTriangle& t : star_->triangles()) area += 0.5 * t.normal(x).norm();
+      for (const SurfaceNormal& n : normals_) area += 0.5 * std::sqrt(n.square);
       value += area_weight_ * (area - pressure_.dot(x));
     }
     value *= fit_weight_ / mass_;
   }
-  if (weights_.bend > 0.0) value += weights_.bend / kUsualSpokes * star_->bends_at(x);
+  if (has_bends) value += weights_.bend / kUsualSpokes * star_->bends(normals_);
   return value;
 }
 

@@ -20,7 +20,7 @@ struct SurfaceWeights {
   double junction_fit = 1.25;   ///< where more labels meet
   double area = 1.0;            ///< beside the fit, voxels squared; between two labels, off the box
   double junction_area = 0.01;  ///< the same where more labels meet
-  double bend = 4.5;
+  double bend = 4.7;
   bool with_pressure = true;
 };
 
@@ -103,6 +103,7 @@ class SurfaceEnergy {
   double present_ = 0.0;
   std::vector<Balance> balances_;
   std::vector<VolumeDebt> debts_;
+  mutable std::vector<SurfaceNormal> normals_;  ///< scratch
 };
 
 }  // namespace mw

@@ -10,10 +10,6 @@
 
 namespace mw {
 
-Vec3 SurfaceTriangle::normal(const Vec3& x) const {
-  return (to_a - x).cross(to_b - x);
-}
-
 void SurfaceStar::collect(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
   vertex_ = v;
   triangles_.clear();
@@ -35,13 +31,14 @@ void SurfaceStar::find_spokes() {
   const auto n = static_cast<std::uint32_t>(triangles_.size());
   for (std::uint32_t i = 0; i < n; ++i) {
     const SurfaceTriangle& t = triangles_[i];
-    std::uint32_t others = 0, other = 0;
+    std::uint32_t at_spoke = 0, other = n;
     for (std::uint32_t k = 0; k < n; ++k) {
-      if (k == i || !triangles_[k].is_between(t.low, t.high) || !triangles_[k].has(t.a)) continue;
-      ++others;
-      other = k;
+      const SurfaceTriangle& u = triangles_[k];
+      if ((u.a != t.a && u.b != t.a) || !u.is_between(t.low, t.high)) continue;
+      ++at_spoke;
+      if (k != i) other = k;
     }
-    if (others == 1 && triangles_[other].b == t.a) spokes_.push_back({i, other});
+    if (at_spoke == 2 && triangles_[other].b == t.a) spokes_.push_back({i, other});
   }
 }
 
@@ -70,14 +67,28 @@ void SurfaceStar::add_without(LocalVertex vanishing, const SurfaceStar& star, co
   }
 }
 
+void SurfaceStar::normals_at(const Vec3& x, std::vector<SurfaceNormal>& out) const {
+  out.resize(triangles_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Vec3 normal = triangles_[i].normal(x);
+    out[i] = {normal, normal.squaredNorm()};
+  }
+}
+
 double SurfaceStar::bends_at(const Vec3& x) const {
+  normals_at(x, normals_);
+  return bends(normals_);
+}
+
+double SurfaceStar::bends(std::span<const SurfaceNormal> normals) const {
   double sum = 0.0;
   for (const Spoke& s : spokes_) {
-    sum +=
-        bend_energy(cosine_between(triangles_[s.first].normal(x), triangles_[s.second].normal(x)));
+    const SurfaceNormal &m = normals[s.first], &n = normals[s.second];
+    sum += bend_energy(m.vector.dot(n.vector), m.square * n.square);
   }
   for (const Rim& r : rims_) {
-    sum += bend_energy(cosine_between(triangles_[r.triangle].normal(x), r.normal));
+    const SurfaceNormal& m = normals[r.triangle];
+    sum += bend_energy(m.vector.dot(r.normal), m.square * r.normal.squaredNorm());
   }
   return sum;
 }

@@ -3,7 +3,9 @@
 // The interface triangles at a vertex, and how they meet each other and their neighbours.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernels/distance/interface_fan.h"
@@ -24,11 +26,17 @@ struct SurfaceTriangle {
   [[nodiscard]] bool is_between(Label l, Label h) const { return low == l && high == h; }
   [[nodiscard]] bool has(LocalVertex w) const { return a == w || b == w; }
   /// Twice the area times the unit normal, when v moves by x.
-  [[nodiscard]] Vec3 normal(const Vec3& x) const;
+  [[nodiscard]] Vec3 normal(const Vec3& x) const { return (to_a - x).cross(to_b - x); }
 };
 
 /// Two triangles at v that share an edge at v, are the only two of their labels there, and go on
 /// from each other: they run through the edge in opposite ways.
+/// A normal of any length.
+struct SurfaceNormal {
+  Vec3 vector;
+  double square = 0.0;  ///< of its length
+};
+
 struct Spoke {
   std::uint32_t first = 0;  ///< rows of triangles
   std::uint32_t second = 0;
@@ -55,10 +63,16 @@ class SurfaceStar {
   void merge(const SurfaceStar& star, const Vec3& move, const SurfaceStar& other,
              const Vec3& other_move);
 
+  /// Normals of all triangles, when v moves by x, into `out`.
+  void normals_at(const Vec3& x, std::vector<SurfaceNormal>& out) const;
   /// The sum of bend energies (bend.h) of spokes and rims, when v moves by x.
   [[nodiscard]] double bends_at(const Vec3& x) const;
+  /// The same from the normals there.
+  [[nodiscard]] double bends(std::span<const SurfaceNormal> normals) const;
 
   [[nodiscard]] LocalVertex vertex() const { return vertex_; }
+  /// What it was collected from.
+  [[nodiscard]] std::span<const FanTriangle> fan() const { return found_; }
   [[nodiscard]] const std::vector<SurfaceTriangle>& triangles() const { return triangles_; }
   [[nodiscard]] const std::vector<Spoke>& spokes() const { return spokes_; }
   [[nodiscard]] const std::vector<Rim>& rims() const { return rims_; }
@@ -75,6 +89,7 @@ class SurfaceStar {
   std::vector<Spoke> spokes_;
   std::vector<Rim> rims_;
   EdgeRing ring_;
+  mutable std::vector<SurfaceNormal> normals_;  ///< scratch
 };
 
 }  // namespace mw

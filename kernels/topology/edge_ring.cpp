@@ -3,6 +3,7 @@
 // The ring of tetrahedra around an edge, from the star of one end.
 #include "kernels/topology/edge_ring.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mw {
@@ -23,14 +24,23 @@ bool collect_ring(const TetMesh& mesh, LocalVertex p, LocalVertex q, EdgeRing& r
   ring.ends.clear();
   std::vector<LocalVertex>& start = ring.vertices;
   std::vector<LocalVertex>& ends = ring.ends;
-  for (const LinkTriangle& t : mesh.star(p)) {
-    if (!t.has(q)) continue;
+  const auto star = mesh.star(p);
+  // Which entries have q cannot be foretold, so no branch asks.
+  ring.rows.resize(std::max(ring.rows.size(), star.size()));
+  std::size_t n = 0;
+  for (std::uint32_t i = 0; i < star.size(); ++i) {
+    ring.rows[n] = i;
+    const LinkTriangle& t = star[i];
+    n += static_cast<std::size_t>(t.a == q) | static_cast<std::size_t>(t.b == q) |
+         static_cast<std::size_t>(t.c == q);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const LinkTriangle& t = star[ring.rows[i]];
     const auto [r, s] = opposite(t, q);
     start.push_back(r);
     ends.push_back(s);
     ring.labels.push_back(t.label);
   }
-  const std::size_t n = start.size();
   if (n < 3) return false;
   for (std::size_t i = 0; i + 1 < n; ++i) {
     std::size_t next = i + 1;

@@ -3,6 +3,7 @@
 // The ring of tetrahedra around an edge, in cyclic order.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernels/mesh/tet_mesh.h"
@@ -14,7 +15,8 @@ namespace mw {
 struct EdgeRing {
   std::vector<LocalVertex> vertices;
   std::vector<Label> labels;
-  std::vector<LocalVertex> ends;  ///< ends[i] == vertices[i + 1 mod n]
+  std::vector<LocalVertex> ends;    ///< ends[i] == vertices[i + 1 mod n]
+  std::vector<std::uint32_t> rows;  ///< scratch of collect_ring()
 
   [[nodiscard]] std::size_t size() const { return vertices.size(); }
 };

@@ -8,6 +8,8 @@
 #include <map>
 #include <random>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "tests/oracle/small_volumes.h"
 
@@ -19,17 +21,13 @@ using audit::test::below;
 /// What the table should hold.
 struct Carried {
   Label side = 0;
-  std::multiset<FaceSamples> samples;
+  std::vector<FaceSamples> samples;  ///< in the order in which they came
 };
 using Expected = std::map<TriangleKey, Carried>;
 
-std::multiset<FaceSamples> listed(const CarriedSamples& samples, const TriangleKey& key) {
-  std::multiset<FaceSamples> out;
-  EXPECT_TRUE(samples.each(key, [&](FaceSamples s) {
-    out.insert(s);
-    return true;
-  }));
-  return out;
+std::vector<FaceSamples> listed(const CarriedSamples& samples, const TriangleKey& key) {
+  const auto list = samples.of(key);
+  return {list.begin(), list.end()};
 }
 
 void expect_same(const CarriedSamples& samples, const Expected& expected, const TriangleKey& key) {
@@ -73,7 +71,7 @@ TEST(CarriedSamples, FindWhatWasAddedAndNotErased) {
         } else {
           const Label side = below(random, 3);
           samples.add(key, side, s % 7);
-          expected.try_emplace(key, Carried{side, {}}).first->second.samples.insert(s % 7);
+          expected.try_emplace(key, Carried{side, {}}).first->second.samples.push_back(s % 7);
         }
         ASSERT_EQ(samples.empty(), expected.empty());
         expect_same(samples, expected, key);
@@ -96,7 +94,7 @@ TEST(CarriedSamples, FindTheOthersAfterEachRemovalFromAFullTable) {
       const auto a = below(random, 1000), b = below(random, 1000), c = below(random, 1000);
       const TriangleKey key = triangle_key(a, b, c);
       samples.add(key, 1, 5);
-      expected.try_emplace(key, Carried{1, {}}).first->second.samples.insert(5);
+      expected.try_emplace(key, Carried{1, {}}).first->second.samples.push_back(5);
     }
     while (!expected.empty()) {
       const auto gone =
@@ -110,12 +108,52 @@ TEST(CarriedSamples, FindTheOthersAfterEachRemovalFromAFullTable) {
   }
 }
 
-TEST(CarriedSamples, StopWhenTheVisitorSaysSo) {
+/// Lists that wander from name to name, lose some of their samples and get others.
+TEST(CarriedSamples, FollowTheirTriangles) {
+  std::mt19937 random(923);
   CarriedSamples samples;
-  for (FaceSamples s = 0; s < 5; ++s) samples.add({1, 2, 3}, 0, s);
-  int visited = 0;
-  EXPECT_FALSE(samples.each({1, 2, 3}, [&](FaceSamples) { return ++visited < 3; }));
-  EXPECT_EQ(visited, 3);
+  Expected expected;
+  const auto any_key = [&] {
+    const auto a = below(random, 9), b = below(random, 9), c = below(random, 9);
+    return triangle_key(a, b, c);
+  };
+  for (FaceSamples s = 0; s < 30000; ++s) {
+    const TriangleKey key = any_key(), other = any_key();
+    Carried& list = expected[key];
+    if (list.samples.empty()) list.side = below(random, 3);
+    const auto kind = below(random, 8);
+    if (kind < 5) {
+      samples.add(key, list.side, s);
+      list.samples.push_back(s);
+    } else if (kind == 5) {
+      std::vector<bool> kept(list.samples.size());
+      std::vector<FaceSamples> left;
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        kept[i] = below(random, 3) != 0;
+        if (kept[i]) left.push_back(list.samples[i]);
+      }
+      samples.keep(key, kept);
+      list.samples = left;
+    } else {
+      const Carried taken = std::exchange(list, Carried{});
+      const CarriedSamples::Taken own = samples.take(key);
+      const CarriedSamples::Taken theirs = samples.take(other);
+      EXPECT_TRUE(samples.of(key).empty());
+      samples.give(other, own);
+      if (kind == 6) samples.give(other, theirs);
+      Carried& there = expected[other];
+      const auto behind = key == other || kind == 7 ? std::vector<FaceSamples>{} : there.samples;
+      const Label side = taken.samples.empty() ? there.side : taken.side;
+      there = {side, taken.samples};
+      there.samples.insert(there.samples.end(), behind.begin(), behind.end());
+    }
+    for (const TriangleKey& k : {key, other}) {
+      if (expected[k].samples.empty()) expected.erase(k);
+      expect_same(samples, expected, k);
+    }
+    if (s % 500 != 499) continue;
+    for (const auto& [k, list_of_k] : expected) expect_same(samples, expected, k);
+  }
 }
 
 /// Of its voxel, however far out that lies.

@@ -61,14 +61,13 @@ using Carriers = std::map<FaceSamples, InterfaceTriangle>;
 Carriers carriers_of(const GuardedMesh& guarded) {
   Carriers out;
   for (const InterfaceTriangle& t : interface_triangles(guarded.mesh)) {
-    guarded.samples.each(t.key(), [&](FaceSamples s) {
+    for (const FaceSamples s : guarded.samples.of(t.key())) {
       EXPECT_TRUE(guarded.samples.has(t.key(), t.low));
       for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
         if ((quarters_of(s) >> quarter & 1U) == 0) continue;
         EXPECT_TRUE(out.emplace(with_quarters(s, 1U << quarter), t).second) << "twice";
       }
-      return true;
-    });
+    }
   }
   return out;
 }
@@ -120,7 +119,9 @@ LocalVertex random_move(GuardedMesh& guarded, std::mt19937& random) {
       return mesh.infinity();
     }
   }
-  if (!guarded.guard.allows_move(mesh, v, x)) return mesh.infinity();
+  std::vector<FanTriangle> fan;
+  InterfaceFan().collect(mesh, v, fan);
+  if (!guarded.guard.allows_move(mesh, v, fan, x)) return mesh.infinity();
   mesh.move(v, x, mesh.quadric(v));
   guarded.guard.commit();
   return v;

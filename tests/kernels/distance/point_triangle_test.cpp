@@ -56,6 +56,41 @@ TEST(PointTriangle, ForgetsTheOrderOfCorners) {
   }
 }
 
+/// Four at a time as one by one, but for what rounding may decide.
+TEST(PointTriangle, TellsSeveralPointsAtOnce) {
+  std::mt19937 random(903);
+  constexpr double kRounding = 1e-9;
+  int near = 0, beyond = 0;
+  for (int i = 0; i < 4000; ++i) {
+    std::array<Vec3, 3> t{random_point(random), random_point(random), random_point(random)};
+    if (i % 4 == 0) t[2] = 0.5 * (t[0] + t[1]);  // a segment
+    if (i % 9 == 0) t[1] = t[0];
+    const DistanceTriangle triangle(t);
+    const double squared = 0.25 * random_point(random).squaredNorm();
+    PointLanes points;
+    std::array<Vec3, kLanes> one_by_one;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      one_by_one[k] = random_point(random);
+      for (int axis = 0; axis < 3; ++axis) {
+        points[static_cast<std::size_t>(axis)][k] = one_by_one[k][axis];
+      }
+    }
+    const unsigned bits = triangle.within(points, squared);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const double exact = triangle.squared_distance(one_by_one[k]);
+      if (triangle.is_beyond(one_by_one[k], std::sqrt(squared))) {
+        EXPECT_GT(exact, squared);
+        ++beyond;
+      }
+      if (std::abs(exact - squared) < kRounding) continue;
+      EXPECT_EQ((bits >> k & 1U) != 0, exact < squared);
+      near += exact < squared ? 1 : 0;
+    }
+  }
+  EXPECT_GT(near, 1000);
+  EXPECT_GT(beyond, 500);
+}
+
 /// Slivers of every width, down to where only edges count.
 TEST(PointTriangle, IsExactForNarrowTriangles) {
   std::mt19937 random(903);

@@ -32,10 +32,9 @@ struct Sampled {
         const LinkTriangle f = link_triangle(t, corner);
         const TriangleKey key = triangle_key(f.a, f.b, f.c);
         if (!samples.has(key, t.label)) continue;
-        samples.each(key, [&](FaceSamples s) {
+        for (const FaceSamples s : samples.of(key)) {
           out.insert({{mesh.id(key[0]), mesh.id(key[1]), mesh.id(key[2])}, t.label, s});
-          return true;
-        });
+        }
       }
     }
     return out;

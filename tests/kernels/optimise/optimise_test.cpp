@@ -9,6 +9,7 @@
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/simplify/simplify.h"
 #include "tests/kernels/mesh/dense_mesh.h"
+#include "tests/kernels/surface/interface_triangles.h"
 
 namespace mw::test {
 namespace {
@@ -147,6 +148,33 @@ TEST(Flips, EndWhenEveryTetOfALatticeIsTried) {
       EXPECT_EQ(stats.moves, 0U);
       EXPECT_EQ(volume6_sum(mesh), (edge * edge * edge * 6) << 30);
     }
+  }
+}
+
+/// What a later march will move: the smooth surface waits, the rest goes on.
+TEST(Optimise, LeavesFittedVerticesWhereTheyAreWhenToldTo) {
+  for (const bool moves_fitted : {false, true}) {
+    GuardedMesh guarded(volume_from({12, 12, 12}, 2,
+                                    [](auto x, auto y, auto z) {
+                                      const auto d = (x - 6) * (x - 6) + (y - 6) * (y - 6);
+                                      return d + (z - 6) * (z - 6) < 20 ? 1 : 0;
+                                    }),
+                        1.5);
+    simplify(guarded.mesh, Metric(), {.enough_vertices = 900}, &guarded.guard);
+    const TetMesh before = guarded.mesh;
+    const OptimiseOptions options{.flip_below = 0.0,
+                                  .smooth_below = 1.0,
+                                  .surface = SurfaceWeights{.bend = 0.0},
+                                  .moves_fitted = moves_fitted};
+    optimise(guarded.mesh, Metric(), options, &guarded.guard);
+    std::array<int, 2> moved{};
+    for (LocalVertex v = 0; v < before.vertex_count(); ++v) {
+      const bool on_interface = before.is_free(v) && before.on_interface(v);
+      if (guarded.mesh.position(v) != before.position(v)) ++moved[on_interface ? 1 : 0];
+    }
+    EXPECT_GT(moved[0], 20);
+    EXPECT_EQ(moved[1] > 20, moves_fitted);
+    EXPECT_EQ(moved[1] > 0, moves_fitted);
   }
 }
 

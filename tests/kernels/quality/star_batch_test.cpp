@@ -78,7 +78,11 @@ TEST(StarBatch, SumsEnergiesOfAllTets) {
     EXPECT_NEAR(shape.energy, sum, 1e-9 * sum);
     EXPECT_NEAR(star.energy_at(trial.offset, 0.9 * worst, kInfinite), sum, 1e-9 * sum);
     EXPECT_EQ(star.energy_at(trial.offset, 1.1 * worst, kInfinite), kInfinite);
-    EXPECT_GT(star.energy_at(trial.offset, 0.9 * worst, 0.5 * sum), 0.5 * sum);
+    for (const double share : {0.01, 0.5, 0.99, 1.01}) {
+      const double enough = share * sum, told = star.energy_at(trial.offset, 0.9 * worst, enough);
+      EXPECT_EQ(told > enough, share < 1.0);
+      EXPECT_LE(told, sum * (1.0 + 1e-9));
+    }
   });
   EXPECT_GT(inverted, 100);
   EXPECT_GT(sound, 500);

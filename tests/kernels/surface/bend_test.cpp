@@ -33,6 +33,17 @@ TEST(Bend, StartsGently) {
   EXPECT_LT(bend_energy(1.0 - kFreeBend - 1e-4), 2e-8);
 }
 
+/// From products of normals of any length, about the bound of what is free too.
+TEST(Bend, NeedsNoUnitNormals) {
+  for (const double squares : {1e-12, 1.0, 7e9}) {
+    for (int i = 0; i <= 20000; ++i) {
+      const double cosine = -1.0 + 1e-4 * i;
+      EXPECT_NEAR(bend_energy(cosine * std::sqrt(squares), squares), bend_energy(cosine), 1e-13);
+    }
+  }
+  EXPECT_EQ(bend_energy(0.0, 0.0), 0.0);
+}
+
 TEST(Bend, CosineIsThatOfDirections) {
   const Vec3 m(0.0, 0.0, 3.0), n(0.0, 5.0, 5.0);
   EXPECT_NEAR(cosine_between(m, n), std::sqrt(0.5), 1e-15);
