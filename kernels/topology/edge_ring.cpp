@@ -4,10 +4,27 @@
 #include "kernels/topology/edge_ring.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace mw {
 namespace {
+
+/// As t.has(q), in one comparison.
+bool has(const LinkTriangle& t, LocalVertex q) {
+#ifdef __SSE2__
+  static_assert(sizeof t == sizeof(__m128i) && offsetof(LinkTriangle, label) == 12);
+  const __m128i corners = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&t));
+  const __m128i same = _mm_cmpeq_epi32(corners, _mm_set1_epi32(static_cast<int>(q)));
+  return (_mm_movemask_ps(_mm_castsi128_ps(same)) & 7) != 0;
+#else
+  return t.has(q);
+#endif
+}
 
 /// The directed link edge (r, s) of a star entry at p that contains q: (p, q, r, s) is positive.
 std::pair<LocalVertex, LocalVertex> opposite(const LinkTriangle& t, LocalVertex q) {
@@ -30,9 +47,7 @@ bool collect_ring(const TetMesh& mesh, LocalVertex p, LocalVertex q, EdgeRing& r
   std::size_t n = 0;
   for (std::uint32_t i = 0; i < star.size(); ++i) {
     ring.rows[n] = i;
-    const LinkTriangle& t = star[i];
-    n += static_cast<std::size_t>(t.a == q) | static_cast<std::size_t>(t.b == q) |
-         static_cast<std::size_t>(t.c == q);
+    n += has(star[i], q) ? 1U : 0U;
   }
   for (std::size_t i = 0; i < n; ++i) {
     const LinkTriangle& t = star[ring.rows[i]];
