@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "kernels/core/error.h"
 
@@ -120,11 +121,21 @@ CloseFaces::Voxel CloseFaces::voxel_of(const VoxelPoint& p) const {
 CloseFaces::Block CloseFaces::block_around(const Voxel& voxel) const {
   const Index3 s = volume_.shape;
   const Box3 box{{0, 0, 0}, s};
+  const Box3 around{{voxel[0] - 1, voxel[1] - 1, voxel[2] - 1},
+                    {voxel[0] + 2, voxel[1] + 2, voxel[2] + 2}};
+  const bool is_inside = intersection(around, box) == around;
+  const Label* const first =
+      is_inside ? volume_.labels.data() + box.offset(around.lo) : volume_.labels.data();
   Block out{};
   for (std::int64_t i = 0; i < 27; ++i) {
-    const Index3 v{voxel[0] + i % 3 - 1, voxel[1] + i / 3 % 3 - 1, voxel[2] + i / 9 - 1};
-    out[static_cast<std::size_t>(i)] =
-        box.contains(v) ? volume_.labels[static_cast<std::size_t>(box.offset(v))] : kExterior;
+    const Index3 step{i % 3, i / 3 % 3, i / 9};
+    Label& label = out[static_cast<std::size_t>(i)];
+    if (is_inside) {
+      label = first[(step.z * s.y + step.y) * s.x + step.x];
+      continue;
+    }
+    const Index3 v = around.lo + step;
+    label = box.contains(v) ? volume_.labels[static_cast<std::size_t>(box.offset(v))] : kExterior;
   }
   return out;
 }
@@ -132,7 +143,7 @@ CloseFaces::Block CloseFaces::block_around(const Voxel& voxel) const {
 /// From a point of the middle voxel, faces outside the block are at least a voxel away.  A point
 /// outside the box is no nearer to anything in the box, which is convex, than the point of the box
 /// that is nearest to it; and that one lies in the middle voxel.
-std::array<double, 2> CloseFaces::squared_distances(const VoxelPoint& p,
+std::array<CloseFaces::Near, 2> CloseFaces::nearest(const VoxelPoint& p,
                                                     const LabelPair& labels) const {
   const Voxel voxel = voxel_of(p);
   const Block block = block_around(voxel);
@@ -146,8 +157,7 @@ std::array<double, 2> CloseFaces::squared_distances(const VoxelPoint& p,
                   square(std::max(1 - at, 0.0))};
   }
   constexpr std::array<std::size_t, 3> kStep{1, 3, 9};
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::array<double, 2> nearest{kFar, kFar};
+  std::array<Near, 2> out;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
@@ -159,11 +169,18 @@ std::array<double, 2> CloseFaces::squared_distances(const VoxelPoint& p,
       if (!is_interface(a, b)) continue;
       const double squared = to_plane[axis][plane] + to_slab[u][i % 3] + to_slab[v][i / 3 % 3];
       for (std::size_t n = 0; n < 2; ++n) {
-        if (a == labels[n] || b == labels[n]) nearest[n] = std::min(nearest[n], squared);
+        if ((a != labels[n] && b != labels[n]) || squared >= out[n].squared) continue;
+        out[n].squared = squared;
+        out[n].face.lo[axis] = out[n].face.hi[axis] =
+            static_cast<double>(voxel[axis]) + static_cast<double>(plane);
+        for (const auto& [k, place] : {std::pair{u, i % 3}, std::pair{v, i / 3 % 3}}) {
+          out[n].face.lo[k] = static_cast<double>(voxel[k]) + static_cast<double>(place) - 1;
+          out[n].face.hi[k] = out[n].face.lo[k] + 1;
+        }
       }
     }
   }
-  return nearest;
+  return out;
 }
 
 }  // namespace mw::audit

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -85,14 +86,18 @@ class CloseFaces {
  public:
   static constexpr double kReach = 1;  ///< voxels
 
+  struct Near {
+    double squared = std::numeric_limits<double>::infinity();
+    Extent face{};  ///< what is that far away; REQUIRES: squared is finite
+  };
+
   /// REQUIRES: at least one voxel; `volume` outlives this.
   explicit CloseFaces(const VoxelLabels& volume) : volume_(volume) {}
 
-  /// For each label the squared distance from p to its nearest face; some larger number when that
-  /// is farther than kReach.  p may lie outside the box.
+  /// For each label the squared distance from p to its nearest face, and that face; another one, or
+  /// none, when that is farther than kReach.  p may lie outside the box.
   /// Cost: a look at 27 voxels.
-  [[nodiscard]] std::array<double, 2> squared_distances(const VoxelPoint& p,
-                                                        const LabelPair& labels) const;
+  [[nodiscard]] std::array<Near, 2> nearest(const VoxelPoint& p, const LabelPair& labels) const;
 
  private:
   using Block = std::array<Label, 27>;

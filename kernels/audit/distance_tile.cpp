@@ -22,15 +22,18 @@ class Finder {
   Finder(const LabelTrees& trees, std::size_t label_count, SquaredDistance squared_distance)
       : trees_(trees), squared_distance_(squared_distance), last_(label_count, kNone) {}
 
-  /// Infinite when the label has none.  That of another item will do that is near enough.
-  [[nodiscard]] double distance(Label label, const VoxelPoint& p, double enough = -1) {
+  /// Infinite when the label has none.  Another item will do that is near enough.
+  [[nodiscard]] LabelTrees::Nearest nearest(Label label, const VoxelPoint& p, double enough = -1) {
     const auto to_item = [&](std::uint32_t item) { return squared_distance_(p, item); };
     LabelTrees::Nearest guess;
     if (last_[label] != kNone) guess = {to_item(last_[label]), last_[label]};
     const double square = enough < 0 ? -1 : enough * enough;
     const LabelTrees::Nearest found = trees_.nearest(label, p, guess, to_item, square);
     if (!trees_.empty(label)) last_[label] = found.item;
-    return std::sqrt(found.squared);
+    return found;
+  }
+  [[nodiscard]] double distance(Label label, const VoxelPoint& p, double enough = -1) {
+    return std::sqrt(nearest(label, p, enough).squared);
   }
 
  private:
@@ -133,40 +136,51 @@ class TileDistances {
     for (const InterfaceTriangle& piece : pieces_) {
       if (!is_measured(piece)) continue;
       const VoxelPoint middle = centroid(piece.corners);
-      const std::array<double, 2> squared = to_faces(piece.labels, middle);
+      const std::array<CloseFaces::Near, 2> near = to_faces(piece.labels, middle);
       const double weight = area(piece.corners);
       for (std::size_t i = 0; i < 2; ++i) {
         DistanceTally& tally = rows_[piece.labels[i]].to_input;
         rows_[piece.labels[i]].in_mesh = true;
-        const double distance = std::sqrt(squared[i]);
-        look_around(piece.corners, piece.labels[i], distance, tally);
+        look_around(piece.corners, piece.labels[i], near[i], tally);
+        const double distance = std::sqrt(near[i].squared);
         if (distance <= task_.reach) weigh(tally, distance, weight);
       }
     }
   }
 
-  /// distance: of the centroid.
-  void look_around(const VoxelTriangle& t, Label label, double distance, DistanceTally& tally) {
+  /// near: the face nearest to the centroid.
+  void look_around(const VoxelTriangle& t, Label label, const CloseFaces::Near& near,
+                   DistanceTally& tally) {
+    const double distance = std::sqrt(near.squared);
     if (!take(tally, distance)) return;
     const double around = radius(t);
     if (around <= kCoveringRadius || distance <= enough(tally, around)) return;
+    if (farthest_corner(t, near.face) <= enough(tally, 0)) return;
     for (const VoxelTriangle& half : halves(t)) {
-      const double nearest = to_faces({label, label}, centroid(half))[0];
-      look_around(half, label, std::sqrt(nearest), tally);
+      look_around(half, label, to_faces({label, label}, centroid(half))[0], tally);
     }
   }
 
-  /// Squared, of each label.
-  [[nodiscard]] std::array<double, 2> to_faces(const LabelPair& labels, const VoxelPoint& p) {
-    std::array<double, 2> squared = CloseFaces(voxels()).squared_distances(p, labels);
+  /// No point of the triangle is farther from the face, which is convex.
+  static double farthest_corner(const VoxelTriangle& t, const Extent& face) {
+    double squared = 0;
+    for (const VoxelPoint& corner : t) squared = std::max(squared, squared_distance(corner, face));
+    return std::sqrt(squared);
+  }
+
+  /// Of each label.
+  [[nodiscard]] std::array<CloseFaces::Near, 2> to_faces(const LabelPair& labels,
+                                                         const VoxelPoint& p) {
+    std::array<CloseFaces::Near, 2> near = CloseFaces(voxels()).nearest(p, labels);
     for (std::size_t i = 0; i < 2; ++i) {
-      const bool is_close = squared[i] <= CloseFaces::kReach * CloseFaces::kReach;
+      const bool is_close = near[i].squared <= CloseFaces::kReach * CloseFaces::kReach;
       if (is_close && labels[i] != gap_) continue;
       if (!face_finder_) make_face_finder();
-      const double distance = face_finder_->distance(labels[i], p);
-      squared[i] = distance * distance;
+      const LabelTrees::Nearest found = face_finder_->nearest(labels[i], p);
+      near[i].squared = found.squared;
+      if (std::isfinite(found.squared)) near[i].face = extent_of(faces_[found.item]);
     }
-    return squared;
+    return near;
   }
 
   /// Most tiles have a few samples that need it; some have none.
