@@ -43,8 +43,8 @@ class WindowVisitor {
   WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
                 const WindowGrid& grid, BlockStore& store);
 
-  /// Optimises longer and flips more, and adds the inner vertices that labels demand: for the last
-  /// march, when shape is all that is left to gain.
+  /// Optimises longer and flips more, smooths fitted interfaces, and adds the inner vertices that
+  /// labels demand: for the last march, when shape is all that is left to gain.
   /// order: of its windows; the sweeps after the first are for what no later window will see.
   void polish(const WindowOrder& order);
   /// Adds constrained ODT with this triangulation, which many threads may ask at once.  Local
