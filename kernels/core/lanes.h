@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -77,6 +78,15 @@ MW_LANES Lanes root(const Lanes& v) {
 }
 MW_LANES bool any(const LaneMask& m) {
   return (m[0] | m[1] | m[2] | m[3]) != 0;
+}
+/// One bit for each lane of a comparison that holds.
+MW_LANES unsigned lane_bits(const LaneInts& m) {
+#ifdef __SSE__
+  using Floats = float __attribute__((vector_size(sizeof(LaneInts))));
+  return static_cast<unsigned>(__builtin_ia32_movmskps(std::bit_cast<Floats>(m)));
+#else
+  return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
+#endif
 }
 /// In a fixed order.
 MW_LANES double sum(const Lanes& v) {

@@ -5,25 +5,21 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
+#include "kernels/core/lanes.h"
 
 namespace mw {
 namespace {
 
 /// As t.has(q), in one comparison.
 bool has(const LinkTriangle& t, LocalVertex q) {
-#ifdef __SSE2__
-  static_assert(sizeof t == sizeof(__m128i) && offsetof(LinkTriangle, label) == 12);
-  const __m128i corners = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&t));
-  const __m128i same = _mm_cmpeq_epi32(corners, _mm_set1_epi32(static_cast<int>(q)));
-  return (_mm_movemask_ps(_mm_castsi128_ps(same)) & 7) != 0;
-#else
-  return t.has(q);
-#endif
+  static_assert(sizeof t == sizeof(LaneInts) && offsetof(LinkTriangle, label) == 12);
+  constexpr unsigned kCorners = 7;
+  LaneInts entry;
+  std::memcpy(&entry, &t, sizeof entry);
+  return (lane_bits(entry == static_cast<std::int32_t>(q)) & kCorners) != 0;
 }
 
 /// The directed link edge (r, s) of a star entry at p that contains q: (p, q, r, s) is positive.
