@@ -28,7 +28,7 @@ using TriangleKey = std::array<LocalVertex, 3>;
 /// nothing is allocated while a window is worked on, but when the pool grows.
 /// Nothing depends on the order of triangles in the table.  A list keeps the order in which it was
 /// filled, hence is a function of the window's content.
-/// Memory: at most 32 bytes a sample, and 64 a triangle, or three times that while the table grows.
+/// Memory: some 32 bytes a sample, and 64 a triangle, or three times that while the table grows.
 class CarriedSamples {
  public:
   /// A list that was taken away from its triangle.
