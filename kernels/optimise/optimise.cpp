@@ -120,11 +120,11 @@ std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOp
   Smoother smoother(mesh, metric,
                     {.smooth_below = options.smooth_below,
                      .quality_floor = options.quality_floor,
-                     .surface = options.surface,
+                     .surface = options.moves_fitted ? options.surface : std::nullopt,
                      .newton_steps = newton_steps,
                      .sizes = options.demands.sizes},
                     guard, &debts);
-  const bool leaves_interfaces = smoother.fits_interfaces() && !options.moves_fitted;
+  const bool leaves_interfaces = guard != nullptr && options.surface && !options.moves_fitted;
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!turns.has(v) || !mesh.is_alive(v) || !mesh.is_free(v)) continue;

@@ -84,7 +84,7 @@ std::pair<std::size_t, Foot> SurfaceEnergy::foot_of(const Vec3& p, std::size_t c
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
     if (i == carrier || !t.is_between(own.low, own.high)) continue;
-    // No farther than its plane, which goes through v.
+    // The triangle is no nearer than its plane, which goes through v.
     const double height = unit_normals_[i].dot(p);
     if (height * height > kRoundedUp * best.second.squared_distance) continue;
     const Foot foot = foot_on_triangle(p, t.to_a, t.to_b);
