@@ -34,8 +34,9 @@ struct Lanes3 {
   Lanes x, y, z;
 };
 
-/// Whole numbers of four lanes in memory.
+/// Numbers of four lanes in memory.
 using StoredInts = std::array<std::int32_t, kLanes>;
+using StoredLanes = std::array<double, kLanes>;
 
 // Always inline: what a function of MW_WIDE calls must be compiled along with it.
 #define MW_LANES [[gnu::always_inline, nodiscard]] inline
@@ -48,6 +49,11 @@ MW_LANES Lanes3 lanes(const Vec3& v) {
 }
 MW_LANES LaneInts load(const StoredInts& s) {
   LaneInts v;
+  std::memcpy(&v, s.data(), sizeof v);
+  return v;
+}
+MW_LANES Lanes load(const StoredLanes& s) {
+  Lanes v;
   std::memcpy(&v, s.data(), sizeof v);
   return v;
 }

@@ -13,12 +13,6 @@ namespace {
 /// noise.
 constexpr double kNarrow = 1e-9;
 
-MW_LANES Lanes load(const std::array<double, kLanes>& stored) {
-  Lanes v;
-  std::memcpy(&v, stored.data(), sizeof v);
-  return v;
-}
-
 /// Corners, edges, inward normals and inverse squares as in DistanceTriangle.
 struct Flat {
   const std::array<Vec3, 3>& corners;
@@ -48,9 +42,7 @@ MW_WIDE unsigned within_squared(const Flat& t, const PointLanes& points, double 
   const LaneMask near_edge =
       (to_edge(t, 0, a) <= squared) | (to_edge(t, 1, b) <= squared) | (to_edge(t, 2, c) <= squared);
   const LaneMask near = (inside & (height * height <= squared)) | (~inside & near_edge);
-  unsigned bits = 0;
-  for (std::size_t k = 0; k < kLanes; ++k) bits |= near[k] != 0 ? 1U << k : 0U;
-  return bits;
+  return lane_bits(__builtin_convertvector(near, LaneInts));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace mw {
 
 /// x, y and z of some points.
-using PointLanes = std::array<std::array<double, kLanes>, 3>;
+using PointLanes = std::array<StoredLanes, 3>;
 
 /// A triangle made ready for many distances; degenerate ones included.
 class DistanceTriangle {

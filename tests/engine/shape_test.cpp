@@ -117,7 +117,7 @@ TEST(SmoothSurface, BallsKeepTheirVolumeAndHaveNoDents) {
     bends += r.report.shape->bend_max_deg;
     balls += 1.0;
   }
-  // One ball in ten has a single edge that contraction left at more than 45 degrees.
+  // Of 16 other balls one had an edge that contraction left at more than 45 degrees.
   EXPECT_LT(bends / balls, 40.0);
 }
 
