@@ -41,7 +41,7 @@ LabelBox grains(std::int64_t halo = kStartHalo) {
 LevelMap levels(const LabelBox& all) {
   return test::level_map(kShape, [&](const Box3& box) {
     LabelBox out{box, {}};
-    each_index(
+    for_each_index(
         box, [&](Index3 v) { out.labels.push_back(all.box.contains(v) ? all.at(v) : kExterior); });
     return out;
   });

@@ -54,7 +54,7 @@ class Marches {
     if (!is_ample && hooks_.owns_process) return_large_pieces_at_once();
     const WindowNeeds needs{.start_size =
                                 [&](Index3 block) {
-                                  return is_ample ? most_start_size(order.grid(), block)
+                                  return is_ample ? max_start_size(order.grid(), block)
                                                   : visitor.start_size(block);
                                 },
                             .max_distance = visitor.max_distance()};
@@ -166,14 +166,14 @@ std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& 
 
 /// Tells at once, before any work, the least that the parts take whose size is known by then.
 /// What windows take depends on the labels, and on what earlier windows leave.
-void require_least(const RunLayout& layout, const io::DenseVolume& volume,
-                   const MeshSettings& settings, const io::MeshSink& sink, int threads,
-                   const MemoryBudget& budget) {
+void require_min(const RunLayout& layout, const io::DenseVolume& volume,
+                 const MeshSettings& settings, const io::MeshSink& sink, int threads,
+                 const MemoryBudget& budget) {
   const std::uint64_t always =
       always_bytes(volume, threads) + prepared_bytes(volume, settings) + index_bytes(layout);
   const std::uint64_t reading = preparation_bytes(settings) + volume.raw().buffer_bytes(1);
-  const std::uint64_t least = always + std::max(reading, sink.buffer_bytes());
-  if (least > budget.limit()) budget.fail(least);
+  const std::uint64_t min = always + std::max(reading, sink.buffer_bytes());
+  if (min > budget.limit()) budget.fail(min);
 }
 
 /// Reads and coarsens the labels; their memory is `room`, and more while they are made: on so many
@@ -206,7 +206,8 @@ FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, Ru
   const WindowGrid& grid = layout.grid(last);
   const BlockStore& stored = store.march(last);
   std::uint64_t largest = 0;
-  each_index(grid.blocks(), [&](Index3 b) { largest = std::max(largest, stored.loaded_bytes(b)); });
+  for_each_index(grid.blocks(),
+                 [&](Index3 b) { largest = std::max(largest, stored.loaded_bytes(b)); });
   const auto room =
       store.reserve(Purpose::kOutput, sink.buffer_bytes() + written_block_bytes(largest));
   return_free_memory_above(0);
@@ -295,7 +296,7 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   report.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   const RunLayout layout(march_grids(lattice.info().shape, settings), settings.order);
   MemoryBudget budget(hooks.store.memory);
-  require_least(layout, lattice.labels(), settings, sink, report.threads, budget);
+  require_min(layout, lattice.labels(), settings, sink, report.threads, budget);
   const auto program = budget.reserve(Purpose::kProgram, always_bytes(volume, report.threads));
   std::optional<codt::WorkerPool> workers;
   if (settings.optimizer == Optimizer::kTetgen) workers.emplace(hooks.workers);

@@ -33,7 +33,7 @@ digest_of() { # MESH
   "$program" digest "$1" || fail "no digest of $1"
 }
 
-least_memory() { # OPTION... ; the budget that a run asks for when it has too little, in MiB
+min_memory() { # OPTION... ; the budget that a run asks for when it has too little, in MiB
   local mib=1 code
   while true; do
     code=0
@@ -95,7 +95,7 @@ while ((stopped < kills)); do
   windows=(8 12 16)
   settings=(--order "${orders[$(below 2)]}" --start "${starts[$(below 3)]}"
     --window "${windows[$(below 3)]}")
-  least="$(least_memory --threads 8 "${settings[@]}")"
+  least="$(min_memory --threads 8 "${settings[@]}")"
   start="$(date +%s%3N)"
   "$program" mesh v.npy -o whole.vtu --threads 1 "${settings[@]}" >log 2>&1 || fail "the whole run"
   milliseconds=$(($(date +%s%3N) - start))

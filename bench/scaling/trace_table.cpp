@@ -9,8 +9,8 @@
 #include <string>
 
 #include "engine/window/window_grid.h"
-#include "kernels/core/each_index.h"
 #include "kernels/core/error.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::bench {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/settings/bytes_text.h"
 #include "engine/settings/setting_table.h"
 #include "engine/system/machine_memory.h"
-#include "io/file/nameless_file.h"
+#include "io/file/unlinked_file.h"
 #include "kernels/core/error.h"
 
 namespace mw::api {
@@ -39,11 +39,11 @@ io::InputSteps input_steps(const mwmesh::Options& options) {
     const bool is_negative = static_cast<std::int64_t>(to) < 0;
     steps.merge.push_back({.from = {from}, .to = to, .to_is_negative = is_negative});
   }
-  if (options.drop_specks > io::SpeckRule::kMost) {
+  if (options.drop_specks > io::SpeckRule::kMax) {
     throw Error(ErrorKind::kUsage, "--drop-specks: too many voxels");
   }
   if (options.drop_specks > 0) {
-    steps.specks = {.least = options.drop_specks, .diagonal = options.specks_joined_by_corners};
+    steps.specks = {.min = options.drop_specks, .diagonal = options.specks_joined_by_corners};
   }
   return steps;
 }

@@ -37,8 +37,8 @@ struct MeshCommand {
 
 /// What the digest may sort in: a small part of the budget.
 std::size_t digest_memory(std::uint64_t budget) {
-  constexpr std::uint64_t kLeast = 1 << 18;
-  return std::clamp<std::uint64_t>(budget / 64, kLeast, io::DigestSink::kMemoryBytes);
+  constexpr std::uint64_t kMin = 1 << 18;
+  return std::clamp<std::uint64_t>(budget / 64, kMin, io::DigestSink::kMemoryBytes);
 }
 
 /// Whether somebody wants to read what came out.

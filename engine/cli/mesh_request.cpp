@@ -33,9 +33,9 @@ void add_output_option(OptionSet& options, MeshRequest& request) {
 }
 
 std::chrono::milliseconds parse_delay(const std::string& text) {
-  constexpr double kMostSeconds = 1e6;
+  constexpr double kMaxSeconds = 1e6;
   const double seconds = parse_number(text);
-  if (seconds < 0 || seconds > kMostSeconds) {
+  if (seconds < 0 || seconds > kMaxSeconds) {
     throw Error(ErrorKind::kUsage, "expected seconds from 0 to 1000000");
   }
   return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
@@ -105,8 +105,8 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
 
 /// The page is drawn when the mesh is written, in what it leaves of the budget.
 void require_memory_for_page(const MeshRequest& request) {
-  constexpr std::uint64_t kLeast = 192 << 20;
-  if (request.html.empty() || *request.memory >= kLeast) return;
+  constexpr std::uint64_t kMin = 192 << 20;
+  if (request.html.empty() || *request.memory >= kMin) return;
   throw Error(ErrorKind::kUsage, "--html: needs --memory 192MiB or more");
 }
 

@@ -41,7 +41,7 @@ class LabelSums {
     const double volume = std::abs(dot(cross(minus(b, a), minus(c, a)), minus(d, a))) / 6;
     volume_.add(volume);
     const double ratio = audit::radius_ratio(a, b, c, d);
-    least_ = tets_ == 0 ? ratio : std::min(least_, ratio);
+    min_ = tets_ == 0 ? ratio : std::min(min_, ratio);
     ratios_.add(ratio);
     ++tets_;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -57,7 +57,7 @@ class LabelSums {
   }
 
   [[nodiscard]] LabelStats stats() const {
-    LabelStats out{.tets = tets_, .volume = volume_.value(), .radius_ratio_min = least_};
+    LabelStats out{.tets = tets_, .volume = volume_.value(), .radius_ratio_min = min_};
     out.radius_ratio_mean = ratios_.value() / static_cast<double>(tets_);
     out.lo = lo_;
     out.hi = hi_;
@@ -72,7 +72,7 @@ class LabelSums {
   std::uint64_t tets_ = 0;
   audit::CompensatedSum volume_;
   audit::CompensatedSum ratios_;
-  double least_ = 0;
+  double min_ = 0;
   Position first_{};
   Position lo_{};
   Position hi_{};

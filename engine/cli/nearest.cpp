@@ -11,7 +11,7 @@
 namespace mw::cli {
 namespace {
 
-constexpr std::size_t kLeastLetters = 3;
+constexpr std::size_t kMinLetters = 3;
 
 char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -51,7 +51,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& words) {
-  if (word.size() < kLeastLetters) return std::nullopt;
+  if (word.size() < kMinLetters) return std::nullopt;
   const std::string* best = nullptr;
   std::size_t fewest = 0;
   for (const std::string& other : words) {

@@ -17,8 +17,8 @@
 namespace mw::cli {
 namespace {
 
-[[noreturn]] void refuse(const std::string& place, const std::string& reason) {
-  throw Error(ErrorKind::kUsage, place + reason);
+[[noreturn]] void refuse(const std::string& where, const std::string& reason) {
+  throw Error(ErrorKind::kUsage, where + reason);
 }
 
 std::string key_of(const Option& option) {
@@ -43,11 +43,11 @@ std::string content_of(const std::filesystem::path& path) {
   if (!file || std::filesystem::is_directory(path, ignored)) {
     refuse(path.string(), ": cannot read this config file");
   }
-  constexpr std::size_t kMostBytes = 1 << 20;
-  std::string content(kMostBytes + 1, '\0');
+  constexpr std::size_t kMaxBytes = 1 << 20;
+  std::string content(kMaxBytes + 1, '\0');
   file.read(content.data(), static_cast<std::streamsize>(content.size()));
   content.resize(static_cast<std::size_t>(file.gcount()));
-  if (content.size() <= kMostBytes) return content;
+  if (content.size() <= kMaxBytes) return content;
   refuse(path.string(), ": is no config file: it has more than 1 MiB");
 }
 
@@ -86,7 +86,7 @@ void OptionSet::add_flags(CLI::App& app) {
 void OptionSet::resolve(const std::optional<std::filesystem::path>& config) {
   for (Entry& entry : entries_) {
     entry.text = entry.option.fallback;
-    entry.place = entry.option.name;
+    entry.where = entry.option.name;
   }
   if (config) read_config(*config);
   read_environment();
@@ -98,19 +98,19 @@ void OptionSet::read_config(const std::filesystem::path& path) {
   const toml::table table = parse_config(path);
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
-    const std::string place = line_of(path.string(), node.source()) + name;
+    const std::string where = line_of(path.string(), node.source()) + name;
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
       return key_of(entry.option) == name;
     });
-    if (found == entries_.end()) refuse(place, unknown_key(name));
+    if (found == entries_.end()) refuse(where, unknown_key(name));
     const ValueKind kind = found->option.kind;
     const std::optional<std::string> text = text_of_toml(kind, node);
-    if (!text) refuse(place, std::string(": wrong type; expected ") + toml_type(kind));
+    if (!text) refuse(where, std::string(": wrong type; expected ") + toml_type(kind));
     found->text = *text;
-    found->place = place + " = " + *text;
-    if (text->empty()) refuse(place, ": empty; leave the key out instead");
+    found->where = where + " = " + *text;
+    if (text->empty()) refuse(where, ": empty; leave the key out instead");
     // Names of files would end there.
-    if (text->find('\0') != text->npos) refuse(place, ": has a zero byte in it");
+    if (text->find('\0') != text->npos) refuse(where, ": has a zero byte in it");
   }
 }
 
@@ -126,7 +126,7 @@ void OptionSet::read_environment() {
     const char* text = std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe)
     if (text == nullptr || *text == '\0') continue;
     entry.text = text;
-    entry.place = name + "=" + text;
+    entry.where = name + "=" + text;
   }
 }
 
@@ -135,7 +135,7 @@ void OptionSet::read_flags() {
     if (entry.flag->count() == 0) continue;
     const bool is_switch = entry.option.kind == ValueKind::kSwitch;
     entry.text = is_switch ? (entry.flag_switch ? "true" : "false") : entry.flag_text;
-    entry.place = "--" + entry.option.name + (is_switch ? "" : " " + entry.text);
+    entry.where = "--" + entry.option.name + (is_switch ? "" : " " + entry.text);
     if (entry.text.empty()) refuse("--" + entry.option.name, ": empty value");
   }
 }
@@ -153,7 +153,7 @@ void OptionSet::settle(Entry& entry) {
     if (option.assign) option.assign(entry.text);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kUsage) throw;
-    refuse(entry.place, std::string(": ") + error.what());
+    refuse(entry.where, std::string(": ") + error.what());
   }
 }
 

@@ -67,7 +67,7 @@ class OptionSet {
     std::string flag_text;
     bool flag_switch = false;
     std::string text;   ///< effective, in canonical form; empty: unset
-    std::string place;  ///< "--window 41", "MW_WINDOW=41", "run.toml:3: window = 41"
+    std::string where;  ///< "--window 41", "MW_WINDOW=41", "run.toml:3: window = 41"
   };
 
   [[nodiscard]] std::string unknown_key(const std::string& name) const;

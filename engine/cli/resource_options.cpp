@@ -43,8 +43,8 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
 }
 
 std::uint64_t cache_bytes(std::uint64_t memory) {
-  constexpr std::uint64_t kMost = 1ULL << 30U;
-  return std::min(memory / 4, kMost);
+  constexpr std::uint64_t kMax = 1ULL << 30U;
+  return std::min(memory / 4, kMax);
 }
 
 }  // namespace mw::cli

@@ -30,10 +30,10 @@ class EachFileOutput : public SurfaceOutput {
   explicit EachFileOutput(std::string pattern) : pattern_(std::move(pattern)) {}
 
   std::unique_ptr<io::SurfaceSink> sink(RawLabel, const std::string& digits) override {
-    const std::string_view place(kLabelPlace);
+    const std::string_view position(kLabelPlaceholder);
     std::string name = pattern_;
-    for (std::size_t at = name.find(place); at != name.npos; at = name.find(place, at)) {
-      name.replace(at, place.size(), digits);
+    for (std::size_t at = name.find(position); at != name.npos; at = name.find(position, at)) {
+      name.replace(at, position.size(), digits);
     }
     const std::filesystem::path path(name);
     std::error_code failed;

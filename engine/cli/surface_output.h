@@ -12,7 +12,7 @@
 namespace mw::cli {
 
 /// What stands for the label in the path of --each.
-inline constexpr const char* kLabelPlace = "{label}";
+inline constexpr const char* kLabelPlaceholder = "{label}";
 
 /// "precomputed" and "draco".
 [[nodiscard]] bool is_folder_format(std::string_view format);

@@ -74,25 +74,26 @@ std::string format_of(const SurfaceFlags& flags) {
 }
 
 bool names_each(const SurfaceFlags& flags) {
-  return flags.each || flags.output.find(kLabelPlace) != std::string::npos;
+  return flags.each || flags.output.find(kLabelPlaceholder) != std::string::npos;
 }
 
 /// Where each label goes: as it is with `{label}` in it, else into a folder.
 std::string pattern_of(const SurfaceFlags& flags, const std::string& format) {
-  if (flags.output.find(kLabelPlace) != std::string::npos) return flags.output;
+  if (flags.output.find(kLabelPlaceholder) != std::string::npos) return flags.output;
   if (io::is_surface_path(flags.output)) {
-    fail("-o " + flags.output + ": with --each the name needs " + kLabelPlace +
-         " where the label goes, as -o 'parts/" + kLabelPlace + "." + format +
+    fail("-o " + flags.output + ": with --each the name needs " + kLabelPlaceholder +
+         " where the label goes, as -o 'parts/" + kLabelPlaceholder + "." + format +
          "'; or give a folder and --format " + format);
   }
-  return (std::filesystem::path(flags.output) / (std::string(kLabelPlace) + "." + format)).string();
+  return (std::filesystem::path(flags.output) / (std::string(kLabelPlaceholder) + "." + format))
+      .string();
 }
 
 void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
   const std::string format = format_of(flags);
   if (is_folder_format(format)) {
     if (request.pair) fail("--pair: precomputed meshes are surfaces of labels; write .vtp or .ply");
-    if (flags.output.find(kLabelPlace) != std::string::npos) {
+    if (flags.output.find(kLabelPlaceholder) != std::string::npos) {
       fail("-o " + flags.output + ": one folder of precomputed meshes holds all labels");
     }
     request.target = SurfaceTarget::kFolder;
@@ -120,7 +121,7 @@ SurfaceRequest parse_surface_request(const SurfaceFlags& flags) {
                          .manifold = flags.manifold,
                          .closed = !flags.open};
   if (!flags.pair.empty() && (!flags.label.empty() || names_each(flags))) {
-    fail(std::string("--pair: not together with --label, --each or ") + kLabelPlace);
+    fail(std::string("--pair: not together with --label, --each or ") + kLabelPlaceholder);
   }
   if (!flags.label.empty()) request.labels = parse_label_list(flags.label);
   if (!flags.pair.empty()) request.pair = parse_pair(flags.pair);

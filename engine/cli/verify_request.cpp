@@ -40,7 +40,7 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
        .help = "what P1 looks at: labels, or interfaces and meetings of labels as well [what the "
                "run kept, else labels]",
        .choices = {"labels", kInterfaces},
-       .assign = [&](const std::string& text) { request.count_places = text == kInterfaces; }});
+       .assign = [&](const std::string& text) { request.count_junctions = text == kInterfaces; }});
   options.add(
       {.name = "quality-floor",
        .value = "R",
@@ -83,7 +83,7 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
 void check_verify_request(VerifyRequest& request) {
   require_path(request.mesh, "MESH");
   engine::check_choice(request.choice);
-  if (request.count_places.value_or(false) &&
+  if (request.count_junctions.value_or(false) &&
       (request.choice.labels || request.choice.background)) {
     throw Error(ErrorKind::kUsage,
                 "--topology interfaces: is for meshes of all labels, without --labels and "
@@ -100,7 +100,7 @@ Bounds bounds_of(const VerifyRequest& request, const io::MeshRecord& record) {
   asked.quality_floor = request.quality_floor.value_or(asked.quality_floor);
   asked.smooth = request.in_layers.value_or(asked.smooth);
   const bool all_labels = !request.choice.labels && !request.choice.background;
-  asked.interfaces = request.count_places.value_or(asked.interfaces && all_labels);
+  asked.interfaces = request.count_junctions.value_or(asked.interfaces && all_labels);
   return bounds;
 }
 

@@ -18,7 +18,7 @@ struct VerifyRequest {
   std::filesystem::path mesh;
   std::filesystem::path report;
   // What is not given is what the run promised that made the mesh.
-  std::optional<bool> count_places;
+  std::optional<bool> count_junctions;
   std::optional<double> quality_floor;
   std::optional<std::optional<double>> max_distance;
   std::optional<bool> in_layers;        ///< distances in voxels of the lattice of smooth surfaces

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostPrinted = 1000;
+constexpr std::size_t kMaxPrinted = 1000;
 
 /// Rows of the matrix that takes corners of voxels, (i, j, k, 1), to the world.
 ordered_json affine_json(const io::VolumeSpace& space) {
@@ -79,17 +79,17 @@ void print_volume(const VolumeFacts& volume) {
   ordered_json facts = volume.json();
   facts["labels"].erase("per_label");
   print_facts(facts);
-  const std::size_t shown = std::min(volume.labels(), kMostPrinted);
+  const std::size_t shown = std::min(volume.labels(), kMaxPrinted);
   for (std::size_t i = 0; i < shown; ++i) print_row("labels.per_label", volume.label_row(i));
   if (shown == volume.labels()) return;
   std::cout << volume.labels() - shown << " more labels; --json lists all\n";
 }
 
 void print_volume_json(const VolumeFacts& volume) {
-  const auto each_row = [&](const TakeRow& take) {
+  const auto for_each_row = [&](const TakeRow& take) {
     for (std::size_t i = 0; i < volume.labels(); ++i) take(volume.label_row(i));
   };
-  append_with_rows(volume.json(), each_row, [](std::string_view text) { std::cout << text; });
+  append_with_rows(volume.json(), for_each_row, [](std::string_view text) { std::cout << text; });
 }
 
 }  // namespace mw::cli

@@ -44,10 +44,10 @@ std::vector<io::MergeRule> parse_merge(const std::string& text) {
 io::SpeckRule parse_specks(const std::string& text) {
   const std::size_t slash = std::min(text.find('/'), text.size());
   const std::string joined = text.substr(slash);
-  const std::int64_t least = parse_integer(std::string_view(text).substr(0, slash));
-  const bool fits = least >= 1 && static_cast<std::uint64_t>(least) <= io::SpeckRule::kMost;
+  const std::int64_t min = parse_integer(std::string_view(text).substr(0, slash));
+  const bool fits = min >= 1 && static_cast<std::uint64_t>(min) <= io::SpeckRule::kMax;
   if (fits && (joined.empty() || joined == "/6" || joined == "/26")) {
-    return {.least = static_cast<std::uint64_t>(least), .diagonal = joined == "/26"};
+    return {.min = static_cast<std::uint64_t>(min), .diagonal = joined == "/26"};
   }
   throw Error(ErrorKind::kUsage, "expected voxels, from 1 on, or voxels/26");
 }
@@ -72,9 +72,9 @@ void add_raw_options(OptionSet& options, VolumeRequest& request) {
 }
 
 int parse_scale(const std::string& text) {
-  constexpr std::int64_t kMostScale = 1000;
+  constexpr std::int64_t kMaxScale = 1000;
   const std::int64_t scale = parse_integer(text);
-  if (scale >= 0 && scale <= kMostScale) return static_cast<int>(scale);
+  if (scale >= 0 && scale <= kMaxScale) return static_cast<int>(scale);
   throw Error(ErrorKind::kUsage, "expected a level from 0 (the finest) to 1000");
 }
 

@@ -48,28 +48,28 @@ WorkerHost this_host() {
   return {.program = fs::read_symlink("/proc/self/exe", ignored), .object = object_of_this_code()};
 }
 
-std::vector<fs::path> worker_places(const WorkerHost& host) {
-  std::vector<fs::path> places;
-  if (!host.program.empty()) places.push_back(host.program.parent_path() / kProgram);
+std::vector<fs::path> worker_paths(const WorkerHost& host) {
+  std::vector<fs::path> positions;
+  if (!host.program.empty()) positions.push_back(host.program.parent_path() / kProgram);
   const fs::path folder = host.object.parent_path();
-  if (!folder.empty()) places.push_back(folder / kProgram);
+  if (!folder.empty()) positions.push_back(folder / kProgram);
   for (const char* const tail : {MW_INSTALLED_LIBRARY, MW_INSTALLED_PYTHON}) {
     const auto prefix = prefix_of(folder, tail);
-    if (prefix) places.push_back(*prefix / MW_INSTALLED_PROGRAMS / kProgram);
+    if (prefix) positions.push_back(*prefix / MW_INSTALLED_PROGRAMS / kProgram);
   }
-  places.push_back(fs::path(MW_INSTALL_PREFIX) / MW_INSTALLED_PROGRAMS / kProgram);
-  return places;
+  positions.push_back(fs::path(MW_INSTALL_PREFIX) / MW_INSTALLED_PROGRAMS / kProgram);
+  return positions;
 }
 
 fs::path find_worker() {
   const char* const wanted = std::getenv(kWorkerVariable);  // NOLINT(concurrency-mt-unsafe)
-  const auto places =
-      wanted != nullptr ? std::vector<fs::path>{wanted} : worker_places(this_host());
-  for (const fs::path& program : places) {
+  const auto positions =
+      wanted != nullptr ? std::vector<fs::path>{wanted} : worker_paths(this_host());
+  for (const fs::path& program : positions) {
     if (can_be_run(program)) return program;
   }
   throw Error(ErrorKind::kUsage,
-              "--optimizer tetgen: there is no program " + places.front().string() +
+              "--optimizer tetgen: there is no program " + positions.front().string() +
                   "; it is built with -DMW_WITH_TETGEN=ON, and MW_CODT_WORKER names another place");
 }
 

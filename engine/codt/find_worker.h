@@ -24,9 +24,9 @@ struct WorkerHost {
 /// Where mwmesh-codt is looked for, in this order: beside the program, beside the object, in the
 /// folder for programs of the prefix that the object is installed in, wherever that has been moved
 /// to, and in that of the prefix that the build was configured for.  Nowhere above a prefix.
-[[nodiscard]] std::vector<std::filesystem::path> worker_places(const WorkerHost& host);
+[[nodiscard]] std::vector<std::filesystem::path> worker_paths(const WorkerHost& host);
 
-/// The worker program: that of kWorkerVariable, else the first of worker_places(this_host()).
+/// The worker program: that of kWorkerVariable, else the first of worker_paths(this_host()).
 /// ERRORS: kUsage when it is not there or cannot be executed.
 [[nodiscard]] std::filesystem::path find_worker();
 

@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLeastMemory = std::size_t{1} << 20;
+constexpr std::size_t kMinMemory = std::size_t{1} << 20;
 
 std::pair<io::FileDescriptor, io::FileDescriptor> socket_pair() {
   std::array<int, 2> ends{};
@@ -124,7 +124,7 @@ std::optional<Reply> WorkerProcess::ask(const Order& order, Milliseconds patienc
 bool WorkerProcess::share(std::size_t bytes, Milliseconds patience) {
   const std::size_t present = memory_.bytes().size();
   if (bytes <= present) return true;
-  memory_ = SharedMemory::create(std::max({bytes, 2 * present, kLeastMemory}));
+  memory_ = SharedMemory::create(std::max({bytes, 2 * present, kMinMemory}));
   Order order{.kind = OrderKind::kMap};
   memory_.name().copy(order.name.data(), order.name.size() - 1);
   const std::optional<Reply> reply = ask(order, patience);
@@ -135,14 +135,14 @@ bool WorkerProcess::share(std::size_t bytes, Milliseconds patience) {
 WorkerProcess::Outcome WorkerProcess::run(const Plc& plc, Triangulation& out,
                                           Milliseconds patience) {
   // An answer is some three times its request.  A worker that claims more speaks nonsense.
-  constexpr std::size_t kMostAnswer = 64;
+  constexpr std::size_t kMaxAnswer = 64;
   const std::size_t bytes = bytes_of(plc);
   if (!share(bytes, patience)) return Outcome::kDead;
   put(plc, memory_.bytes());
   const std::optional<Reply> done = ask({.kind = OrderKind::kRun}, patience);
   if (!done) return Outcome::kDead;
   if (done->kind == ReplyKind::kNoTriangulation) return Outcome::kRefused;
-  if (done->bytes > kMostAnswer * bytes + kLeastMemory) return Outcome::kDead;
+  if (done->bytes > kMaxAnswer * bytes + kMinMemory) return Outcome::kDead;
   if (!share(done->bytes, patience) || !ask({.kind = OrderKind::kFetch}, patience)) {
     return Outcome::kDead;
   }

@@ -3,7 +3,7 @@
 // How long the rest of a run will take.
 #include "engine/forecast/run_forecast.h"
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -16,7 +16,7 @@ std::vector<MarchWork> marches_of(const BoundaryFaces& faces, const RunLayout& l
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     const bool is_last = i + 1 == layout.marches();
     out.emplace_back(faces, WindowOrder(layout.grid(i), settings.order), settings,
-                     MarchPlace{.is_first = i == 0, .is_last = is_last});
+                     MarchIndex{.is_first = i == 0, .is_last = is_last});
   }
   return out;
 }
@@ -33,7 +33,7 @@ RunForecast::RunForecast(const BoundaryFaces& faces, const RunLayout& layout,
 void RunForecast::begin_march(const IsFinished& finished_before) {
   const MarchWork& march = marches_[begun_];
   double skipped = 0;
-  each_index(layout_.grid(static_cast<std::uint32_t>(begun_)).windows(), [&](Index3 window) {
+  for_each_index(layout_.grid(static_cast<std::uint32_t>(begun_)).windows(), [&](Index3 window) {
     if (finished_before(window)) skipped += march.of(window);
   });
   left_.begin(now(), skipped);
@@ -56,8 +56,8 @@ std::vector<double> RunForecast::work_of_parts() const {
   std::vector<double> work;
   for (const MarchWork& march : marches_) work.push_back(march.of_all());
   double output = 0;
-  each_index(layout_.grid(layout_.marches() - 1).blocks(),
-             [&](Index3 block) { output += 2 * output_work(faces_, output_box(block)); });
+  for_each_index(layout_.grid(layout_.marches() - 1).blocks(),
+                 [&](Index3 block) { output += 2 * output_work(faces_, output_box(block)); });
   work.push_back(output);
   return work;
 }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -41,14 +41,14 @@ std::int64_t last_with(std::int64_t block, std::int64_t windows) {
 }  // namespace
 
 MarchWork::MarchWork(const BoundaryFaces& faces, const WindowOrder& order,
-                     const MeshSettings& settings, MarchPlace place)
+                     const MeshSettings& settings, MarchIndex position)
     : faces_(faces),
       order_(order),
-      per_face_(place.is_first ? 5.5 : 3),
-      per_new_face_(place.is_first ? 12 : 7),
-      per_new_voxel_(place.is_first && settings.start == StartMesh::kDense ? kPerDenseVoxel : 0),
-      density_factor_(place.is_first ? 1.5 : 4.5) {
-  if (place.is_last && settings.optimizer == Optimizer::kTetgen) {
+      per_face_(position.is_first ? 5.5 : 3),
+      per_new_face_(position.is_first ? 12 : 7),
+      per_new_voxel_(position.is_first && settings.start == StartMesh::kDense ? kPerDenseVoxel : 0),
+      density_factor_(position.is_first ? 1.5 : 4.5) {
+  if (position.is_last && settings.optimizer == Optimizer::kTetgen) {
     per_face_ *= kTetgenFactor;
     per_new_face_ *= kTetgenFactor;
   }
@@ -74,7 +74,7 @@ double MarchWork::of(Index3 window) const {
 
 double MarchWork::of_all() const {
   double work = 0;
-  each_index(order_.grid().windows(), [&](Index3 window) { work += of(window); });
+  for_each_index(order_.grid().windows(), [&](Index3 window) { work += of(window); });
   return work;
 }
 
@@ -86,7 +86,7 @@ bool MarchWork::sees_first(Index3 window, Index3 block) const {
                       last_with(block.z, windows.z) + 1}};
   const std::uint64_t rank = order_.rank(window);
   bool first = true;
-  each_index(holders, [&](Index3 other) { first = first && order_.rank(other) >= rank; });
+  for_each_index(holders, [&](Index3 other) { first = first && order_.rank(other) >= rank; });
   return first;
 }
 

@@ -10,7 +10,7 @@
 namespace mw::engine {
 
 /// Of a march among those of its run.
-struct MarchPlace {
+struct MarchIndex {
   bool is_first = true;
   bool is_last = true;
 };
@@ -24,7 +24,7 @@ class MarchWork {
  public:
   /// REQUIRES: the faces outlive this.
   MarchWork(const BoundaryFaces& faces, const WindowOrder& order, const MeshSettings& settings,
-            MarchPlace place);
+            MarchIndex position);
 
   [[nodiscard]] double of(Index3 window) const;
   [[nodiscard]] double of_all() const;

@@ -41,9 +41,9 @@ CertificatePlan plan_certificate(const MeshJob& job) {
     throw Error(ErrorKind::kUsage, "--certify on: " + why_not);
   }
   if (!why_not.empty()) return {.why_not = why_not};
-  const std::uint64_t most = (job.memory / 4 - kShared) / kPerThread;
+  const std::uint64_t max = (job.memory / 4 - kShared) / kPerThread;
   const auto threads =
-      std::min<std::uint64_t>(most, static_cast<std::uint64_t>(thread_count(job.threads)));
+      std::min<std::uint64_t>(max, static_cast<std::uint64_t>(thread_count(job.threads)));
   return {.threads = static_cast<int>(threads), .memory_bytes = kShared + threads * kPerThread};
 }
 
@@ -65,7 +65,7 @@ void Certifier::certify(const CertificatePlan& plan) {
                   .between = stop_};
   task.options.max_volume_error.reset();
   task.options.kept = kept_;
-  task.options.count_places = task.options.count_places && kept_.empty();
+  task.options.count_junctions = task.options.count_junctions && kept_.empty();
   report_ = verify_mesh(volume_, tiles_, task);
   if (report_->passed()) return;
   throw Error(ErrorKind::kCheckFailed,

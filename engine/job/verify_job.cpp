@@ -46,7 +46,7 @@ audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::Vo
                                   const audit::AuditOptions& others) {
   audit::AuditOptions options = others;
   options.radius_ratio_floor = promises.quality_floor;
-  options.count_places = promises.interfaces;
+  options.count_junctions = promises.interfaces;
   options.max_distance = promises.max_distance;
   options.layers = promises.smooth ? layers_of(space.spacing) : Index3{1, 1, 1};
   return options;

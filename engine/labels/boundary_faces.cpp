@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "io/labels/brick_volume.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -67,7 +67,7 @@ double BoundaryFaces::in(const Box3& box) const {
       {below(inside.lo.x), below(inside.lo.y), below(inside.lo.z)},
       {bricks_along(inside.hi.x), bricks_along(inside.hi.y), bricks_along(inside.hi.z)}};
   double faces = 0;
-  each_index(touched, [&](Index3 brick) {
+  for_each_index(touched, [&](Index3 brick) {
     const Box3 whole = box_of(brick);
     const auto part = static_cast<double>(intersection(whole, inside).voxels());
     faces += faces_[row(brick)] * part / static_cast<double>(whole.voxels());

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -25,9 +25,9 @@ void FingerprintVolume::read(const Box3& box, std::span<RawLabel> out) const {
   const Box3 all{{0, 0, 0}, info().shape};
   std::uint64_t sum = 0;
   std::size_t next = 0;
-  each_index(box, [&](Index3 voxel) {
-    const auto place = static_cast<std::uint64_t>(all.offset(voxel));
-    sum += mixed(mixed(out[next++] + 1) + place);
+  for_each_index(box, [&](Index3 voxel) {
+    const auto position = static_cast<std::uint64_t>(all.offset(voxel));
+    sum += mixed(mixed(out[next++] + 1) + position);
   });
   sum_ += sum;
 }

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "engine/labels/reading_tiles.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -66,7 +66,7 @@ std::vector<LabelContact> label_contacts(const io::LabelVolume& volume) {
   const Index3 shape = volume.info().shape;
   ContactCount count;
   std::vector<RawLabel> labels;
-  each_index(tiles.count(), [&](Index3 tile) {
+  for_each_index(tiles.count(), [&](Index3 tile) {
     const Box3 box = tiles.box(tile);
     const Box3 read{box.lo,
                     {std::min(box.hi.x + 1, shape.x), std::min(box.hi.y + 1, shape.y),

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "engine/labels/reading_tiles.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -62,7 +62,7 @@ std::vector<LabelRegion> label_regions(const io::LabelVolume& volume) {
   const ReadingTiles tiles(volume.info());
   RegionCount count;
   std::vector<RawLabel> labels;
-  each_index(tiles.count(), [&](Index3 tile) {
+  for_each_index(tiles.count(), [&](Index3 tile) {
     const Box3 box = tiles.box(tile);
     labels.resize(static_cast<std::size_t>(box.voxels()));
     volume.read(box, labels);

@@ -25,7 +25,7 @@ io::LabelTable collect_labels(const io::LabelVolume& volume, int threads) {
   if (info.scaled || is_float(info.type)) return io::collect_labels(volume);
   const ReadingTiles tiles(info);
   tbb::enumerable_thread_specific<Scan> scans;
-  tbb_each_index(thread_count(threads), tiles.count(), [&](Index3 tile) {
+  tbb_for_each_index(thread_count(threads), tiles.count(), [&](Index3 tile) {
     Scan& scan = scans.local();
     const Box3 box = tiles.box(tile);
     scan.tile.resize(static_cast<std::size_t>(box.voxels()));

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "engine/labels/reading_tiles.h"
 #include "engine/system/tbb_for.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/start/carrier_faces.h"
 #include "kernels/start/coarsen.h"
 
@@ -49,8 +50,8 @@ void cut_brick(const LabelBox& from, const Box3& brick, std::vector<Label>& out)
 /// True when each of the bricks has one label, though not all the same.
 bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
   bool uniform = true;
-  each_index(clipped(bricks, volume.bricks()),
-             [&](Index3 b) { uniform = uniform && volume.uniform_label(b) != kExterior; });
+  for_each_index(clipped(bricks, volume.bricks()),
+                 [&](Index3 b) { uniform = uniform && volume.uniform_label(b).has_value(); });
   return uniform;
 }
 
@@ -88,7 +89,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
   // Coarsening keeps the topology of labels, not that of interfaces.
   if (settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder);
-    coarsen_tiles(settings.max_distance.value_or(kMostCoarseDistance), threads);
+    coarsen_tiles(settings.max_distance.value_or(kMaxCoarseDistance), threads);
   }
   if (settings.start != StartMesh::kDense) find_levels(threads);
 }
@@ -103,7 +104,8 @@ LabelBox PreparedLabels::shape(const Box3& box) const {
 
 void PreparedLabels::read_bricks(const io::DenseVolume& volume, int threads) {
   const ReadingTiles tiles(volume.info());
-  tbb_each_index(threads, tiles.count(), [&](Index3 tile) { read_tile(volume, tiles.box(tile)); });
+  tbb_for_each_index(threads, tiles.count(),
+                     [&](Index3 tile) { read_tile(volume, tiles.box(tile)); });
 }
 
 void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) {
@@ -113,11 +115,11 @@ void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) 
   const Index3 first{tile.lo.x / kBrick, tile.lo.y / kBrick, tile.lo.z / kBrick};
   const Index3 last{bricks(tile.hi.x), bricks(tile.hi.y), bricks(tile.hi.z)};
   std::vector<Label> one;
-  each_index(Box3{first, last}, [&](Index3 brick) {
+  for_each_index(Box3{first, last}, [&](Index3 brick) {
     cut_brick(labels, original_.box_of(brick), one);
     original_.write(brick, one);
     count(brick, one);
-    faces_.count(labels, brick, original_.uniform_label(brick) != kExterior);
+    faces_.count(labels, brick, original_.uniform_label(brick).has_value());
     if (sizes_.limits()) sizes_.add(original_.box_of(brick), one);
   });
 }
@@ -127,8 +129,8 @@ void PreparedLabels::count(Index3 brick, std::span<const Label> voxels) {
   const auto add = [&](Label label, std::uint64_t more) {
     std::atomic_ref(label_voxels_[label]).fetch_add(more, std::memory_order_relaxed);
   };
-  const Label only = original_.uniform_label(brick);
-  if (only != kExterior) return add(only, voxels.size());
+  const std::optional<Label> only = original_.uniform_label(brick);
+  if (only) return add(*only, voxels.size());
   for (auto run = voxels.begin(); run != voxels.end();) {
     const auto end = std::find_if(run, voxels.end(), [&](Label l) { return l != *run; });
     add(*run, static_cast<std::uint64_t>(end - run));
@@ -140,7 +142,7 @@ void PreparedLabels::coarsen_tiles(double max_distance, int threads) {
   const Index3 bricks = original_.bricks();
   const auto tiles_along = [](std::int64_t n) { return (n + kBricksPerTile - 1) / kBricksPerTile; };
   const Index3 tiles{tiles_along(bricks.x), tiles_along(bricks.y), tiles_along(bricks.z)};
-  tbb_each_index(threads, tiles, [&](Index3 t) {
+  tbb_for_each_index(threads, tiles, [&](Index3 t) {
     const Index3 lo = scaled(t, kBricksPerTile);
     coarsen_tile(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
   });
@@ -149,9 +151,9 @@ void PreparedLabels::coarsen_tiles(double max_distance, int threads) {
 void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
   std::vector<Label> one;
   if (all_uniform(original_, grown(bricks, 1))) {
-    each_index(bricks, [&](Index3 b) {
+    for_each_index(bricks, [&](Index3 b) {
       one.assign(static_cast<std::size_t>(original_.box_of(b).voxels()),
-                 original_.uniform_label(b));
+                 original_.uniform_label(b).value());
       coarse_->write(b, one);
     });
     return;
@@ -161,7 +163,7 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
   const LabelBox before = read(original_, grown(tile, kCoarsenHalo));
   LabelBox after = before;
   coarsen(before, after, tile, original_.shape(), max_distance);
-  each_index(bricks, [&](Index3 brick) {
+  for_each_index(bricks, [&](Index3 brick) {
     cut_brick(after, original_.box_of(brick), one);
     coarse_->write(brick, one);
   });
@@ -170,7 +172,7 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
 /// Do sizes allow the largest cells in all of these cubes?
 bool PreparedLabels::all_may_be_large(const Box3& cubes) const {
   bool all = true;
-  each_index(cubes, [&](Index3 c) { all = all && sizes_.allows_cell(scaled(c, kBrick), 4); });
+  for_each_index(cubes, [&](Index3 c) { all = all && sizes_.allows_cell(scaled(c, kBrick), 4); });
   return all;
 }
 
@@ -180,7 +182,7 @@ void PreparedLabels::find_levels(int threads) {
   const auto is_whole = [&](Index3 cube) {
     return shapes().box_of(cube).voxels() == kBrick * kBrick * kBrick;
   };
-  tbb_each_index(threads, levels_.cubes(), [&](Index3 cube) {
+  tbb_for_each_index(threads, levels_.cubes(), [&](Index3 cube) {
     const Box3 around = clipped(grown({cube, cube + Index3{1, 1, 1}}, 1), levels_.cubes());
     if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) &&
         all_uniform(shapes(), around) && all_may_be_large(around)) {
@@ -192,7 +194,7 @@ void PreparedLabels::find_levels(int threads) {
         cube, LevelMap::allowed_eighths(shape(grown(box, LevelMap::kHalo)), volume, cube, sizes()));
   });
   levels_.find_cubes([&](Index3 cube) {
-    return is_whole(cube) && shapes().uniform_label(cube) != kExterior &&
+    return is_whole(cube) && shapes().uniform_label(cube).has_value() &&
            sizes_.allows_cell(scaled(cube, kBrick), 4);
   });
 }

@@ -34,7 +34,7 @@ ReadingTiles::ReadingTiles(const io::VolumeInfo& volume) : shape_(volume.shape) 
             edge(volume.chunk.z, kPlainTile.z, shape_.z)};
   // The slowest axis first: what is left of a chunk is then read while it is still kept.
   for (std::int64_t* axis : {&edges_.z, &edges_.y, &edges_.x}) {
-    while (edges_.product() > kMostVoxels && *axis > kBrick) *axis = halved(*axis);
+    while (edges_.product() > kMaxVoxels && *axis > kBrick) *axis = halved(*axis);
   }
 }
 

@@ -12,7 +12,7 @@ namespace mw::engine {
 class ReadingTiles {
  public:
   /// Voxels of a tile, unless a row of bricks or a slice's worth of one has more.
-  static constexpr std::int64_t kMostVoxels = 1 << 18;
+  static constexpr std::int64_t kMaxVoxels = 1 << 18;
 
   explicit ReadingTiles(const io::VolumeInfo& volume);
 

@@ -36,7 +36,7 @@ void check_shape(Index3 shape, Index3 layers) {
 double kept_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
   const Index3 layers = layers_of(volume, settings.surface);
   const Metric metric(layered_spacing(volume.space.spacing, layers));
-  return least_start_ratio(metric, largest_cell_level(settings));
+  return min_start_ratio(metric, largest_cell_level(settings));
 }
 
 /// Other settings under which the floor can be promised, in words.
@@ -71,17 +71,17 @@ void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
   const auto& labels = settings.sizes.labels;
   if (labels.empty()) return;
   const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
-  const double least = std::sqrt(x * x + y * y + z * z);
+  const double min = std::sqrt(x * x + y * y + z * z);
   const auto shortest = std::min_element(
       labels.begin(), labels.end(),
       [](const LabelSize& a, const LabelSize& b) { return a.longest_edge < b.longest_edge; });
-  if (shortest->longest_edge >= least) return;
+  if (shortest->longest_edge >= min) return;
   // Rounded up, so that what is told can be kept.
-  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(least)));
+  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(min)));
   throw Error(ErrorKind::kUsage,
               io::text("size ", shortest->longest_edge, " is less than the diagonal of a voxel (",
                        x, " x ", y, " x ", z, "), the longest edge of the finest start mesh; ",
-                       std::ceil(scale * least) / scale, " can be kept"));
+                       std::ceil(scale * min) / scale, " can be kept"));
 }
 
 /// Largest absolute coordinate of the box.
@@ -91,10 +91,10 @@ double farthest_coordinate(const io::VolumeInfo& volume) {
     const auto end = [&](int axis, std::int64_t voxels) {
       return (corner >> axis & 1) != 0 ? static_cast<double>(voxels) : 0.0;
     };
-    const io::Vector3 place = to_world(
+    const io::Vector3 position = to_world(
         volume.space, {end(0, volume.shape.x), end(1, volume.shape.y), end(2, volume.shape.z)});
     // A NaN stays, whatever comes behind it.
-    for (const double x : place) farthest = std::abs(x) <= farthest ? farthest : std::abs(x);
+    for (const double x : position) farthest = std::abs(x) <= farthest ? farthest : std::abs(x);
   }
   return farthest;
 }
@@ -107,19 +107,19 @@ void check_coordinates(const io::VolumeInfo& volume, const MeshSettings& setting
   constexpr double kUnitsInLastPlace = 256;
   const double farthest = farthest_coordinate(volume);
   const auto voxel = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
-  const double least = std::min({voxel[0], voxel[1], voxel[2]});
-  if (!(farthest <= kLargest) || least < kSmallest) {
+  const double min = std::min({voxel[0], voxel[1], voxel[2]});
+  if (!(farthest <= kLargest) || min < kSmallest) {
     throw Error(ErrorKind::kInput,
                 io::text("spacing and origin give coordinates up to ", farthest, " and voxels of ",
-                         least, "; they can be from ", kSmallest, " to ", kLargest,
+                         min, "; they can be from ", kSmallest, " to ", kLargest,
                          ": set --spacing and --origin, or another unit"));
   }
-  const double step = least / static_cast<double>(kUnitsPerVoxel);
-  const double most = step / (kUnitsInLastPlace * std::numeric_limits<double>::epsilon());
-  if (farthest <= most) return;
+  const double step = min / static_cast<double>(kUnitsPerVoxel);
+  const double max = step / (kUnitsInLastPlace * std::numeric_limits<double>::epsilon());
+  if (farthest <= max) return;
   throw Error(ErrorKind::kInput, io::text("coordinates reach ", farthest,
-                                          ", where numbers are too far apart for voxels of ", least,
-                                          "; with these they can reach ", most,
+                                          ", where numbers are too far apart for voxels of ", min,
+                                          "; with these they can reach ", max,
                                           ": set --origin nearer to 0, or a larger --spacing"));
 }
 

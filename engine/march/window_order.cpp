@@ -23,8 +23,8 @@ Index3 even_first(Index3 i, Index3 count) {
 }
 
 /// Index3 of a place in an x-fastest array of shape s.
-Index3 unraster(std::uint64_t place, Index3 s) {
-  const auto i = static_cast<std::int64_t>(place);
+Index3 unraster(std::uint64_t index, Index3 s) {
+  const auto i = static_cast<std::int64_t>(index);
   return {i % s.x, i / s.x % s.y, i / s.x / s.y};
 }
 
@@ -40,7 +40,7 @@ std::size_t first_axis(Index3 window, Index3 windows, std::int64_t parity) {
 /// one along the others.
 std::vector<Index3> diagonal_neighbours(Index3 window, Index3 windows, std::size_t last) {
   std::vector<Index3> out;
-  each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 d) {
+  for_each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 d) {
     for (std::size_t a = 0; a < 3; ++a) {
       const bool moves = a <= last && axes(windows)[a] > 1;
       if ((axes(d)[a] != 0) != moves) return;
@@ -76,8 +76,8 @@ std::vector<Index3> raster_successors(Index3 w, Index3 windows) {
     for (std::int64_t i = x.x; i <= x.y; ++i) out.push_back({i, w.y + 1, w.z});
   }
   if (w.z + 1 < windows.z) {
-    each_index(Box3{{x.x, y.x, w.z + 1}, {x.y + 1, y.y + 1, w.z + 2}},
-               [&](Index3 s) { out.push_back(s); });
+    for_each_index(Box3{{x.x, y.x, w.z + 1}, {x.y + 1, y.y + 1, w.z + 2}},
+                   [&](Index3 s) { out.push_back(s); });
   }
   return out;
 }
@@ -101,13 +101,13 @@ std::int64_t colour_step(Index3 window, Index3 windows) {
 }  // namespace
 
 Index3 WindowOrder::window(std::uint64_t rank) const {
-  const Index3 place = unraster(rank, grid_.windows());
-  return order_ == Order::kRaster ? place : even_first(place, grid_.windows());
+  const Index3 index = unraster(rank, grid_.windows());
+  return order_ == Order::kRaster ? index : even_first(index, grid_.windows());
 }
 
 std::uint64_t WindowOrder::rank(Index3 window) const {
-  const Index3 place = order_ == Order::kRaster ? window : even_first(window, grid_.windows());
-  return raster(place, grid_.windows());
+  const Index3 index = order_ == Order::kRaster ? window : even_first(window, grid_.windows());
+  return raster(index, grid_.windows());
 }
 
 std::vector<Index3> WindowOrder::predecessors(Index3 window) const {
@@ -123,7 +123,7 @@ std::vector<Index3> WindowOrder::successors(Index3 window) const {
 std::vector<Index3> WindowOrder::later_neighbours(Index3 window) const {
   std::vector<Index3> out;
   const Box3 around{window - Index3{1, 1, 1}, window + Index3{2, 2, 2}};
-  each_index(intersection(around, {{0, 0, 0}, grid_.windows()}), [&](Index3 w) {
+  for_each_index(intersection(around, {{0, 0, 0}, grid_.windows()}), [&](Index3 w) {
     if (rank(w) > rank(window)) out.push_back(w);
   });
   return out;

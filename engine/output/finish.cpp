@@ -180,7 +180,7 @@ class ShapeWatch {
   void report(FinishedMesh& out) {
     out.shape = interfaces_.report();
     out.label_volumes6 = std::move(volumes6_);
-    out.most_shape_bytes = interfaces_.most_remembered();
+    out.max_shape_bytes = interfaces_.max_remembered();
   }
 
  private:
@@ -196,7 +196,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
   const LabelSelection selection(options.wanted, volume.table());
   FinishedMesh out;
   VertexUses uses(grid);
-  each_index(grid.blocks(), [&](Index3 b) {
+  for_each_index(grid.blocks(), [&](Index3 b) {
     BlockMesh block = blocks.load(b);
     selection.apply(block);
     uses.add(b, block.vertices);
@@ -212,7 +212,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
   audit::QualityMeter quality;
   std::optional<ShapeWatch> shape;
   if (options.measure_shape) shape.emplace(grid, volume, selection, options.layers, remembered);
-  each_index(grid.blocks(), [&](Index3 b) {
+  for_each_index(grid.blocks(), [&](Index3 b) {
     BlockMesh block = blocks.load(b);
     if (shape) shape->add(block);
     selection.apply(block);
@@ -220,7 +220,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
   });
   sink.finish();
   out.vertices = writer.rows().count();
-  out.most_remembered = writer.rows().most_remembered();
+  out.max_remembered = writer.rows().max_remembered();
   if (options.measure_quality) out.quality = quality.report();
   if (shape) shape->report(out);
   if (writer.edges()) out.longest_edges = writer.edges()->lengths();

@@ -49,8 +49,8 @@ struct FinishedMesh {
   std::vector<Int128> label_volumes6;
   /// With measure_edges, by dense label; physical units, 0 where nothing is written.
   std::vector<double> longest_edges;
-  std::size_t most_remembered = 0;     ///< see VertexRows; 16 bytes each
-  std::uint64_t most_shape_bytes = 0;  ///< see InterfaceShape
+  std::size_t max_remembered = 0;     ///< see VertexRows; 16 bytes each
+  std::uint64_t max_shape_bytes = 0;  ///< see InterfaceShape
 };
 
 /// Reads every block twice in raster order, first for counts and uses of vertices, then to write.

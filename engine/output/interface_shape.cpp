@@ -18,7 +18,7 @@ std::uint64_t bytes(const List& list) {
 
 /// Calls visit(piece) for the pieces of a list whose elements have the same key.
 template <typename Element, typename Key, typename Visit>
-void each_piece(std::span<const Element> list, Key key, Visit visit) {
+void for_each_piece(std::span<const Element> list, Key key, Visit visit) {
   for (std::size_t begin = 0, end = 0; begin < list.size(); begin = end) {
     while (end < list.size() && key(list[end]) == key(list[begin])) ++end;
     visit(list.subspan(begin, end - begin));
@@ -47,17 +47,17 @@ void InterfaceShape::add(const BlockMesh& block) {
   std::sort(faces_.begin(), faces_.end(), [&](const Face& a, const Face& b) {
     return std::tuple(home_of(a), a.rows) < std::tuple(home_of(b), b.rows);
   });
-  each_piece(std::span<const Face>(faces_), home_of,
-             [&](std::span<const Face> piece) { settle_faces(home_of(piece[0]), piece); });
+  for_each_piece(std::span<const Face>(faces_), home_of,
+                 [&](std::span<const Face> piece) { settle_faces(home_of(piece[0]), piece); });
   std::sort(news_.begin(), news_.end(), [&](const EdgeNews& a, const EdgeNews& b) {
     return std::tuple(home_of(a), a.rows, a.opens, a.apex) <
            std::tuple(home_of(b), b.rows, b.opens, b.apex);
   });
-  each_piece(std::span<const EdgeNews>(news_), home_of,
-             [&](std::span<const EdgeNews> piece) { settle_edges(home_of(piece[0]), piece); });
+  for_each_piece(std::span<const EdgeNews>(news_), home_of,
+                 [&](std::span<const EdgeNews> piece) { settle_edges(home_of(piece[0]), piece); });
   faces_ = {};  // what is written next needs the memory
   news_ = {};
-  most_remembered_ = std::max(most_remembered_, remembered());
+  max_remembered_ = std::max(max_remembered_, remembered());
 }
 
 void InterfaceShape::collect_faces() {
@@ -130,7 +130,7 @@ void InterfaceShape::settle_edges(std::size_t home, std::span<const EdgeNews> ne
   list_bytes_ -= bytes(front.edges);
   std::vector<OpenEdge> open;
   auto known = front.edges.cbegin();
-  each_piece(
+  for_each_piece(
       news, [](const EdgeNews& n) { return n.rows; },
       [&](std::span<const EdgeNews> piece) {
         const auto& rows = piece[0].rows;
@@ -158,7 +158,7 @@ void InterfaceShape::meet(const Face& face, Label other) {
   const auto& [a, b, c] = face.rows;
   const LabelPair labels = label_pair(here, other);
   const bool out = points_out(face) == (here == labels.low);
-  meter_.add_triangle(place(point(a)), place(point(b)), place(point(c)));
+  meter_.add_triangle(position(point(a)), position(point(b)), position(point(c)));
   news_.push_back({{a, b}, c, labels, 0, !out});
   news_.push_back({{b, c}, a, labels, 0, !out});
   news_.push_back({{a, c}, b, labels, 0, out});
@@ -186,11 +186,12 @@ void InterfaceShape::take(OpenEdge& edge, const EdgeNews& news) const {
 
 void InterfaceShape::finish(const OpenEdge& edge, const std::array<std::uint32_t, 2>& rows) {
   if (edge.triangles != 2) return;
-  meter_.add_edge(place(point(rows[0])), place(point(rows[1])),
-                  {place(edge.apexes[0]), edge.turned[0]}, {place(edge.apexes[1]), edge.turned[1]});
+  meter_.add_edge(position(point(rows[0])), position(point(rows[1])),
+                  {position(edge.apexes[0]), edge.turned[0]},
+                  {position(edge.apexes[1]), edge.turned[1]});
 }
 
-io::Vector3 InterfaceShape::place(Point p) const {
+io::Vector3 InterfaceShape::position(Point p) const {
   return physical(p, info_.space);
 }
 

@@ -42,7 +42,7 @@ class InterfaceShape {
   [[nodiscard]] std::uint64_t remembered() const {
     return list_bytes_ + kBytesPerFront * fronts_.size();
   }
-  [[nodiscard]] std::uint64_t most_remembered() const { return most_remembered_; }
+  [[nodiscard]] std::uint64_t max_remembered() const { return max_remembered_; }
 
  private:
   /// A triangle that has shown one of its tets.
@@ -96,7 +96,7 @@ class InterfaceShape {
   [[nodiscard]] VertexId id(std::uint32_t row) const { return block_->vertices[row].id; }
   [[nodiscard]] Point point(std::uint32_t row) const { return block_->vertices[row].position; }
   /// In the array's own axes: turned and mirrored shapes measure the same.
-  [[nodiscard]] io::Vector3 place(Point p) const;
+  [[nodiscard]] io::Vector3 position(Point p) const;
   [[nodiscard]] Label label(const Face& face) const { return block_->tets[face.tet].label; }
   [[nodiscard]] bool on_box(const Face& face) const;
   [[nodiscard]] bool points_out(const Face& face) const;
@@ -109,7 +109,7 @@ class InterfaceShape {
   audit::ShapeMeter meter_;
   std::unordered_map<std::size_t, Front> fronts_;  ///< by raster number of the block
   std::uint64_t list_bytes_ = 0;
-  std::uint64_t most_remembered_ = 0;
+  std::uint64_t max_remembered_ = 0;
 
   // Of the block that is being added.
   const BlockMesh* block_ = nullptr;

@@ -51,15 +51,15 @@ std::vector<std::uint64_t> VertexRows::assign(Index3 block, std::span<const Bloc
     }
   }
   for (const auto& [home, entries] : added) remember(home, entries);
-  most_remembered_ = std::max(most_remembered_, remembered_);
+  max_remembered_ = std::max(max_remembered_, remembered_);
   if (block.x + 1 == uses_.blocks().x) forget_after(uses_.line(block));
   return rows;
 }
 
 const VertexRows::Entry* VertexRows::find(std::size_t home, VertexId id) const {
-  const auto place = homes_.find(home);
-  if (place == homes_.end()) return nullptr;
-  const Home& entries = place->second;
+  const auto index = homes_.find(home);
+  if (index == homes_.end()) return nullptr;
+  const Home& entries = index->second;
   const auto entry =
       std::lower_bound(entries.begin(), entries.end(), id,
                        [](const Entry& a, VertexId wanted) { return a.id < wanted; });
@@ -79,10 +79,10 @@ void VertexRows::forget_after(std::size_t line) {
   const auto width = static_cast<std::size_t>(uses_.blocks().x);
   for (const std::size_t over : lines_to_forget_[line]) {
     for (std::size_t home = over * width; home < (over + 1) * width; ++home) {
-      const auto place = homes_.find(home);
-      if (place == homes_.end()) continue;
-      remembered_ -= place->second.size();
-      homes_.erase(place);
+      const auto index = homes_.find(home);
+      if (index == homes_.end()) continue;
+      remembered_ -= index->second.size();
+      homes_.erase(index);
     }
   }
 }

@@ -63,7 +63,7 @@ class VertexRows {
   [[nodiscard]] std::uint64_t count() const { return count_; }
   /// Vertices remembered now, and at most so far.
   [[nodiscard]] std::size_t remembered() const { return remembered_; }
-  [[nodiscard]] std::size_t most_remembered() const { return most_remembered_; }
+  [[nodiscard]] std::size_t max_remembered() const { return max_remembered_; }
 
  private:
   struct Entry {
@@ -81,7 +81,7 @@ class VertexRows {
   std::unordered_map<std::size_t, Home> homes_;            ///< by raster number of the block
   std::uint64_t count_ = 0;
   std::size_t remembered_ = 0;
-  std::size_t most_remembered_ = 0;
+  std::size_t max_remembered_ = 0;
 };
 
 }  // namespace mw::engine

@@ -10,7 +10,7 @@ namespace mw::report {
 using nlohmann::ordered_json;
 
 void append_with_rows(const ordered_json& value,
-                      const std::function<void(const TakeRow&)>& each_row,
+                      const std::function<void(const TakeRow&)>& for_each_row,
                       const AppendText& append) {
   const std::string text = value.dump(2, ' ', false, ordered_json::error_handler_t::replace);
   // Inside of a string the quotes would be escaped, so this is the key and no part of a value.
@@ -20,7 +20,7 @@ void append_with_rows(const ordered_json& value,
   append(std::string_view(text).substr(0, at));
   append("[");
   const char* before = "";
-  each_row([&](const ordered_json& row) {
+  for_each_row([&](const ordered_json& row) {
     append(std::string(before) + "\n      " + row.dump());
     before = ",";
   });

@@ -16,10 +16,10 @@ inline constexpr const char* kRows = "@rows";
 using AppendText = std::function<void(std::string_view)>;
 using TakeRow = std::function<void(const nlohmann::ordered_json&)>;
 
-/// Appends value, indented, and a line end; in place of kRows a list of what each_row() passes on.
-/// REQUIRES: value has kRows once, in an object of its outermost one.
+/// Appends value, indented, and a line end; in place of kRows a list of what for_each_row() passes
+/// on. REQUIRES: value has kRows once, in an object of its outermost one.
 void append_with_rows(const nlohmann::ordered_json& value,
-                      const std::function<void(const TakeRow&)>& each_row,
+                      const std::function<void(const TakeRow&)>& for_each_row,
                       const AppendText& append);
 
 }  // namespace mw::report

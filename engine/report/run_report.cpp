@@ -105,7 +105,7 @@ ordered_json engine_json(const FinishedRun& run) {
 
 ordered_json shape_json(const FinishedRun& run) {
   audit::VolumeMeter volumes;
-  each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
+  for_each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
   ordered_json out = volume_summary_json(volumes.summary(), run.labels);
   out.update(interfaces_json(run.engine.shape.value()));
   out["bend_histogram"] = run.engine.shape->bend_histogram;
@@ -160,8 +160,8 @@ double vertex_fraction(std::uint64_t vertices, Index3 shape) {
   return static_cast<double>(vertices) / static_cast<double>(corners.product());
 }
 
-void each_volume(const FinishedRun& run,
-                 const std::function<void(const audit::VolumeRow&)>& visit) {
+void for_each_volume(const FinishedRun& run,
+                     const std::function<void(const audit::VolumeRow&)>& visit) {
   const engine::RunReport& engine = run.engine;
   const std::int64_t parts = engine.lattice.layers.product();
   for (Label label = 0; label < engine.label_voxels.size(); ++label) {
@@ -191,15 +191,15 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
 
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh,
                        ordered_json settings, const AppendText& append) {
-  const auto each_row = [&](const TakeRow& take) {
-    each_volume(run, [&](const audit::VolumeRow& row) {
+  const auto for_each_row = [&](const TakeRow& take) {
+    for_each_volume(run, [&](const audit::VolumeRow& row) {
       ordered_json out = volume_row_json(row, run.labels, run.volume.names);
       add_size(row.label, run, out);
       if (run.certificate) add_topology(row.label, *run.certificate, out);
       take(out);
     });
   };
-  append_with_rows(run_report(run, mesh, std::move(settings)), each_row, append);
+  append_with_rows(run_report(run, mesh, std::move(settings)), for_each_row, append);
 }
 
 void write_run_report(io::AtomicFile& file, const FinishedRun& run,

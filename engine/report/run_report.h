@@ -42,7 +42,8 @@ struct FinishedRun {
                                                 nlohmann::ordered_json settings);
 
 /// Calls visit on each label that was written, ascending.  REQUIRES: run.engine.shape.
-void each_volume(const FinishedRun& run, const std::function<void(const audit::VolumeRow&)>& visit);
+void for_each_volume(const FinishedRun& run,
+                     const std::function<void(const audit::VolumeRow&)>& visit);
 
 /// What nobody measured is null.  Memory: no more for more labels.
 /// REQUIRES: run.engine.quality and shape.

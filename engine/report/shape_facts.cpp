@@ -58,13 +58,13 @@ void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& tab
   const audit::VolumeSummary& s = volumes.summary;
   std::cout << "volumes       ";
   if (!s.worst) {
-    std::cout << "no label of " << audit::kLeastJudgedVoxels << " voxels or more\n";
+    std::cout << "no label of " << audit::kMinJudgedVoxels << " voxels or more\n";
     return;
   }
   std::cout << "off by " << percent(s.error_max_abs, 2) << " at most (label "
             << label_text(table.raw(s.worst->label), table.is_signed(), names) << "), "
             << percent(s.error_mean_abs, 3) << " on average over " << s.labels_measured
-            << " labels of " << audit::kLeastJudgedVoxels << " voxels or more; "
+            << " labels of " << audit::kMinJudgedVoxels << " voxels or more; "
             << (volumes.exact ? "exact" : "in floating point, vertices being off the lattice")
             << "\n";
 }

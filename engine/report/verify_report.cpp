@@ -63,11 +63,11 @@ ordered_json topology_json(const Verdict& verdict) {
                    {"labels_changed", verdict.audit.labels_changed.size()},
                    {"changed", changed_labels(verdict)},
                    {"indicative_only", verdict.audit.topology_is_indicative}};
-  if (const auto& places = verdict.audit.places) {
-    out["interfaces"] = places->interfaces;
-    out["interfaces_changed"] = places->interfaces_changed.size();
-    out["meetings"] = places->meetings;
-    out["meetings_changed"] = places->meetings_changed.size();
+  if (const auto& junctions = verdict.audit.junctions) {
+    out["interfaces"] = junctions->interfaces;
+    out["interfaces_changed"] = junctions->interfaces_changed.size();
+    out["meetings"] = junctions->meetings;
+    out["meetings_changed"] = junctions->meetings_changed.size();
   }
   return out;
 }

@@ -38,8 +38,8 @@ std::optional<std::uint64_t> bytes_of(std::string_view number, std::uint64_t uni
   if (!read_all(number.substr(0, point), whole)) return {};
   if (point < number.size() && !read_all("0" + std::string(number.substr(point)), part)) return {};
   const auto more = static_cast<std::uint64_t>(part * static_cast<double>(unit));
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-  if (whole > (kMost - more) / unit) return {};
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+  if (whole > (kMax - more) / unit) return {};
   return whole * unit + more;
 }
 

@@ -78,13 +78,13 @@ Text bound_text(const std::optional<double>& bound) {
   return bound ? format_number(*bound) : kNone;
 }
 
-Text range_text(double least, double most) {
-  return "from " + format_number(least) + " to " + format_number(most);
+Text range_text(double min, double max) {
+  return "from " + format_number(min) + " to " + format_number(max);
 }
 
 /// False for no number.
-bool is_within(double value, double least, double most) {
-  return value >= least && value <= most;
+bool is_within(double value, double min, double max) {
+  return value >= min && value <= max;
 }
 
 /// Positive and given once for a label.
@@ -168,7 +168,7 @@ std::vector<Setting> bound_settings() {
        .is_allowed =
            [](const Settings& s) {
              return !s.max_distance ||
-                    is_within(*s.max_distance, DistanceGuard::least_distance(), kMaxDistance);
+                    is_within(*s.max_distance, DistanceGuard::min_distance(), kMaxDistance);
            }},
       {.name = "target-reduction",
        .value = "F|none",

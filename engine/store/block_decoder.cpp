@@ -75,8 +75,8 @@ class Decoder {
 
   void vertices() {
     mesh_.vertices.resize(in_.count());
-    std::array<std::int64_t, 3> least{};
-    for (std::int64_t& c : least) c = coordinate(unzigzag(in_.varint()));
+    std::array<std::int64_t, 3> min{};
+    for (std::int64_t& c : min) c = coordinate(unzigzag(in_.varint()));
     VertexId before = 0;
     for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
       BlockVertex& v = mesh_.vertices[i];
@@ -87,7 +87,7 @@ class Decoder {
       std::array<std::int32_t, 3> p{};
       for (std::size_t k = 0; k < 3; ++k) {
         constexpr std::uint64_t kRange = std::uint64_t{1} << 32;
-        p[k] = coordinate(least[k] + static_cast<std::int64_t>(in_.below(kRange)));
+        p[k] = coordinate(min[k] + static_cast<std::int64_t>(in_.below(kRange)));
       }
       v.position = {p[0], p[1], p[2]};
       v.quadric = quadric();

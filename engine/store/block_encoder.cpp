@@ -67,24 +67,24 @@ class Encoder {
   }
 
   void label(Label label) {
-    const auto place = std::lower_bound(labels_.begin(), labels_.end(), label);
-    out_.varint(static_cast<std::uint64_t>(place - labels_.begin()));
+    const auto index = std::lower_bound(labels_.begin(), labels_.end(), label);
+    out_.varint(static_cast<std::uint64_t>(index - labels_.begin()));
   }
 
   void vertices() {
-    std::array<std::int64_t, 3> least{};
-    if (!mesh_.vertices.empty()) least.fill(std::numeric_limits<std::int32_t>::max());
+    std::array<std::int64_t, 3> min{};
+    if (!mesh_.vertices.empty()) min.fill(std::numeric_limits<std::int32_t>::max());
     for (const BlockVertex& v : mesh_.vertices) {
       const auto p = coordinates(v.position);
-      for (std::size_t i = 0; i < 3; ++i) least[i] = std::min(least[i], p[i]);
+      for (std::size_t i = 0; i < 3; ++i) min[i] = std::min(min[i], p[i]);
     }
     out_.varint(mesh_.vertices.size());
-    for (std::int64_t c : least) out_.varint(zigzag(c));
+    for (std::int64_t c : min) out_.varint(zigzag(c));
     VertexId before = 0;
     for (const BlockVertex& v : mesh_.vertices) {
       out_.varint(v.id - std::exchange(before, v.id));
       const auto p = coordinates(v.position);
-      for (std::size_t i = 0; i < 3; ++i) out_.varint(static_cast<std::uint64_t>(p[i] - least[i]));
+      for (std::size_t i = 0; i < 3; ++i) out_.varint(static_cast<std::uint64_t>(p[i] - min[i]));
       quadric(bits_of(v.quadric));
     }
   }

@@ -11,8 +11,8 @@ namespace mw::engine {
 /// knows the work folder adds the way out (run.cpp).
 class DamagedWork : public Error {
  public:
-  DamagedWork(const std::string& place, const std::string& reason)
-      : Error(ErrorKind::kInput, place + ": corrupt: " + reason) {}
+  DamagedWork(const std::string& where, const std::string& reason)
+      : Error(ErrorKind::kInput, where + ": corrupt: " + reason) {}
 };
 
 }  // namespace mw::engine

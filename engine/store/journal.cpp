@@ -57,7 +57,7 @@ ByteWriter encode(const JournalRecord& record, std::uint64_t number) {
   return out;
 }
 
-JournalBlock decode_block_place(ByteReader& in) {
+JournalBlock decode_block_extent(ByteReader& in) {
   constexpr std::uint64_t kSums = std::uint64_t{1} << 32;
   JournalBlock b;
   b.slot = in.varint();
@@ -77,7 +77,7 @@ JournalRecord decode(std::span<const std::byte> body, std::uint64_t number) {
   for (std::uint64_t& window : record.windows) window = in.varint();
   const std::size_t blocks = in.count();
   record.blocks.reserve(std::min(blocks, body.size() / kBlockNumbers));
-  for (std::size_t i = 0; i < blocks; ++i) record.blocks.push_back(decode_block_place(in));
+  for (std::size_t i = 0; i < blocks; ++i) record.blocks.push_back(decode_block_extent(in));
   if (!in.at_end()) throw BadBytes{"a record is too long"};
   return record;
 }

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/file/least_memory.h"
+#include "io/file/min_memory.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {
 namespace {
 
-std::size_t place(Purpose purpose) {
+std::size_t position(Purpose purpose) {
   return static_cast<std::size_t>(purpose);
 }
 
@@ -46,7 +46,7 @@ std::optional<MemoryBudget::Reservation> MemoryBudget::try_reserve(Purpose purpo
   const std::lock_guard lock(mutex_);
   if (bytes > limit_ - total_.used) return std::nullopt;
   total_.add(bytes);
-  accounts_[place(purpose)].add(bytes);
+  accounts_[position(purpose)].add(bytes);
   return Reservation(*this, purpose, bytes);
 }
 
@@ -60,28 +60,27 @@ MemoryBudget::Reservation MemoryBudget::carve(Reservation& from, Purpose purpose
                                               std::uint64_t bytes) {
   MW_ASSERT(from.budget_ == this && from.bytes_ >= bytes);
   const std::lock_guard lock(mutex_);
-  accounts_[place(from.purpose_)].used -= bytes;
-  accounts_[place(purpose)].add(bytes);
+  accounts_[position(from.purpose_)].used -= bytes;
+  accounts_[position(purpose)].add(bytes);
   from.bytes_ -= bytes;
   return {*this, purpose, bytes};
 }
 
 void MemoryBudget::release(Purpose purpose, std::uint64_t bytes) {
   const std::lock_guard lock(mutex_);
-  MW_ASSERT(accounts_[place(purpose)].used >= bytes);
+  MW_ASSERT(accounts_[position(purpose)].used >= bytes);
   total_.used -= bytes;
-  accounts_[place(purpose)].used -= bytes;
+  accounts_[position(purpose)].used -= bytes;
 }
 
-std::uint64_t MemoryBudget::least_with(std::uint64_t bytes) const {
+std::uint64_t MemoryBudget::min_with(std::uint64_t bytes) const {
   const std::lock_guard lock(mutex_);
-  return total_.used - accounts_[place(Purpose::kBlocks)].used + bytes;
+  return total_.used - accounts_[position(Purpose::kBlocks)].used + bytes;
 }
 
 void MemoryBudget::fail(std::uint64_t bytes) const {
   throw Error(ErrorKind::kResource, "a memory budget of " + std::to_string(limit_) +
-                                        " bytes is too small; " +
-                                        io::least_memory(least_with(bytes)));
+                                        " bytes is too small; " + io::min_memory(min_with(bytes)));
 }
 
 std::uint64_t MemoryBudget::used() const {
@@ -91,7 +90,7 @@ std::uint64_t MemoryBudget::used() const {
 
 std::uint64_t MemoryBudget::used(Purpose purpose) const {
   const std::lock_guard lock(mutex_);
-  return accounts_[place(purpose)].used;
+  return accounts_[position(purpose)].used;
 }
 
 std::uint64_t MemoryBudget::peak() const {
@@ -101,7 +100,7 @@ std::uint64_t MemoryBudget::peak() const {
 
 std::uint64_t MemoryBudget::peak(Purpose purpose) const {
   const std::lock_guard lock(mutex_);
-  return accounts_[place(purpose)].peak;
+  return accounts_[position(purpose)].peak;
 }
 
 }  // namespace mw::engine

@@ -64,8 +64,8 @@ class MemoryBudget {
   [[nodiscard]] Reservation carve(Reservation& from, Purpose purpose, std::uint64_t bytes);
 
   /// The smallest limit under which `bytes` could be reserved now, blocks all spilled.
-  [[nodiscard]] std::uint64_t least_with(std::uint64_t bytes) const;
-  /// ERRORS: mw::Error(kResource) with the limit and least_with(bytes).
+  [[nodiscard]] std::uint64_t min_with(std::uint64_t bytes) const;
+  /// ERRORS: mw::Error(kResource) with the limit and min_with(bytes).
   [[noreturn]] void fail(std::uint64_t bytes) const;
 
   [[nodiscard]] std::uint64_t limit() const { return limit_; }

@@ -46,9 +46,9 @@ BlockKey RunLayout::key(std::uint64_t slot) const {
   MW_ASSERT(slot < slots());
   BlockKey key;
   while (slot >= first_slot_[key.march + 1]) ++key.march;
-  const auto place = static_cast<std::int64_t>(slot - first_slot_[key.march]);
+  const auto index = static_cast<std::int64_t>(slot - first_slot_[key.march]);
   const Index3 shape = grids_[key.march].blocks();
-  key.block = {place % shape.x, place / shape.x % shape.y, place / (shape.x * shape.y)};
+  key.block = {index % shape.x, index / shape.x % shape.y, index / (shape.x * shape.y)};
   return key;
 }
 
@@ -60,7 +60,7 @@ std::vector<BlockKey> RunLayout::parts(const BlockKey& key) const {
   MW_ASSERT(key.march > 0);
   const Box3 before{{0, 0, 0}, grids_[key.march - 1].blocks()};
   std::vector<BlockKey> out;
-  each_index(Index3{2, 2, 2}, [&](Index3 i) {
+  for_each_index(Index3{2, 2, 2}, [&](Index3 i) {
     const Index3 part{2 * key.block.x + i.x, 2 * key.block.y + i.y, 2 * key.block.z + i.z};
     if (before.contains(part)) out.push_back({key.march - 1, part});
   });
@@ -71,7 +71,7 @@ std::optional<std::uint64_t> RunLayout::next_window(const BlockKey& key,
                                                     const DoneWindows& done) const {
   const WindowGrid& grid = grids_[key.march];
   std::optional<std::uint64_t> next;
-  each_index(windows_over(grid, key.block), [&](Index3 w) {
+  for_each_index(windows_over(grid, key.block), [&](Index3 w) {
     if (done.contains(window({key.march, w}))) return;
     const std::uint64_t time = first_window_[key.march] + WindowOrder(grid, order_).rank(w);
     if (!next || time < *next) next = time;

@@ -201,7 +201,7 @@ void RunStore::prefetch(const WindowKey& key) const {
 
 std::optional<MemoryBudget::Reservation> RunStore::try_reserve(Purpose purpose,
                                                                std::uint64_t bytes) {
-  if (budget_.least_with(bytes) > budget_.limit()) return std::nullopt;
+  if (budget_.min_with(bytes) > budget_.limit()) return std::nullopt;
   for (;;) {
     if (auto reserved = budget_.try_reserve(purpose, bytes)) return reserved;
     const std::lock_guard lock(mutex_);

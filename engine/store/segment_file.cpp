@@ -10,7 +10,7 @@ namespace mw::engine {
 namespace {
 
 constexpr std::uint64_t kSector = ExtentAllocator::kSectorBytes;
-constexpr std::uint64_t kLeastSegmentBytes = 4 << 20;
+constexpr std::uint64_t kMinSegmentBytes = 4 << 20;
 constexpr std::uint64_t kLargestSegmentBytes = 64 << 20;
 
 }  // namespace
@@ -31,7 +31,7 @@ Extent SegmentFile::write(std::span<const std::byte> bytes) {
 
 void SegmentFile::grow(std::uint64_t size) {
   const std::uint64_t segment =
-      std::max(std::clamp(free_.end() / 8, kLeastSegmentBytes, kLargestSegmentBytes), size);
+      std::max(std::clamp(free_.end() / 8, kMinSegmentBytes, kLargestSegmentBytes), size);
   const std::uint64_t end = (free_.end() + segment + kSector - 1) / kSector * kSector;
   file_->resize(end);
   free_.grow(end);

@@ -19,9 +19,9 @@
 #include "engine/store/mapped_file.h"
 #include "io/file/atomic_file.h"
 #include "io/file/errors.h"
-#include "io/file/nameless_file.h"
 #include "io/file/printable.h"
 #include "io/file/sync_folder.h"
+#include "io/file/unlinked_file.h"
 
 namespace mw::engine {
 namespace {
@@ -35,9 +35,9 @@ constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettings
 constexpr const char* kPartialSettings = ".settings.txt.partial-";  // AtomicFile, after a kill
 
 // Sizes of many labels make long lines; those that differ are shown in part.
-constexpr std::uintmax_t kMostSettings = 16 << 20;
-constexpr std::size_t kMostShown = 120;
-constexpr std::size_t kMostTold = 8;
+constexpr std::uintmax_t kMaxSettings = 16 << 20;
+constexpr std::size_t kMaxShown = 120;
+constexpr std::size_t kMaxTold = 8;
 
 /// Left by a kill in an unlucky instant.
 bool is_left_over(const std::string& name) {
@@ -71,7 +71,7 @@ std::optional<std::string> value_of(const Lines& lines, const std::string& name)
 }
 
 std::string shown(const std::optional<std::string>& value) {
-  return value ? io::printable(*value, kMostShown) : "(not there)";
+  return value ? io::printable(*value, kMaxShown) : "(not there)";
 }
 
 /// As identity_text() and the program write it.
@@ -84,7 +84,7 @@ bool is_plain(const std::string& text) {
 std::string content_of(const fs::path& path) {
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(path, failed);
-  std::string content(failed ? 0 : std::min(size, kMostSettings), '\0');
+  std::string content(failed ? 0 : std::min(size, kMaxSettings), '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(content.data(), static_cast<std::streamsize>(content.size()));
   content.resize(static_cast<std::size_t>(in.gcount()));
@@ -117,11 +117,11 @@ std::string differences(const std::string& before, const std::string& now) {
   for (const auto& [name, any] : names) {
     const auto was = value_of(old_lines, name), is = value_of(new_lines, name);
     if (was == is) continue;
-    if (++told > kMostTold) continue;
-    out += (out.empty() ? "" : "; ") + io::printable(name, kMostShown) + " was " + shown(was) +
+    if (++told > kMaxTold) continue;
+    out += (out.empty() ? "" : "; ") + io::printable(name, kMaxShown) + " was " + shown(was) +
            " and is " + shown(is);
   }
-  if (told > kMostTold) out += io::text("; and ", told - kMostTold, " more");
+  if (told > kMaxTold) out += io::text("; and ", told - kMaxTold, " more");
   return out;
 }
 

@@ -28,31 +28,31 @@ std::uint64_t limit_in(const fs::path& path) {
 }
 
 /// The least limit of a group and those around it.
-std::uint64_t least_of_path(fs::path group, const fs::path& below, const char* file) {
-  std::uint64_t least = kNone;
+std::uint64_t min_of_path(fs::path group, const fs::path& below, const char* file) {
+  std::uint64_t min = kNone;
   for (const fs::path& part : below) {
     group /= part;
-    least = std::min(least, limit_in(group / file));
+    min = std::min(min, limit_in(group / file));
   }
-  return least;
+  return min;
 }
 
 }  // namespace
 
 std::uint64_t cgroup_limit(const fs::path& root, std::istream& own_groups) {
   const fs::path version_1 = root / "memory";
-  std::uint64_t least =
+  std::uint64_t min =
       std::min(limit_in(root / kLimitFile), limit_in(version_1 / kLimitFileOfVersion1));
   for (std::string line; std::getline(own_groups, line);) {
     const std::size_t at = line.find(":/");
     if (at == line.npos) continue;
     const std::string controllers = line.substr(0, at), path = line.substr(at + 2);
-    if (controllers == "0:") least = std::min(least, least_of_path(root, path, kLimitFile));
+    if (controllers == "0:") min = std::min(min, min_of_path(root, path, kLimitFile));
     if (controllers.ends_with(":memory")) {
-      least = std::min(least, least_of_path(version_1, path, kLimitFileOfVersion1));
+      min = std::min(min, min_of_path(version_1, path, kLimitFileOfVersion1));
     }
   }
-  return least;
+  return min;
 }
 
 std::uint64_t default_memory_budget() {

@@ -17,8 +17,8 @@ std::uint64_t resident_bytes() {
   return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-void return_free_memory_above(std::uint64_t most) {
-  if (resident_bytes() > most) ::malloc_trim(0);
+void return_free_memory_above(std::uint64_t max) {
+  if (resident_bytes() > max) ::malloc_trim(0);
 }
 
 void return_large_pieces_at_once() {
@@ -27,10 +27,10 @@ void return_large_pieces_at_once() {
 }
 
 void save_address_space() {
-  constexpr int kMostPools = 2;
+  constexpr int kMaxPools = 2;
   rlimit limit{};
   if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
-  (void)::mallopt(M_ARENA_MAX, kMostPools);
+  (void)::mallopt(M_ARENA_MAX, kMaxPools);
 }
 
 }  // namespace mw::engine

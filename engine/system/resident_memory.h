@@ -14,7 +14,7 @@ namespace mw::engine {
 /// is in use can therefore be exceeded.  This returns such memory to the kernel when the process
 /// holds more than `most`.  No result depends on it.
 /// Cost: 10 us; milliseconds when there is much to return.  Thread safety: yes.
-void return_free_memory_above(std::uint64_t most);
+void return_free_memory_above(std::uint64_t max);
 
 /// From now on large pieces of memory go back to the kernel when they are freed, so that they never
 /// count twice against a budget.  (glibc would keep larger and larger ones as they come and go,

@@ -12,7 +12,7 @@
 #include <algorithm>
 
 #include "engine/system/crew.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -34,17 +34,17 @@ void tbb_for(std::size_t n, const RangeBody& body) {
   });
 }
 
-void tbb_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit) {
+void tbb_for_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit) {
   if (threads == 1) {
-    each_index(shape, visit);
+    for_each_index(shape, visit);
     return;
   }
   using Rows = tbb::blocked_range2d<std::int64_t>;
   Crew(threads).run([&] {
     tbb::parallel_for(Rows(0, shape.z, 0, shape.y), [&](const Rows& rows) {
-      each_index(Box3{{0, rows.cols().begin(), rows.rows().begin()},
-                      {shape.x, rows.cols().end(), rows.rows().end()}},
-                 visit);
+      for_each_index(Box3{{0, rows.cols().begin(), rows.rows().begin()},
+                          {shape.x, rows.cols().end(), rows.rows().end()}},
+                     visit);
     });
   });
 }

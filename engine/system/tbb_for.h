@@ -20,6 +20,6 @@ void tbb_for(std::size_t n, const RangeBody& body);
 /// many as there can be; with one in order, x fastest, otherwise in any order.
 /// REQUIRES: threads > 0.
 /// ERRORS: what a visit throws; the others may then not have happened.
-void tbb_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit);
+void tbb_for_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit);
 
 }  // namespace mw::engine

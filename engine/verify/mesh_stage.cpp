@@ -29,7 +29,7 @@ struct TileFindings {
   audit::PartsPiece parts;
   std::vector<SharedTet> shared;
   audit::RegionsPiece regions;  ///< of a mesh with gaps, instead of parts
-  audit::PlacesPiece places;
+  audit::JunctionsPiece junctions;
   audit::Offenders turned{"tets"};
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
@@ -56,7 +56,7 @@ class MeshStage {
         validity_(validity),
         task_(task),
         pieces_(sinks.pieces),
-        places_(sinks.places),
+        junctions_(sinks.junctions),
         lattice_(audit::layered_frame(validity.frame, task.options.layers)),
         lattice_shape_(layered_shape(validity.shape, task.options.layers)),
         parts_(label_count),
@@ -80,7 +80,7 @@ class MeshStage {
     } else {
       links_.unite(parts_);
       found_.betti = parts_.betti_of_mesh();
-      if (places_ != nullptr) places_->close(PlaceLedger::Side::kMesh, parts_.cavities());
+      if (junctions_ != nullptr) junctions_->close(JunctionLedger::Side::kMesh, parts_.cavities());
     }
     return std::move(found_);
   }
@@ -107,9 +107,9 @@ class MeshStage {
     out.shape = audit::measure_shape(stars);
     out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
     if (pieces_ != nullptr) take_triangles(stars, out);
-    if (places_ != nullptr) {
-      out.places = audit::mesh_places(stars, loaded.names.size());
-      loaded.names.to_whole(out.places);
+    if (junctions_ != nullptr) {
+      out.junctions = audit::mesh_junctions(stars, loaded.names.size());
+      loaded.names.to_whole(out.junctions);
     }
     return out;
   }
@@ -149,7 +149,7 @@ class MeshStage {
     for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
     regions_.add(found.regions);
     for (const audit::InterfaceTriangle& t : found.triangles) pieces_->add(tile, t);
-    if (places_ != nullptr) places_->add(PlaceLedger::Side::kMesh, found.places);
+    if (junctions_ != nullptr) junctions_->add(JunctionLedger::Side::kMesh, found.junctions);
     for (const audit::LineCrossing& c : found.crossings) {
       crossings_.add({c.column, ordered_bits(c.z), ordered_bits(c.enters)});
     }
@@ -169,7 +169,7 @@ class MeshStage {
   const audit::ValidityTask& validity_;
   const VerifyTask& task_;
   PieceBuckets* pieces_;
-  PlaceLedger* places_;
+  JunctionLedger* junctions_;
   audit::Frame lattice_;
   Index3 lattice_shape_;
   MeshFindings found_;

@@ -3,9 +3,9 @@
 // The first half of a verification: the mesh by itself, tile by tile.
 #pragma once
 
+#include "engine/verify/junction_ledger.h"
 #include "engine/verify/mesh_tiles.h"
 #include "engine/verify/piece_buckets.h"
-#include "engine/verify/place_ledger.h"
 #include "engine/verify/verify_task.h"
 
 namespace mw::engine {
@@ -23,11 +23,11 @@ struct MeshFindings {
 
 /// Where interfaces go, if they are asked for.
 struct InterfaceSinks {
-  PieceBuckets* pieces = nullptr;  ///< for distances
-  PlaceLedger* places = nullptr;   ///< not of a mesh with gaps
+  PieceBuckets* pieces = nullptr;       ///< for distances
+  JunctionLedger* junctions = nullptr;  ///< not of a mesh with gaps
 };
 
-/// validity: what is asked.  ENSURES: the mesh's side of sinks.places is closed.
+/// validity: what is asked.  ENSURES: the mesh's side of sinks.junctions is closed.
 /// REQUIRES: mesh.input_check() passed.
 [[nodiscard]] MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
                                         const audit::ValidityTask& validity, const VerifyTask& task,

@@ -15,16 +15,17 @@
 
 namespace mw::engine {
 
-MeshTiles::MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table, const Place& place)
+MeshTiles::MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table,
+                     const Place& junction)
     : volume_(volume),
       table_(table),
       layers_(layers_of(volume.space.spacing)),
       is_upright_(io::is_upright(volume.space)),
       is_mirrored_(io::is_mirrored(volume.space)),
-      grid_(volume.shape, layers_, place.edge),
-      memory_bytes_(place.memory_bytes),
-      positions_(place.folder),
-      tets_(place.folder, grid_.size(), place.memory_bytes) {}
+      grid_(volume.shape, layers_, junction.edge),
+      memory_bytes_(junction.memory_bytes),
+      positions_(junction.folder),
+      tets_(junction.folder, grid_.size(), junction.memory_bytes) {}
 
 audit::Frame MeshTiles::frame() const {
   if (!is_upright_) return {.spacing = volume_.space.spacing, .origin = {}};

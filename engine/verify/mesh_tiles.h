@@ -47,7 +47,7 @@ class MeshTiles : public io::MeshSink {
   };
 
   /// volume and table outlive this.
-  MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table, const Place& place);
+  MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table, const Place& junction);
 
   void begin(const io::MeshHeader& header) override { header_ = header; }
   void write_vertices(std::span<const io::Position> positions) override;

@@ -3,7 +3,7 @@
 // From triangles to pieces, tile by tile.
 #include "engine/verify/piece_buckets.h"
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 
@@ -16,7 +16,7 @@ void PieceBuckets::make_pieces() {
     triangles.clear();
     triangles_.load(tile, triangles);
     for (const audit::InterfaceTriangle& t : triangles) {
-      audit::visit_pieces(t.corners, radius_, [&](const audit::VoxelTriangle& piece) {
+      audit::for_each_piece(t.corners, radius_, [&](const audit::VoxelTriangle& piece) {
         audit::VoxelPoint middle = audit::centroid(piece);
         for (std::size_t k = 0; k < 3; ++k) middle[k] /= layers[k];
         pieces_.add(grid_.at(middle), {piece, t.labels});
@@ -27,7 +27,7 @@ void PieceBuckets::make_pieces() {
 
 std::vector<audit::InterfaceTriangle> PieceBuckets::near(const Box3& voxels) const {
   std::vector<audit::InterfaceTriangle> out;
-  each_index(grid_.meeting(voxels), [&](Index3 at) { pieces_.load(grid_.number(at), out); });
+  for_each_index(grid_.meeting(voxels), [&](Index3 at) { pieces_.load(grid_.number(at), out); });
   return out;
 }
 

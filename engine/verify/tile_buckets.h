@@ -24,13 +24,13 @@ class TileBuckets {
   TileBuckets(const std::filesystem::path& folder, std::uint32_t tiles, std::uint64_t memory_bytes)
       : file_(folder),
         tiles_(tiles),
-        most_(std::clamp<std::size_t>(memory_bytes / (sizeof(Record) * std::max(tiles, 1U)),
-                                      kFewest, kMost)) {}
+        max_(std::clamp<std::size_t>(memory_bytes / (sizeof(Record) * std::max(tiles, 1U)), kFewest,
+                                     kMax)) {}
 
   void add(std::uint32_t tile, const Record& record) {
     Tile& t = tiles_[tile];
     t.waiting.push_back(record);
-    if (t.waiting.size() < most_) return;
+    if (t.waiting.size() < max_) return;
     t.chunks.push_back({file_.size(), t.waiting.size()});
     file_.append(std::as_bytes(std::span(t.waiting)));
     t.waiting.clear();
@@ -57,7 +57,7 @@ class TileBuckets {
 
  private:
   static constexpr std::size_t kFewest = 32;
-  static constexpr std::size_t kMost = 4096;
+  static constexpr std::size_t kMax = 4096;
 
   struct Chunk {
     std::uint64_t offset = 0;
@@ -71,7 +71,7 @@ class TileBuckets {
   mutable std::mutex mutex_;
   mutable io::ScratchFile file_;
   std::vector<Tile> tiles_;
-  std::size_t most_;
+  std::size_t max_;
 };
 
 }  // namespace mw::engine

@@ -22,7 +22,7 @@ Index3 counts(Index3 shape, Index3 edges) {
 TileGrid::TileGrid(Index3 shape, Index3 layers, std::int64_t edge) : shape_(shape) {
   const auto voxels = [edge](std::int64_t n) { return std::max<std::int64_t>(edge / n, 1); };
   edges_ = {voxels(layers.x), voxels(layers.y), voxels(layers.z)};
-  while (counts(shape, edges_).product() > kMostTiles) edges_ = edges_ + edges_;
+  while (counts(shape, edges_).product() > kMaxTiles) edges_ = edges_ + edges_;
   count_ = counts(shape, edges_);
 }
 

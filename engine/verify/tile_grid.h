@@ -14,7 +14,7 @@ namespace mw::engine {
 class TileGrid {
  public:
   static constexpr std::int64_t kEdge = 64;
-  static constexpr std::int64_t kMostTiles = 1 << 14;
+  static constexpr std::int64_t kMaxTiles = 1 << 14;
 
   /// Edges of that many voxels of the lattice, twice as long as often as there are too many tiles.
   TileGrid(Index3 shape, Index3 layers, std::int64_t edge = kEdge);

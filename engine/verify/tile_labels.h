@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "kernels/audit/junctions.h"
 #include "kernels/audit/part_graph.h"
-#include "kernels/audit/places.h"
 #include "kernels/audit/regions.h"
 #include "kernels/audit/subject.h"
 
@@ -63,8 +63,8 @@ class TileLabels {
     for (audit::RegionTally& tally : piece.tallies) tally.label = of_whole(tally.label);
     for (audit::OpenSet& set : piece.open) set.label = of_whole(set.label);
   }
-  void to_whole(audit::PlacesPiece& piece) const {
-    for (audit::PlaceTally& tally : piece.tallies) {
+  void to_whole(audit::JunctionsPiece& piece) const {
+    for (audit::JunctionTally& tally : piece.tallies) {
       for (Label& label : tally.labels) {
         if (label != audit::kNoLabel) label = of_whole(label);
       }

@@ -33,9 +33,9 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
     return audit::judge(std::move(findings), task.options);
   }
   PieceBuckets pieces(task.folder, mesh.grid(), task.options.layers, task.memory_bytes / 8);
-  std::optional<PlaceLedger> places;
-  if (task.options.count_places) places.emplace(task.folder, task.memory_bytes / 8);
-  PlaceLedger* const ledger = places ? &*places : nullptr;
+  std::optional<JunctionLedger> junctions;
+  if (task.options.count_junctions) junctions.emplace(task.folder, task.memory_bytes / 8);
+  JunctionLedger* const ledger = junctions ? &*junctions : nullptr;
   const audit::ValidityTask validity = validity_task(volume, mesh, task);
   MeshFindings found = look_at_mesh(mesh, volume.table().size(), validity, task,
                                     {with_distance ? &pieces : nullptr, ledger});
@@ -47,7 +47,7 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
   if (found.overlap) findings.validity.checks.push_back(*found.overlap);
   findings.voxels = std::move(voxels.betti);
   findings.mesh = std::move(found.betti);
-  if (places) findings.places = places->compare();
+  if (junctions) findings.junctions = junctions->compare();
   findings.quality = found.quality.report();
   findings.distance = std::move(voxels.distance);
   findings.volumes =

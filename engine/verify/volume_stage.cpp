@@ -27,7 +27,7 @@ struct TileDistances {
 struct TileFindings {
   audit::PartsPiece parts;
   std::vector<audit::SharedRun> shared;
-  audit::PlacesPiece places;
+  audit::JunctionsPiece junctions;
   std::vector<std::pair<Label, std::uint64_t>> voxels;
   TileDistances distances;
 };
@@ -65,7 +65,7 @@ class VolumeStage {
         grid_(grid),
         task_(task),
         pieces_(mesh.pieces),
-        places_(mesh.places),
+        junctions_(mesh.junctions),
         label_count_(volume.table().size()),
         layers_(task.options.layers),
         limit_(audit::distance_limit(task.options.max_distance)),
@@ -81,7 +81,7 @@ class VolumeStage {
         [this](std::uint32_t tile, TileFindings&& found) { merge(tile, std::move(found)); });
     links_.unite(parts_);
     found_.betti = parts_.betti_of_volume();
-    if (places_ != nullptr) places_->close(PlaceLedger::Side::kVolume, parts_.cavities());
+    if (junctions_ != nullptr) junctions_->close(JunctionLedger::Side::kVolume, parts_.cavities());
     if (pieces_ != nullptr) conclude_distances();
     return std::move(found_);
   }
@@ -89,8 +89,8 @@ class VolumeStage {
  private:
   /// Looking farther than the bound says by how much it is broken.
   [[nodiscard]] double first_reach() const {
-    constexpr double kLeast = 2, kBeyond = 0.5;
-    return std::max(kLeast, task_.options.max_distance.value_or(4 - kBeyond) + kBeyond);
+    constexpr double kMin = 2, kBeyond = 0.5;
+    return std::max(kMin, task_.options.max_distance.value_or(4 - kBeyond) + kBeyond);
   }
 
   /// The box, and what lies within so many voxels of the lattice.
@@ -138,9 +138,9 @@ class VolumeStage {
     out.parts = std::move(parts.piece);
     out.shared = std::move(parts.shared);
     names.to_whole(out.parts);
-    if (places_ == nullptr) return;
-    out.places = audit::voxel_places(tile, names.size());
-    names.to_whole(out.places);
+    if (junctions_ == nullptr) return;
+    out.junctions = audit::voxel_junctions(tile, names.size());
+    names.to_whole(out.junctions);
   }
 
   static void count_voxels(const Box3& box, const LoadedVoxels& voxels, const TileLabels& names,
@@ -222,7 +222,7 @@ class VolumeStage {
       links_.add(run.first, run.count, first + run.part);
     }
     for (const auto& [label, count] : found.voxels) found_.voxels[label] += count;
-    if (places_ != nullptr) places_->add(PlaceLedger::Side::kVolume, found.places);
+    if (junctions_ != nullptr) junctions_->add(JunctionLedger::Side::kVolume, found.junctions);
     if (has_far(found.distances)) {
       far_.push_back(tile);
       note_presence(found.distances);
@@ -294,7 +294,7 @@ class VolumeStage {
   const TileGrid& grid_;
   const VerifyTask& task_;
   const PieceBuckets* pieces_;
-  PlaceLedger* places_;
+  JunctionLedger* junctions_;
   std::size_t label_count_;
   Index3 layers_;
   double limit_;

@@ -3,8 +3,8 @@
 // The second half of a verification: the volume, and how far the mesh is from it, tile by tile.
 #pragma once
 
+#include "engine/verify/junction_ledger.h"
 #include "engine/verify/piece_buckets.h"
-#include "engine/verify/place_ledger.h"
 #include "engine/verify/verify_task.h"
 #include "io/labels/label_table.h"
 
@@ -20,10 +20,10 @@ struct VolumeFindings {
 /// The mesh's interface.
 struct MeshInterface {
   const PieceBuckets* pieces = nullptr;  ///< nullptr: no distances are asked for
-  PlaceLedger* places = nullptr;         ///< where the volume's go, if they are asked for
+  JunctionLedger* junctions = nullptr;   ///< where the volume's go, if they are asked for
 };
 
-/// ENSURES: the volume's side of mesh.places is closed.
+/// ENSURES: the volume's side of mesh.junctions is closed.
 [[nodiscard]] VolumeFindings look_at_volume(const io::DenseVolume& volume, const TileGrid& grid,
                                             const VerifyTask& task, const MeshInterface& mesh);
 

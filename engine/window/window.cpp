@@ -83,7 +83,7 @@ void take_samples(const WindowContent& content, const BlockTet& tet, Share& shar
 }
 
 /// Place in `blocks`, those of the window, of the one that owns a tet.
-std::uint8_t owner_place(const TetMesh& mesh, const BlockTet& tet, const WindowGrid& grid,
+std::uint8_t owner_index(const TetMesh& mesh, const BlockTet& tet, const WindowGrid& grid,
                          Index3 window, const std::vector<Index3>& blocks) {
   std::array<std::int64_t, 3> sum{};
   for (LocalVertex v : tet.vertices) {
@@ -122,14 +122,14 @@ std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& g
   const std::vector<BlockTet> tets = mesh.sorted_tets();
   std::vector<std::uint8_t> owners;
   owners.reserve(tets.size());
-  for (const BlockTet& t : tets) owners.push_back(owner_place(mesh, t, grid, window, blocks));
+  for (const BlockTet& t : tets) owners.push_back(owner_index(mesh, t, grid, window, blocks));
   std::vector<std::uint32_t> row(mesh.vertex_count());
   std::vector<BlockMesh> out;
   // One block after the other, so that only one list at a time is longer than it need be.
-  for (std::size_t place = 0; place < blocks.size(); ++place) {
+  for (std::size_t block = 0; block < blocks.size(); ++block) {
     Share share;
     for (std::size_t i = 0; i < tets.size(); ++i) {
-      if (owners[i] != place) continue;
+      if (owners[i] != block) continue;
       share.tets.push_back(tets[i]);
       take_samples(content, tets[i], share);
     }

@@ -84,7 +84,7 @@ std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockSto
 
 /// Noise: a vertex a voxel corner, six tets a voxel where cells of two voxels fan out to all their
 /// corners, and three faces a voxel, each with all its samples apart.
-StartSize most_start_size(const WindowGrid& grid, Index3 block) {
+StartSize max_start_size(const WindowGrid& grid, Index3 block) {
   const Box3 box = grid.block_box(block);
   const auto voxels = static_cast<std::uint64_t>(box.voxels());
   const auto corners = static_cast<std::uint64_t>(grown(box, 1).voxels());
@@ -94,7 +94,7 @@ StartSize most_start_size(const WindowGrid& grid, Index3 block) {
 bool budget_is_ample(std::uint64_t memory, const WindowGrid& grid, int threads) {
   std::uint64_t content = 0;
   for (Index3 block : grid.blocks_of({0, 0, 0})) {
-    content += content_bytes(most_start_size(grid, block));
+    content += content_bytes(max_start_size(grid, block));
   }
   const double bytes = kBytesPerContentByte * static_cast<double>(content);
   return static_cast<double>(memory) > 2.0 * (threads + 1) * bytes;

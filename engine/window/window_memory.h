@@ -29,7 +29,7 @@ struct WindowNeeds {
                                          const BlockStore& store, const WindowNeeds& needs);
 
 /// The size of a block whatever its labels are.
-[[nodiscard]] StartSize most_start_size(const WindowGrid& grid, Index3 block);
+[[nodiscard]] StartSize max_start_size(const WindowGrid& grid, Index3 block);
 
 /// Whether this many windows at a time fit many times over, whatever the labels are: then sizes
 /// need not be exact, and freed memory may stay with the allocator.  (Both cost 10 % of the time

@@ -23,7 +23,7 @@ SimplifyOptions simplify_options(const MeshSettings& settings) {
 }
 
 /// Without a floor new vertices still leave no slivers.
-constexpr double kLeastInnerRatio = 0.1;
+constexpr double kMinInnerRatio = 0.1;
 
 std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings) {
   if (settings.surface == Surface::kVoxel) return std::nullopt;
@@ -42,7 +42,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       start_{.max_level = largest_cell_level(settings),
              .coarse = labels.is_coarse(),
              .with_samples = settings.max_distance.has_value(),
-             .max_distance = settings.max_distance.value_or(kMostCoarseDistance),
+             .max_distance = settings.max_distance.value_or(kMaxCoarseDistance),
              .weights = {},
              .metric = metric,
              .quality_floor = settings.quality_floor,
@@ -161,7 +161,7 @@ SteinerIds WindowVisitor::ids_of(Index3 window) const {
 
 void WindowVisitor::add_inner(Index3 window, WindowContent& content, VisitStats& stats) const {
   const InnerOptions options{
-      .limits = {.least_ratio = std::max(optimise_.quality_floor, kLeastInnerRatio),
+      .limits = {.min_ratio = std::max(optimise_.quality_floor, kMinInnerRatio),
                  .sizes = labels_.sizes()},
       .later = later_boxes(window),
       .ids = ids_of(window)};

@@ -15,7 +15,7 @@ std::uint64_t checked_chunk_bytes(std::string_view file, std::string_view field,
       fail_input(file, field, text("extent ", extent, " of a chunk is not positive"),
                  "the file is damaged");
     }
-    if (static_cast<std::uint64_t>(extent) > kMostChunkBytes / bytes) {
+    if (static_cast<std::uint64_t>(extent) > kMaxChunkBytes / bytes) {
       fail_input(file, field,
                  text("chunks of ", chunk.x, " x ", chunk.y, " x ", chunk.z, " voxels of ",
                       name(type), " are larger than 2 GiB"),
@@ -34,12 +34,12 @@ std::unique_ptr<FileSource> open_if_there(const std::filesystem::path& path) {
 }
 
 std::vector<std::byte> read_rest(const ByteSource& source, std::uint64_t offset,
-                                 std::uint64_t most) {
+                                 std::uint64_t max) {
   const std::uint64_t count = source.size() > offset ? source.size() - offset : 0;
-  if (count > most) {
+  if (count > max) {
     fail_input(
         source.name(), {},
-        text("the file has ", source.size(), " bytes, and its voxels need at most ", offset + most),
+        text("the file has ", source.size(), " bytes, and its voxels need at most ", offset + max),
         "it is damaged or belongs to another store");
   }
   std::vector<std::byte> bytes(count);

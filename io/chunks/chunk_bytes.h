@@ -14,16 +14,16 @@
 namespace mw::io {
 
 /// The most bytes that a chunk may unpack to, whatever a store says.
-inline constexpr std::uint64_t kMostChunkBytes = 2ULL << 30U;
+inline constexpr std::uint64_t kMaxChunkBytes = 2ULL << 30U;
 
 /// Bytes of the voxels of a chunk.
 /// ERRORS: mw::Error(kInput) naming file and field when an axis is not positive, or when they are
-/// more than kMostChunkBytes.
+/// more than kMaxChunkBytes.
 [[nodiscard]] std::uint64_t checked_chunk_bytes(std::string_view file, std::string_view field,
                                                 Index3 chunk, VoxelType type);
 
 /// What no codec's packed form of that many bytes exceeds: lz4-java's adds the most, a third.
-[[nodiscard]] constexpr std::uint64_t most_packed_bytes(std::uint64_t unpacked) {
+[[nodiscard]] constexpr std::uint64_t max_packed_bytes(std::uint64_t unpacked) {
   constexpr std::uint64_t kHeaders = 64U << 10U;
   return unpacked + unpacked / 2 + kHeaders;
 }
@@ -34,6 +34,6 @@ inline constexpr std::uint64_t kMostChunkBytes = 2ULL << 30U;
 
 /// The bytes from offset on.  ERRORS: mw::Error(kInput) when they are more than `most`.
 [[nodiscard]] std::vector<std::byte> read_rest(const ByteSource& source, std::uint64_t offset,
-                                               std::uint64_t most);
+                                               std::uint64_t max);
 
 }  // namespace mw::io

@@ -55,7 +55,7 @@ void ChunkCache::account(std::uint64_t number, const std::shared_ptr<Slot>& slot
   if (found == entries_.end() || found->second.slot != slot) return;
   found->second.bytes = kOverhead + (slot->chunk ? slot->chunk->bytes.size() : 0);
   bytes_ += found->second.bytes;
-  while (bytes_ > most_bytes_ && !ages_.empty()) {
+  while (bytes_ > max_bytes_ && !ages_.empty()) {
     const auto oldest = entries_.find(ages_.back());
     bytes_ -= oldest->second.bytes;
     entries_.erase(oldest);

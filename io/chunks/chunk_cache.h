@@ -21,7 +21,7 @@ class ChunkCache {
   /// An empty pointer in the result: the store has no such chunk.
   using Loaded = std::shared_ptr<const Chunk>;
 
-  explicit ChunkCache(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+  explicit ChunkCache(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
   /// The chunk of that number, from load() unless it is still here.
   /// Memory: what is kept stays within the bound; one chunk a thread may be in use beyond that.
@@ -46,7 +46,7 @@ class ChunkCache {
   void account(std::uint64_t number, const std::shared_ptr<Slot>& slot);
   void forget(std::uint64_t number, const std::shared_ptr<Slot>& slot);
 
-  std::uint64_t most_bytes_;
+  std::uint64_t max_bytes_;
   std::mutex mutex_;
   std::list<std::uint64_t> ages_;  ///< numbers, the one used last in front
   std::unordered_map<std::uint64_t, Entry> entries_;

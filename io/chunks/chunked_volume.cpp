@@ -8,7 +8,7 @@
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/cells.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::io {
 namespace {
@@ -58,7 +58,7 @@ ChunkCache::Loaded ChunkedVolume::load(Index3 chunk) const {
 void ChunkedVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
   if (out.empty()) return;
-  each_index(cells_of(box, info_.chunk), [&](Index3 number) {
+  for_each_index(cells_of(box, info_.chunk), [&](Index3 number) {
     const Box3 held = box_of(number);
     const Box3 part = intersection(held, box);
     if (const ChunkCache::Loaded chunk = load(number)) return copy(*chunk, held, part, box, out);

@@ -17,7 +17,7 @@ constexpr std::size_t kBlockSizeAt = 8;
 
 }  // namespace
 
-std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed, std::size_t max,
                                     std::string_view name) {
   const PackedName named{"blosc", name};
   if (packed.size() < BLOSC_MIN_HEADER_LENGTH) fail_packed(named, "truncated: no whole header");
@@ -25,7 +25,7 @@ std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed, std::size
   if (blosc_cbuffer_validate(packed.data(), packed.size(), &size) < 0) {
     fail_packed(named, "damaged or truncated: the sizes in its header are wrong");
   }
-  if (size > most) fail_too_much(named, most);
+  if (size > max) fail_too_much(named, max);
   // The library takes memory for its blocks before it looks at anything else.
   const auto block = load<std::uint32_t>(packed.data() + kBlockSizeAt, ByteOrder::kLittle);
   if (size > 0 && (block == 0 || block > size)) {

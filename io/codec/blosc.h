@@ -15,6 +15,6 @@ namespace mw::io {
 /// block may be all there is.  Thread safety: any; no state of the library is shared.
 /// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
 [[nodiscard]] std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed,
-                                                  std::size_t most, std::string_view name);
+                                                  std::size_t max, std::string_view name);
 
 }  // namespace mw::io

@@ -49,11 +49,11 @@ class Bunzipper : public StreamDecoder {
 
 }  // namespace
 
-std::vector<std::byte> unpack_bzip2(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_bzip2(std::span<const std::byte> packed, std::size_t max,
                                     std::string_view name) {
   const PackedName named{"bzip2", name};
   Bunzipper bunzipper(named);
-  return unpack_streams(bunzipper, packed, most, named);
+  return unpack_streams(bunzipper, packed, max, named);
 }
 
 }  // namespace mw::io

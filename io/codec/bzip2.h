@@ -14,6 +14,6 @@ namespace mw::io {
 /// Memory: what comes out, at most `most` bytes, and 4 MiB.  Thread safety: any.
 /// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
 [[nodiscard]] std::vector<std::byte> unpack_bzip2(std::span<const std::byte> packed,
-                                                  std::size_t most, std::string_view name);
+                                                  std::size_t max, std::string_view name);
 
 }  // namespace mw::io

@@ -36,37 +36,37 @@ const char* name(Codec codec) {
   return "xz";
 }
 
-std::vector<std::byte> unpack(Codec codec, std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack(Codec codec, std::span<const std::byte> packed, std::size_t max,
                               std::string_view name) {
   switch (codec) {
     case Codec::kNone:
-      if (packed.size() > most) fail_too_much({"raw", name}, most);
+      if (packed.size() > max) fail_too_much({"raw", name}, max);
       return {packed.begin(), packed.end()};
     case Codec::kGzip:
-      return unpack_gzip(packed, most, name);
+      return unpack_gzip(packed, max, name);
     case Codec::kZlib:
-      return unpack_zlib(packed, most, name);
+      return unpack_zlib(packed, max, name);
     case Codec::kZstd:
-      return unpack_zstd(packed, most, name);
+      return unpack_zstd(packed, max, name);
     case Codec::kBlosc:
-      return unpack_blosc(packed, most, name);
+      return unpack_blosc(packed, max, name);
     case Codec::kLz4:
-      return unpack_lz4(packed, most, name);
+      return unpack_lz4(packed, max, name);
     case Codec::kLz4Java:
-      return unpack_lz4_java(packed, most, name);
+      return unpack_lz4_java(packed, max, name);
     case Codec::kBzip2:
-      return unpack_bzip2(packed, most, name);
+      return unpack_bzip2(packed, max, name);
     case Codec::kXz:
       break;
   }
-  return unpack_xz(packed, most, name);
+  return unpack_xz(packed, max, name);
 }
 
-std::uint64_t most_scratch(Codec codec, std::size_t most) {
+std::uint64_t max_scratch(Codec codec, std::size_t max) {
   constexpr std::uint64_t kMiB = 1 << 20;
-  if (codec == Codec::kBlosc) return 3 * std::uint64_t{most} + kMiB;
+  if (codec == Codec::kBlosc) return 3 * std::uint64_t{max} + kMiB;
   if (codec == Codec::kBzip2) return 4 * kMiB;
-  if (codec == Codec::kXz) return kMostXzBytes;
+  if (codec == Codec::kXz) return kMaxXzBytes;
   return kMiB;
 }
 

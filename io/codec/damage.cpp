@@ -11,8 +11,8 @@ void fail_packed(const PackedName& name, std::string_view reason) {
   fail_input(name.file, name.codec, reason, "get a whole copy of the store");
 }
 
-void fail_too_much(const PackedName& name, std::size_t most) {
-  fail_packed(name, text("unpacks to more than the ", most, " bytes that it should hold"));
+void fail_too_much(const PackedName& name, std::size_t max) {
+  fail_packed(name, text("unpacks to more than the ", max, " bytes that it should hold"));
 }
 
 void fail_no_memory(const PackedName& name) {

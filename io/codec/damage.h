@@ -18,7 +18,7 @@ struct PackedName {
 [[noreturn]] void fail_packed(const PackedName& name, std::string_view reason);
 
 /// The same for bytes that unpack to more than they may.
-[[noreturn]] void fail_too_much(const PackedName& name, std::size_t most);
+[[noreturn]] void fail_too_much(const PackedName& name, std::size_t max);
 
 /// Throws mw::Error(kResource): the library could not get the memory that it works with.
 [[noreturn]] void fail_no_memory(const PackedName& name);

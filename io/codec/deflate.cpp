@@ -44,21 +44,21 @@ class Inflater : public StreamDecoder {
 };
 
 std::vector<std::byte> inflate_all(int window_bits, std::span<const std::byte> packed,
-                                   std::size_t most, const PackedName& name) {
+                                   std::size_t max, const PackedName& name) {
   Inflater inflater(window_bits, name);
-  return unpack_streams(inflater, packed, most, name);
+  return unpack_streams(inflater, packed, max, name);
 }
 
 }  // namespace
 
-std::vector<std::byte> unpack_gzip(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_gzip(std::span<const std::byte> packed, std::size_t max,
                                    std::string_view name) {
-  return inflate_all(kGzip, packed, most, {"gzip", name});
+  return inflate_all(kGzip, packed, max, {"gzip", name});
 }
 
-std::vector<std::byte> unpack_zlib(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_zlib(std::span<const std::byte> packed, std::size_t max,
                                    std::string_view name) {
-  return inflate_all(kZlib, packed, most, {"zlib", name});
+  return inflate_all(kZlib, packed, max, {"zlib", name});
 }
 
 }  // namespace mw::io

@@ -16,7 +16,7 @@ namespace mw::io {
 namespace {
 
 /// What a packed byte unpacks to at most.
-constexpr std::size_t kMostRatio = 255;
+constexpr std::size_t kMaxRatio = 255;
 
 std::size_t size_at(std::span<const std::byte> bytes, std::size_t at) {
   return load<std::uint32_t>(bytes.data() + at, ByteOrder::kLittle);
@@ -70,7 +70,7 @@ void append_java_block(std::vector<std::byte>& out, const JavaBlock& block,
 
 void append_lz4_block(std::vector<std::byte>& out, std::span<const std::byte> block,
                       std::size_t size, const PackedName& name) {
-  if (size / kMostRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
+  if (size / kMaxRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
       block.size() > LZ4_MAX_INPUT_SIZE) {
     fail_packed(name, "damaged or truncated: it is too short for the size that it claims");
   }
@@ -84,18 +84,18 @@ void append_lz4_block(std::vector<std::byte>& out, std::span<const std::byte> bl
   }
 }
 
-std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t max,
                                   std::string_view name) {
   const PackedName named{"lz4", name};
   if (packed.size() < 4) fail_packed(named, "truncated: no whole header");
   const std::size_t size = size_at(packed, 0);
-  if (size > most) fail_too_much(named, most);
+  if (size > max) fail_too_much(named, max);
   std::vector<std::byte> out;
   append_lz4_block(out, packed.subspan(4), size, named);
   return out;
 }
 
-std::vector<std::byte> unpack_lz4_java(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_lz4_java(std::span<const std::byte> packed, std::size_t max,
                                        std::string_view name) {
   const PackedName named{"lz4", name};
   std::vector<std::byte> out;
@@ -103,7 +103,7 @@ std::vector<std::byte> unpack_lz4_java(std::span<const std::byte> packed, std::s
     const JavaBlock block = next_block(packed, named);
     packed = packed.subspan(kHeaderBytes + block.bytes.size());
     if (block.size == 0) break;  // an empty block is the end mark
-    if (block.size > most - out.size()) fail_too_much(named, most);
+    if (block.size > max - out.size()) fail_too_much(named, max);
     append_java_block(out, block, named);
   }
   if (!packed.empty()) fail_packed(named, "damaged: bytes follow its end");

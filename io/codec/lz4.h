@@ -16,12 +16,12 @@ namespace mw::io {
 /// numcodecs' framing (Zarr): the unpacked size in 4 bytes, least significant first, and one block.
 /// name: what errors call the bytes.  Memory: at most `most` bytes.  Thread safety: any.
 /// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
-[[nodiscard]] std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t most,
+[[nodiscard]] std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t max,
                                                 std::string_view name);
 
 /// The framing of lz4-java's LZ4BlockOutputStream (N5): blocks with magic, sizes and a checksum.
 [[nodiscard]] std::vector<std::byte> unpack_lz4_java(std::span<const std::byte> packed,
-                                                     std::size_t most, std::string_view name);
+                                                     std::size_t max, std::string_view name);
 
 /// Appends the `size` bytes of one bare block to out.  Nothing is allocated before the claim is
 /// possible.  ERRORS: as above.

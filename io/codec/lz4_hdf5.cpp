@@ -26,13 +26,13 @@ void append_block(std::vector<std::byte>& out, std::span<const std::byte> block,
 
 }  // namespace
 
-std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed, std::size_t max,
                                        std::string_view name) {
   const PackedName named{"lz4", name};
   if (packed.size() < kHeaderBytes) fail_packed(named, "truncated: no whole header");
   const auto size = load<std::uint64_t>(packed.data(), ByteOrder::kBig);
   const auto block_size = load<std::uint32_t>(packed.data() + 8, ByteOrder::kBig);
-  if (size > most) fail_too_much(named, most);
+  if (size > max) fail_too_much(named, max);
   if (size > 0 && block_size == 0) fail_packed(named, "damaged: its blocks are empty");
   packed = packed.subspan(kHeaderBytes);
   std::vector<std::byte> out;

@@ -15,6 +15,6 @@ namespace mw::io {
 /// name: what errors call the bytes.  Memory: at most `most` bytes.  Thread safety: any.
 /// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
 [[nodiscard]] std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed,
-                                                     std::size_t most, std::string_view name);
+                                                     std::size_t max, std::string_view name);
 
 }  // namespace mw::io

@@ -16,8 +16,8 @@ constexpr std::size_t kLongCopy = 7;
 
 class Decoder {
  public:
-  Decoder(std::span<const std::byte> packed, std::size_t most, std::string_view name)
-      : packed_(packed), most_(most), name_{"lzf", name} {}
+  Decoder(std::span<const std::byte> packed, std::size_t max, std::string_view name)
+      : packed_(packed), max_(max), name_{"lzf", name} {}
 
   [[nodiscard]] std::vector<std::byte> decode() {
     while (at_ < packed_.size()) {
@@ -38,7 +38,7 @@ class Decoder {
   }
 
   void make_room(std::size_t length) {
-    if (length > most_ - out_.size()) fail_too_much(name_, most_);
+    if (length > max_ - out_.size()) fail_too_much(name_, max_);
   }
 
   void run(std::size_t length) {
@@ -61,7 +61,7 @@ class Decoder {
   }
 
   std::span<const std::byte> packed_;
-  std::size_t most_;
+  std::size_t max_;
   PackedName name_;
   std::size_t at_ = 0;
   std::vector<std::byte> out_;
@@ -69,9 +69,9 @@ class Decoder {
 
 }  // namespace
 
-std::vector<std::byte> unpack_lzf(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_lzf(std::span<const std::byte> packed, std::size_t max,
                                   std::string_view name) {
-  return Decoder(packed, most, name).decode();
+  return Decoder(packed, max, name).decode();
 }
 
 }  // namespace mw::io

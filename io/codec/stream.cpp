@@ -19,21 +19,21 @@ bool is_padding(std::span<const std::byte> bytes) {
 class Output {
  public:
   /// The address space is taken at once, so that nothing moves; memory comes as bytes are written.
-  explicit Output(std::size_t most) : most_(most) { bytes_.reserve(most + 1); }
+  explicit Output(std::size_t max) : max_(max) { bytes_.reserve(max + 1); }
 
   [[nodiscard]] std::span<std::byte> room() {
-    bytes_.resize(std::min(most_ + 1, count_ + kPieceBytes));
+    bytes_.resize(std::min(max_ + 1, count_ + kPieceBytes));
     return std::span(bytes_).subspan(count_);
   }
   void took(std::size_t count) { count_ += count; }
-  [[nodiscard]] bool has_too_many() const { return count_ > most_; }
+  [[nodiscard]] bool has_too_many() const { return count_ > max_; }
   [[nodiscard]] std::vector<std::byte> take() {
     bytes_.resize(count_);
     return std::move(bytes_);
   }
 
  private:
-  std::size_t most_;
+  std::size_t max_;
   std::size_t count_ = 0;
   std::vector<std::byte> bytes_;
 };
@@ -41,15 +41,15 @@ class Output {
 }  // namespace
 
 std::vector<std::byte> unpack_streams(StreamDecoder& decoder, std::span<const std::byte> packed,
-                                      std::size_t most, const PackedName& name) {
-  Output out(most);
+                                      std::size_t max, const PackedName& name) {
+  Output out(max);
   while (true) {
     const auto step =
-        decoder.step(packed.first(std::min(packed.size(), kMostStreamStep)), out.room());
+        decoder.step(packed.first(std::min(packed.size(), kMaxStreamStep)), out.room());
     packed = packed.subspan(step.taken);
     out.took(step.given);
     if (step.wrong != nullptr) fail_packed(name, step.wrong);
-    if (out.has_too_many()) fail_too_much(name, most);
+    if (out.has_too_many()) fail_too_much(name, max);
     if (step.ended) {
       if (is_padding(packed)) return out.take();
       decoder.restart();

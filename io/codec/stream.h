@@ -23,20 +23,20 @@ class StreamDecoder {
 
   virtual ~StreamDecoder() = default;
   /// Unpacks from `packed` to `out`, as much as it likes.  A step that does nothing wants more
-  /// input. REQUIRES: out not empty; at most kMostStreamStep bytes each.
+  /// input. REQUIRES: out not empty; at most kMaxStreamStep bytes each.
   [[nodiscard]] virtual Step step(std::span<const std::byte> packed, std::span<std::byte> out) = 0;
   /// Makes ready for another stream that follows the one that ended.
   virtual void restart() = 0;
 };
 
 /// Libraries count bytes in 32 bits.
-inline constexpr std::size_t kMostStreamStep = std::size_t{1} << 30U;
+inline constexpr std::size_t kMaxStreamStep = std::size_t{1} << 30U;
 
 /// Unpacks one or several streams, behind which zeros may fill up.
 /// Memory: follows what really comes out, at most `most` bytes and one.
 /// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
 [[nodiscard]] std::vector<std::byte> unpack_streams(StreamDecoder& decoder,
                                                     std::span<const std::byte> packed,
-                                                    std::size_t most, const PackedName& name);
+                                                    std::size_t max, const PackedName& name);
 
 }  // namespace mw::io

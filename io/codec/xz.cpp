@@ -48,7 +48,7 @@ class XzDecoder : public StreamDecoder {
             .wrong = why_wrong(verdict)};
   }
   void restart() override {
-    if (lzma_stream_decoder(&stream_, kMostXzBytes, /*flags=*/0) != LZMA_OK) fail_no_memory(name_);
+    if (lzma_stream_decoder(&stream_, kMaxXzBytes, /*flags=*/0) != LZMA_OK) fail_no_memory(name_);
   }
 
  private:
@@ -58,11 +58,11 @@ class XzDecoder : public StreamDecoder {
 
 }  // namespace
 
-std::vector<std::byte> unpack_xz(std::span<const std::byte> packed, std::size_t most,
+std::vector<std::byte> unpack_xz(std::span<const std::byte> packed, std::size_t max,
                                  std::string_view name) {
   const PackedName named{"xz", name};
   XzDecoder decoder(named);
-  return unpack_streams(decoder, packed, most, named);
+  return unpack_streams(decoder, packed, max, named);
 }
 
 }  // namespace mw::io

@@ -13,7 +13,7 @@ namespace mw::io {
 /// One or several frames, with or without their content size.  name: what errors call the bytes.
 /// Memory: at most `most` bytes, and 200 KiB.  Thread safety: any.
 /// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
-[[nodiscard]] std::vector<std::byte> unpack_zstd(std::span<const std::byte> packed,
-                                                 std::size_t most, std::string_view name);
+[[nodiscard]] std::vector<std::byte> unpack_zstd(std::span<const std::byte> packed, std::size_t max,
+                                                 std::string_view name);
 
 }  // namespace mw::io

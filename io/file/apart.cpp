@@ -26,7 +26,7 @@ namespace {
 enum ChildExit : int { kAnswered = 0, kThrew = 10, kNoMemory = 11, kOther = 12 };
 
 /// What a pipe holds while nobody reads: a message of this size never waits for that.
-constexpr std::size_t kMostMessage = 1 << 15;
+constexpr std::size_t kMaxMessage = 1 << 15;
 
 struct Pipe {
   FileDescriptor out;
@@ -94,7 +94,7 @@ void write_all(int fd, std::span<const std::byte> bytes) {
 
 ChildExit throw_over(int fd, const Error& error) {
   const std::string message =
-      static_cast<char>(error.kind()) + std::string(error.what()).substr(0, kMostMessage - 1);
+      static_cast<char>(error.kind()) + std::string(error.what()).substr(0, kMaxMessage - 1);
   write_all(fd, std::as_bytes(std::span(message)));
   return kThrew;
 }
@@ -157,7 +157,7 @@ std::string death_of(int status) {
 }
 
 std::string read_message(const Pipe& errors) {
-  std::string message(kMostMessage, '\0');
+  std::string message(kMaxMessage, '\0');
   ApartStream stream(errors.out.get());
   std::size_t length = 0;
   while (length < message.size()) {

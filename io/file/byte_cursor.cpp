@@ -22,8 +22,8 @@ bool ByteCursor::refill() {
   return count > 0;
 }
 
-std::uint64_t ByteCursor::left(std::uint64_t most) const {
-  return source_.size_within(saturating_sum(offset(), most)) - offset();
+std::uint64_t ByteCursor::left(std::uint64_t max) const {
+  return source_.size_within(saturating_sum(offset(), max)) - offset();
 }
 
 bool ByteCursor::read(std::span<std::byte> out) {
@@ -38,10 +38,10 @@ bool ByteCursor::read(std::span<std::byte> out) {
   return true;
 }
 
-bool ByteCursor::read_line(std::string& out, std::size_t most) {
+bool ByteCursor::read_line(std::string& out, std::size_t max) {
   out.clear();
   if (peek() < 0) return false;
-  for (int c = peek(); c >= 0 && out.size() < most; c = peek()) {
+  for (int c = peek(); c >= 0 && out.size() < max; c = peek()) {
     take();
     if (c == '\n') break;
     out.push_back(static_cast<char>(c));

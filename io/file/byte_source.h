@@ -21,8 +21,8 @@ namespace mw::io {
 
 /// The same for the product.
 [[nodiscard]] inline std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-  return b != 0 && a > kMost / b ? kMost : a * b;
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+  return b != 0 && a > kMax / b ? kMax : a * b;
 }
 
 /// A readable run of bytes.  Thread safety: all members may be called from many threads.
@@ -31,8 +31,8 @@ class ByteSource {
   virtual ~ByteSource() = default;
   [[nodiscard]] virtual std::uint64_t size() const = 0;
   /// The size, but at most `most`: a source that is packed unpacks so much, not all.
-  [[nodiscard]] virtual std::uint64_t size_within(std::uint64_t most) const {
-    return std::min(size(), most);
+  [[nodiscard]] virtual std::uint64_t size_within(std::uint64_t max) const {
+    return std::min(size(), max);
   }
   /// What error messages call it; the path for a file.
   [[nodiscard]] virtual const std::string& name() const = 0;
@@ -45,6 +45,6 @@ class ByteSource {
 [[nodiscard]] std::vector<std::byte> read_prefix(const ByteSource& source, std::size_t length);
 
 /// All of it as text; nothing when that is more than `most` bytes.
-[[nodiscard]] std::optional<std::string> read_whole(const ByteSource& source, std::uint64_t most);
+[[nodiscard]] std::optional<std::string> read_whole(const ByteSource& source, std::uint64_t max);
 
 }  // namespace mw::io

@@ -23,13 +23,12 @@ class ExternalSort {
 
   /// Makes a temporary file in `folder` when memory is not enough.  ERRORS: see ScratchFile.
   ExternalSort(std::filesystem::path folder, std::size_t memory_bytes)
-      : folder_(std::move(folder)),
-        most_(std::max<std::size_t>(memory_bytes / sizeof(Record), 2)) {}
+      : folder_(std::move(folder)), max_(std::max<std::size_t>(memory_bytes / sizeof(Record), 2)) {}
 
   void add(const Record& record) {
-    if (records_.size() == most_) spill();
+    if (records_.size() == max_) spill();
     if (records_.size() == records_.capacity()) {
-      records_.reserve(std::min(most_, std::max(kFirstRecords, 2 * records_.size())));
+      records_.reserve(std::min(max_, std::max(kFirstRecords, 2 * records_.size())));
     }
     records_.push_back(record);
   }
@@ -71,7 +70,7 @@ class ExternalSort {
   /// Whether the run has another record.
   bool refill(Run& run) {
     run.at = 0;
-    const std::uint64_t share = std::max<std::uint64_t>(most_ / runs_.size(), 1);
+    const std::uint64_t share = std::max<std::uint64_t>(max_ / runs_.size(), 1);
     run.buffer.resize(std::min(share, run.end - run.next));
     file_->read_at(run.next * sizeof(Record), std::as_writable_bytes(std::span(run.buffer)));
     run.next += run.buffer.size();
@@ -97,7 +96,7 @@ class ExternalSort {
   }
 
   std::filesystem::path folder_;
-  std::size_t most_;  ///< records in memory
+  std::size_t max_;  ///< records in memory
   std::vector<Record> records_;
   std::vector<Run> runs_;
   std::optional<ScratchFile> file_;

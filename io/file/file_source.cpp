@@ -65,9 +65,9 @@ std::vector<std::byte> read_prefix(const ByteSource& source, std::size_t length)
   return bytes;
 }
 
-std::optional<std::string> read_whole(const ByteSource& source, std::uint64_t most) {
-  const std::uint64_t size = source.size_within(most + 1);
-  if (size > most) return std::nullopt;
+std::optional<std::string> read_whole(const ByteSource& source, std::uint64_t max) {
+  const std::uint64_t size = source.size_within(max + 1);
+  if (size > max) return std::nullopt;
   std::string content(size, '\0');
   source.read_at(0, std::as_writable_bytes(std::span(content)));
   return content;

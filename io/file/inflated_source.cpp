@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t kPieceBytes = 1 << 18;
 
-[[noreturn]] void fail_too_large(const std::string& name, std::uint64_t most) {
+[[noreturn]] void fail_too_large(const std::string& name, std::uint64_t max) {
   throw Error(ErrorKind::kResource,
-              text(name, ": gzip data: unpacks to more than ", most, " bytes, what ",
+              text(name, ": gzip data: unpacks to more than ", max, " bytes, what ",
                    scratch_folder().string(),
                    " has room for; set TMPDIR to a folder on a larger disk, or gunzip it there"));
 }
@@ -30,8 +30,8 @@ std::uint64_t room_to_inflate() {
 }
 
 InflatedSource::InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset,
-                               std::uint64_t most)
-    : packed_(std::move(packed)), most_(most), file_(scratch_folder()) {
+                               std::uint64_t max)
+    : packed_(std::move(packed)), max_(max), file_(scratch_folder()) {
   if (!is_gzip(*packed_, offset)) {
     fail_input(packed_->name(), "gzip data", text("no gzip data at offset ", offset));
   }
@@ -43,9 +43,9 @@ std::uint64_t InflatedSource::size() const {
   return size_within(std::numeric_limits<std::uint64_t>::max());
 }
 
-std::uint64_t InflatedSource::size_within(std::uint64_t most) const {
-  unpack_to(most);
-  return std::min<std::uint64_t>(unpacked_, most);
+std::uint64_t InflatedSource::size_within(std::uint64_t max) const {
+  unpack_to(max);
+  return std::min<std::uint64_t>(unpacked_, max);
 }
 
 void InflatedSource::read_at(std::uint64_t offset, std::span<std::byte> out) const {
@@ -66,8 +66,8 @@ void InflatedSource::unpack_to(std::uint64_t size) const {
   std::vector<std::byte> piece(inflater_ ? kPieceBytes : 0);
   while (inflater_ && unpacked_ < size) {
     const std::size_t count = inflater_->read(piece);
-    is_too_large_ = is_too_large_ || count > most_ - unpacked_;
-    if (is_too_large_) fail_too_large(name(), most_);
+    is_too_large_ = is_too_large_ || count > max_ - unpacked_;
+    if (is_too_large_) fail_too_large(name(), max_);
     file_.write_at(unpacked_, std::span(piece).first(count));
     unpacked_ += count;
     if (count < piece.size()) inflater_.reset();

@@ -9,7 +9,7 @@
 
 #include "io/file/byte_source.h"
 #include "io/file/inflater.h"
-#include "io/file/nameless_file.h"
+#include "io/file/unlinked_file.h"
 
 namespace mw::io {
 
@@ -27,10 +27,10 @@ class InflatedSource : public ByteSource {
   /// The gzip data that begin at offset.  most: bytes that may be unpacked of them.
   /// ERRORS: kInput when there are none.
   InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset,
-                 std::uint64_t most = room_to_inflate());
+                 std::uint64_t max = room_to_inflate());
 
   [[nodiscard]] std::uint64_t size() const override;
-  [[nodiscard]] std::uint64_t size_within(std::uint64_t most) const override;
+  [[nodiscard]] std::uint64_t size_within(std::uint64_t max) const override;
   [[nodiscard]] const std::string& name() const override { return packed_->name(); }
   void read_at(std::uint64_t offset, std::span<std::byte> out) const override;
 
@@ -38,8 +38,8 @@ class InflatedSource : public ByteSource {
   void unpack_to(std::uint64_t size) const;
 
   std::unique_ptr<ByteSource> packed_;
-  std::uint64_t most_;
-  NamelessFile file_;
+  std::uint64_t max_;
+  UnlinkedFile file_;
   mutable std::mutex mutex_;                    ///< of those that unpack
   mutable std::unique_ptr<Inflater> inflater_;  ///< null at the end of the data
   mutable std::atomic<std::uint64_t> unpacked_ = 0;

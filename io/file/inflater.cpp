@@ -37,9 +37,12 @@ bool can_inflate_to(std::uint64_t packed, std::uint64_t bytes) {
   return bytes / kMaxRatio <= packed;
 }
 
-Inflater::Inflater(const ByteSource& packed, DeflatedBytes place)
-    : packed_(packed), place_(std::move(place)), next_(place_.offset), buffer_(kChunkBytes) {
-  if (inflateInit2(&stream_, window_bits(place_.framing)) != Z_OK) {
+Inflater::Inflater(const ByteSource& packed, DeflatedBytes deflated)
+    : packed_(packed),
+      deflated_(std::move(deflated)),
+      next_(deflated_.offset),
+      buffer_(kChunkBytes) {
+  if (inflateInit2(&stream_, window_bits(deflated_.framing)) != Z_OK) {
     throw Error(ErrorKind::kResource, packed.name() + ": no memory to inflate it");
   }
 }
@@ -65,16 +68,16 @@ void Inflater::step() {
     return;  // wants more input; refill tells whether there is any
   } else if (verdict != Z_OK) {
     const char* reason = stream_.msg != nullptr ? stream_.msg : "damaged";
-    fail_input(packed_.name(), place_.field,
+    fail_input(packed_.name(), deflated_.field,
                text("corrupt near offset ", next_ - stream_.avail_in, " (", reason, ")"),
                "get a whole copy of the file");
   }
 }
 
 void Inflater::refill() {
-  const std::uint64_t left = place_.end - next_;
+  const std::uint64_t left = deflated_.end - next_;
   if (left == 0) {
-    fail_input(packed_.name(), place_.field,
+    fail_input(packed_.name(), deflated_.field,
                text("truncated: the packed bytes end at ", next_, ", more must follow"),
                "get a whole copy of the file");
   }
@@ -88,21 +91,21 @@ void Inflater::refill() {
 /// Members may be chained; what follows the last and is no member is padding, as for gunzip.
 void Inflater::start_next_member() {
   const std::uint64_t position = next_ - stream_.avail_in;
-  done_ = place_.framing != DeflateFraming::kGzipChain || !is_gzip(packed_, position);
+  done_ = deflated_.framing != DeflateFraming::kGzipChain || !is_gzip(packed_, position);
   if (!done_) inflateReset(&stream_);
 }
 
-std::unique_ptr<ByteSource> inflate_to_scratch(const ByteSource& packed, const DeflatedBytes& place,
-                                               std::uint64_t bytes) {
+std::unique_ptr<ByteSource> inflate_to_scratch(const ByteSource& packed,
+                                               const DeflatedBytes& deflated, std::uint64_t bytes) {
   const auto fail_short = [&](std::string_view reason) {
-    fail_input(packed.name(), place.field, text(reason, ", ", bytes, " are needed"),
+    fail_input(packed.name(), deflated.field, text(reason, ", ", bytes, " are needed"),
                "the file is truncated, or the shape or type is wrong");
   };
-  if (!can_inflate_to(place.end - place.offset, bytes)) {
-    fail_short(text(place.end - place.offset, " packed bytes cannot hold enough"));
+  if (!can_inflate_to(deflated.end - deflated.offset, bytes)) {
+    fail_short(text(deflated.end - deflated.offset, " packed bytes cannot hold enough"));
   }
   ScratchFile scratch(scratch_folder());
-  Inflater inflater(packed, place);
+  Inflater inflater(packed, deflated);
   std::vector<std::byte> buffer(std::min<std::uint64_t>(bytes, kChunkBytes));
   while (scratch.size() < bytes) {
     const auto wanted = std::min<std::uint64_t>(bytes - scratch.size(), buffer.size());

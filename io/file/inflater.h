@@ -35,7 +35,7 @@ struct DeflatedBytes {
 class Inflater {
  public:
   /// REQUIRES: packed outlives the object; place.offset <= place.end <= packed.size().
-  Inflater(const ByteSource& packed, DeflatedBytes place);
+  Inflater(const ByteSource& packed, DeflatedBytes deflated);
   ~Inflater() { inflateEnd(&stream_); }
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
@@ -49,7 +49,7 @@ class Inflater {
   void start_next_member();
 
   const ByteSource& packed_;
-  DeflatedBytes place_;
+  DeflatedBytes deflated_;
   std::uint64_t next_;
   z_stream stream_{};
   bool done_ = false;
@@ -60,7 +60,7 @@ class Inflater {
 /// memory stays bounded and the result can be read by region.  What follows them is not unpacked.
 /// ERRORS: mw::Error(kInput) when there are fewer; kResource when the disk is full.
 [[nodiscard]] std::unique_ptr<ByteSource> inflate_to_scratch(const ByteSource& packed,
-                                                             const DeflatedBytes& place,
+                                                             const DeflatedBytes& deflated,
                                                              std::uint64_t bytes);
 
 }  // namespace mw::io

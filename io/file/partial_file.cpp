@@ -121,17 +121,17 @@ std::vector<std::string> found_in(const fs::path& folder) {
   static std::map<fs::path, std::vector<std::string>> found;
   const std::lock_guard guard(mutex);
   std::error_code ignored;
-  const auto [place, is_new] = found.try_emplace(fs::absolute(folder, ignored));
-  if (!is_new) return place->second;
+  const auto [position, is_new] = found.try_emplace(fs::absolute(folder, ignored));
+  if (!is_new) return position->second;
   try {
     for (const auto& entry : fs::directory_iterator(folder)) {
       std::string name = entry.path().filename().string();
-      if (name.find(kPartial) != name.npos) place->second.push_back(std::move(name));
+      if (name.find(kPartial) != name.npos) position->second.push_back(std::move(name));
     }
   } catch (const fs::filesystem_error&) {
     // A folder that cannot be listed keeps what it has; files may be made there all the same.
   }
-  return place->second;
+  return position->second;
 }
 
 void remove_leftovers(const fs::path& target) {

@@ -9,6 +9,6 @@
 namespace mw::io {
 
 /// Printable ASCII as it is, other bytes as \xHH; "..." for what is behind `most` bytes.
-[[nodiscard]] std::string printable(std::string_view text, std::size_t most);
+[[nodiscard]] std::string printable(std::string_view text, std::size_t max);
 
 }  // namespace mw::io

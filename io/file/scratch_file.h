@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/file/nameless_file.h"
+#include "io/file/unlinked_file.h"
 
 namespace mw::io {
 
@@ -34,7 +34,7 @@ class ScratchFile {
   void flush();
   void write(std::span<const std::byte> bytes);
 
-  NamelessFile file_;
+  UnlinkedFile file_;
   std::vector<std::byte> buffer_;
   std::uint64_t flushed_ = 0;
 };

@@ -11,8 +11,8 @@ namespace mw::io {
 /// Global heap collections (HDF5 file format, III.E), and what a data set of Hdf5Kind::kText holds
 /// of them: of each string its length, its collection and its place in there.
 struct Hdf5Texts {
-  std::string heap;    ///< for `address`
-  std::string places;  ///< the data set
+  std::string heap;       ///< for `address`
+  std::string positions;  ///< the data set
 };
 
 /// address: a multiple of 8.

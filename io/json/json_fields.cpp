@@ -14,10 +14,10 @@ namespace {
 
 /// What an error quotes of a value.
 std::string quoted(const nlohmann::json& value) {
-  constexpr std::size_t kMost = 60;
+  constexpr std::size_t kMax = 60;
   if (value.is_structured()) return value.is_array() ? "an array" : "an object";
   std::string out = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-  if (out.size() > kMost) out = out.substr(0, kMost) + "...";
+  if (out.size() > kMax) out = out.substr(0, kMax) + "...";
   return out;
 }
 

@@ -22,8 +22,8 @@ std::string_view reason_of(const nlohmann::json::exception& error) {
 
 nlohmann::json parse_json(std::string_view text, std::string_view file) {
   const auto check_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-    if (depth <= kMostJsonDepth) return true;
-    fail_input(file, "JSON", mw::io::text("nested deeper than ", kMostJsonDepth, " levels"),
+    if (depth <= kMaxJsonDepth) return true;
+    fail_input(file, "JSON", mw::io::text("nested deeper than ", kMaxJsonDepth, " levels"),
                "the file is damaged");
   };
   try {
@@ -35,10 +35,10 @@ nlohmann::json parse_json(std::string_view text, std::string_view file) {
 
 nlohmann::json read_json(const std::filesystem::path& path) {
   const FileSource source(path);
-  const std::optional<std::string> content = read_whole(source, kMostJsonBytes);
+  const std::optional<std::string> content = read_whole(source, kMaxJsonBytes);
   if (!content) {
     fail_input(source.name(), "JSON",
-               text("the file has ", source.size(), " bytes, and at most ", kMostJsonBytes,
+               text("the file has ", source.size(), " bytes, and at most ", kMaxJsonBytes,
                     " are read of a description"),
                "check that it is the store's own");
   }

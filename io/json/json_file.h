@@ -11,15 +11,15 @@
 namespace mw::io {
 
 /// The largest document that is read.  A parsed one takes up to 32 times its text.
-inline constexpr std::uint64_t kMostJsonBytes = 4ULL << 20U;
+inline constexpr std::uint64_t kMaxJsonBytes = 4ULL << 20U;
 /// The deepest nesting that is read.
-inline constexpr int kMostJsonDepth = 64;
+inline constexpr int kMaxJsonDepth = 64;
 
 /// ERRORS: mw::Error(kInput) naming `file` and the place in it when the text is no JSON, or nested
-/// deeper than kMostJsonDepth.
+/// deeper than kMaxJsonDepth.
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, std::string_view file);
 
-/// ERRORS: those of parse_json; kInput when the file is missing or larger than kMostJsonBytes.
+/// ERRORS: those of parse_json; kInput when the file is missing or larger than kMaxJsonBytes.
 [[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path);
 
 }  // namespace mw::io

@@ -7,12 +7,12 @@
 #include <array>
 
 #include "kernels/core/assert.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::io {
 namespace {
 
-constexpr std::size_t kMostBytes = BrickVolume::kEdge * BrickVolume::kEdge * BrickVolume::kEdge * 4;
+constexpr std::size_t kMaxBytes = BrickVolume::kEdge * BrickVolume::kEdge * BrickVolume::kEdge * 4;
 
 std::int64_t bricks_along(std::int64_t voxels) {
   return (voxels + BrickVolume::kEdge - 1) / BrickVolume::kEdge;
@@ -38,7 +38,7 @@ BrickVolume::BrickVolume(Index3 shape, std::size_t labels, const std::filesystem
       label_bytes_(labels <= 0x100     ? 1
                    : labels <= 0x10000 ? 2
                                        : 4),
-      places_(static_cast<std::size_t>(bricks_.product())),
+      entries_(static_cast<std::size_t>(bricks_.product())),
       file_(folder) {}
 
 std::size_t BrickVolume::row(Index3 brick) const {
@@ -54,10 +54,10 @@ void BrickVolume::write(Index3 brick, std::span<const Label> voxels) {
   MW_ASSERT(voxels.size() == static_cast<std::size_t>(box_of(brick).voxels()));
   const Label first = voxels[0];
   if (std::all_of(voxels.begin(), voxels.end(), [first](Label l) { return l == first; })) {
-    places_[row(brick)] = first;
+    entries_[row(brick)] = first;
     return;
   }
-  alignas(Label) std::array<std::byte, kMostBytes> bytes;
+  alignas(Label) std::array<std::byte, kMaxBytes> bytes;
   if (label_bytes_ == 1) {
     encode<std::uint8_t>(voxels, bytes.data());
   } else if (label_bytes_ == 2) {
@@ -68,12 +68,13 @@ void BrickVolume::write(Index3 brick, std::span<const Label> voxels) {
   const std::size_t size = voxels.size() * label_bytes_;
   const std::uint64_t offset = file_size_.fetch_add(size, std::memory_order_relaxed);
   file_.write_at(offset, std::span(bytes).first(size));
-  places_[row(brick)] = kInFile | offset;
+  entries_[row(brick)] = kInFile | offset;
 }
 
-Label BrickVolume::uniform_label(Index3 brick) const {
-  const std::uint64_t place = places_[row(brick)];
-  return (place & kInFile) != 0 ? kExterior : static_cast<Label>(place);
+std::optional<Label> BrickVolume::uniform_label(Index3 brick) const {
+  const std::uint64_t entry = entries_[row(brick)];
+  if ((entry & kInFile) != 0) return std::nullopt;
+  return static_cast<Label>(entry);
 }
 
 void BrickVolume::read(const Box3& box, std::span<Label> out) const {
@@ -86,16 +87,17 @@ void BrickVolume::read(const Box3& box, std::span<Label> out) const {
   const Box3 bricks{
       {inside.lo.x / kEdge, inside.lo.y / kEdge, inside.lo.z / kEdge},
       {bricks_along(inside.hi.x), bricks_along(inside.hi.y), bricks_along(inside.hi.z)}};
-  each_index(bricks, [&](Index3 b) { copy_part(b, intersection(box_of(b), inside), box, out); });
+  for_each_index(bricks,
+                 [&](Index3 b) { copy_part(b, intersection(box_of(b), inside), box, out); });
 }
 
 void BrickVolume::copy_part(Index3 brick, const Box3& part, const Box3& box,
                             std::span<Label> out) const {
-  const Label uniform = uniform_label(brick);
+  const std::optional<Label> uniform = uniform_label(brick);
   const Box3 whole = box_of(brick);
-  alignas(Label) std::array<std::byte, kMostBytes> bytes;
-  if (uniform == kExterior) {
-    file_.read_at(places_[row(brick)] & ~kInFile,
+  alignas(Label) std::array<std::byte, kMaxBytes> bytes;
+  if (!uniform) {
+    file_.read_at(entries_[row(brick)] & ~kInFile,
                   std::span(bytes).first(static_cast<std::size_t>(whole.voxels()) * label_bytes_));
   }
   const std::int64_t count = part.shape().x;
@@ -103,8 +105,8 @@ void BrickVolume::copy_part(Index3 brick, const Box3& part, const Box3& box,
     for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
       Label* to = out.data() + box.offset(v);
       const std::int64_t first = whole.offset(v);
-      if (uniform != kExterior) {
-        std::fill_n(to, count, uniform);
+      if (uniform) {
+        std::fill_n(to, count, *uniform);
       } else if (label_bytes_ == 1) {
         decode_row<std::uint8_t>(bytes.data(), first, count, to);
       } else if (label_bytes_ == 2) {

@@ -4,9 +4,10 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <vector>
 
-#include "io/file/nameless_file.h"
+#include "io/file/unlinked_file.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
 
@@ -34,8 +35,8 @@ class BrickVolume {
   /// REQUIRES: voxels of box_of(brick), x fastest; not written before.
   void write(Index3 brick, std::span<const Label> voxels);
 
-  /// The brick's only label, or kExterior when it has several.
-  [[nodiscard]] Label uniform_label(Index3 brick) const;
+  /// The brick's only label, or none when it has several.
+  [[nodiscard]] std::optional<Label> uniform_label(Index3 brick) const;
 
   /// Reads a box that may reach outside the volume, where voxels are kExterior.
   /// REQUIRES: all bricks written; out.size() == box.voxels().
@@ -50,9 +51,9 @@ class BrickVolume {
   Index3 shape_;
   Index3 bricks_;
   std::size_t label_bytes_;
-  std::vector<std::uint64_t> places_;  ///< label of a uniform brick, or kInFile + offset
+  std::vector<std::uint64_t> entries_;  ///< label of a uniform brick, or kInFile + offset
   std::atomic<std::uint64_t> file_size_ = 0;
-  NamelessFile file_;
+  UnlinkedFile file_;
 };
 
 }  // namespace mw::io

@@ -18,13 +18,13 @@ constexpr std::uint32_t kNoSpeck = 0xffffffffU;
 /// Contacts, of which the same come again and again.
 class ContactList {
  public:
-  explicit ContactList(std::size_t most) : most_(most) {}
+  explicit ContactList(std::size_t max) : max_(max) {}
 
   /// False when there are too many.
   [[nodiscard]] bool add(const SpeckContact& contact) {
-    if (list_.size() >= std::min(limit_, most_)) {
+    if (list_.size() >= std::min(limit_, max_)) {
       sum_up();
-      if (list_.size() > contacts_that_fit(most_)) return false;
+      if (list_.size() > contacts_that_fit(max_)) return false;
     }
     list_.push_back(contact);
     return true;
@@ -53,7 +53,7 @@ class ContactList {
   }
 
   static constexpr std::size_t kFirstLimit = std::size_t{1} << 16;
-  std::size_t most_;
+  std::size_t max_;
   std::size_t limit_ = kFirstLimit;
   std::vector<SpeckContact> list_;
 };

@@ -8,7 +8,7 @@
 #include <limits>
 #include <tuple>
 
-#include "io/file/least_memory.h"
+#include "io/file/min_memory.h"
 #include "io/labels/label_runs.h"
 #include "io/labels/speck_memory.h"
 
@@ -16,7 +16,7 @@ namespace mw::io {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint64_t kMostRuns = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMaxRuns = std::uint64_t{1} << 31;
 
 /// Runs in lists that are joined and let go in no time a run.
 class RunLists {
@@ -86,7 +86,7 @@ class Finder {
   Finder(const SpeckRule& rule, const SpeckLimits& limits)
       : rule_(rule),
         limits_(limits),
-        most_runs_(std::min(limits.memory / kBytesPerSpeckRun, kMostRuns)),
+        max_runs_(std::min(limits.memory / kBytesPerSpeckRun, kMaxRuns)),
         reach_(rule.diagonal ? 1 : 0) {}
 
   void read_row(RunPlanes& planes, std::int64_t y, std::int64_t z) {
@@ -164,7 +164,7 @@ class Finder {
     });
   }
 
-  [[nodiscard]] bool is_small(const Part& part) const { return part.voxels < rule_.least; }
+  [[nodiscard]] bool is_small(const Part& part) const { return part.voxels < rule_.min; }
 
   /// REQUIRES: roots.
   std::uint32_t unite(std::uint32_t a, std::uint32_t b) {
@@ -172,7 +172,7 @@ class Finder {
     if (b < a) std::swap(a, b);
     Part &to = parts_[a], &from = parts_[b];
     from.parent = a;
-    to.voxels = std::min(to.voxels + from.voxels, rule_.least);
+    to.voxels = std::min(to.voxels + from.voxels, rule_.min);
     to.runs += from.runs;
     to.contacts += from.contacts;
     lists_.append(to.list, from.list);
@@ -182,14 +182,14 @@ class Finder {
 
   void add_run(Part& part, const LabelRun& run, std::int64_t y, std::int64_t z) {
     if (!is_small(part)) return;
-    part.voxels += std::min(static_cast<std::uint64_t>(run.end - run.begin), rule_.least);
+    part.voxels += std::min(static_cast<std::uint64_t>(run.end - run.begin), rule_.min);
     ++part.runs;
     if (stores_) {
       lists_.add(part.list, {run.begin, run.end, static_cast<std::int32_t>(y),
                              static_cast<std::int32_t>(z), 0});
     }
     memory_.add_run();
-    if (memory_.runs > most_runs_) stop_storing();
+    if (memory_.runs > max_runs_) stop_storing();
     if (!is_small(part)) forget(part);
   }
 
@@ -250,7 +250,7 @@ class Finder {
 
   SpeckRule rule_;
   SpeckLimits limits_;
-  std::uint64_t most_runs_;
+  std::uint64_t max_runs_;
   std::int32_t reach_;
   std::vector<Part> parts_;
   std::vector<Part> kept_;              ///< scratch of read_plane()
@@ -275,7 +275,7 @@ Specks find_specks(const LabelVolume& volume, const SpeckRule& rule, const Speck
 
 void fail_too_many_specks(const SpeckRule& rule, std::uint64_t specks, const SpeckLimits& limits,
                           std::uint64_t enough) {
-  std::string message = text("--drop-specks ", rule.least, ": ", specks,
+  std::string message = text("--drop-specks ", rule.min, ": ", specks,
                              " components are smaller, and do not fit into ", limits.memory,
                              " bytes; they take ", enough, "; ");
   if (limits.is_of_budget) {

@@ -12,10 +12,10 @@ namespace mw::io {
 /// Components are voxels of one label that are joined by faces, or by faces, edges and corners.
 struct SpeckRule {
   /// The most that `least` may be.
-  static constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
+  static constexpr std::uint64_t kMax = std::uint64_t{1} << 62;
 
-  std::uint64_t least = 1;  ///< voxels that a component must have to stay, from 1 to kMost
-  bool diagonal = false;    ///< 26 neighbours instead of 6
+  std::uint64_t min = 1;  ///< voxels that a component must have to stay, from 1 to kMax
+  bool diagonal = false;  ///< 26 neighbours instead of 6
 };
 
 /// Voxels of one speck next to each other along x: all of one label.

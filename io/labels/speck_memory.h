@@ -22,22 +22,22 @@ inline constexpr std::uint64_t kBytesPerSpeckContact = 2 * sizeof(SpeckContact);
 
 /// Counts of one search.
 struct SpeckMemory {
-  std::uint64_t runs = 0;       ///< of specks, and of components that may become some
-  std::uint64_t most_runs = 0;  ///< at any time
-  std::uint64_t planes = 0;     ///< bytes of two planes, the most at any time
-  std::uint64_t contacts = 0;   ///< of specks; at least as many as there are
+  std::uint64_t runs = 0;      ///< of specks, and of components that may become some
+  std::uint64_t max_runs = 0;  ///< at any time
+  std::uint64_t planes = 0;    ///< bytes of two planes, the most at any time
+  std::uint64_t contacts = 0;  ///< of specks; at least as many as there are
   std::uint64_t specks = 0;
   std::uint64_t large = 0;  ///< components, or parts of them, that are none
 
-  void add_run() { most_runs = std::max(most_runs, ++runs); }
+  void add_run() { max_runs = std::max(max_runs, ++runs); }
   /// Limits under which nothing is too much.
   [[nodiscard]] std::uint64_t enough() const {
     // Few specks that touch many times have few contacts.
     const std::uint64_t others = specks + large;
-    const std::uint64_t most = specks < (1U << 20) ? specks * others : contacts;
-    const std::uint64_t different = std::min(contacts, most);
+    const std::uint64_t max = specks < (1U << 20) ? specks * others : contacts;
+    const std::uint64_t different = std::min(contacts, max);
     const std::uint64_t listed = different + different / 7 + 8;
-    return std::max(planes, most_runs * kBytesPerSpeckRun + listed * kBytesPerSpeckContact);
+    return std::max(planes, max_runs * kBytesPerSpeckRun + listed * kBytesPerSpeckContact);
   }
 };
 

@@ -61,13 +61,13 @@ class Rounds {
     }
     std::sort(faces.begin(), faces.end());
     std::optional<RawLabel> best;
-    std::uint64_t most = 0;
+    std::uint64_t max = 0;
     for (std::size_t i = 0; i < faces.size();) {
       const RawLabel label = faces[i].first;
       std::uint64_t sum = 0;
       for (; i < faces.size() && faces[i].first == label; ++i) sum += faces[i].second;
-      if (sum <= most) continue;
-      most = sum;
+      if (sum <= max) continue;
+      max = sum;
       best = label ^ flip_;
     }
     return best;

@@ -10,9 +10,9 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMostNameBytes = 1 << 16;  ///< of one
-constexpr std::uint64_t kMostNames = 1 << 24;
-constexpr std::uint64_t kMostRecordBytes = 1 << 16;
+constexpr std::uint64_t kMaxNameBytes = 1 << 16;  ///< of one
+constexpr std::uint64_t kMaxNames = 1 << 24;
+constexpr std::uint64_t kMaxRecordBytes = 1 << 16;
 
 enum class Message : std::uint64_t { kBegin, kVertices, kTets, kFinish };
 
@@ -83,7 +83,7 @@ class Receiver {
   [[nodiscard]] bool receive() {
     Head head;
     if (!next(head) || head.message != Message::kBegin) return false;
-    if (head.names > kMostNames || head.record_bytes > kMostRecordBytes) return false;
+    if (head.names > kMaxNames || head.record_bytes > kMaxRecordBytes) return false;
     std::string record(head.record_bytes, '\0');
     if (!stream_.read(std::as_writable_bytes(std::span(record)))) return false;
     std::vector<LabelName> rows;
@@ -96,7 +96,7 @@ class Receiver {
                  .record = parse_record(record, "the mesh's record")});
     while (next(head)) {
       if (head.message == Message::kFinish) return true;
-      if (head.count > kMostApartRows) return false;
+      if (head.count > kMaxApartRows) return false;
       const bool sound = head.message == Message::kVertices ? vertices(head.count)
                          : head.message == Message::kTets   ? tets(head.count)
                                                             : false;
@@ -113,7 +113,7 @@ class Receiver {
   [[nodiscard]] bool name(LabelName& row) {
     NameHead head;
     if (!stream_.read(std::as_writable_bytes(std::span(&head, 1)))) return false;
-    if (head.bytes > kMostNameBytes) return false;
+    if (head.bytes > kMaxNameBytes) return false;
     row.label = head.label;
     row.name.resize(head.bytes);
     if (head.has_colour != 0) {

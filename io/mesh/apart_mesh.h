@@ -12,7 +12,7 @@
 namespace mw::io {
 
 /// Rows that a reader apart may write at once.
-inline constexpr std::uint64_t kMostApartRows = 1 << 16;
+inline constexpr std::uint64_t kMaxApartRows = 1 << 16;
 
 /// Runs read in a child and passes on to sink what it writes, but for finish(): that is for the
 /// caller to do once it is known that all went well.

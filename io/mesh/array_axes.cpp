@@ -13,17 +13,17 @@ namespace mw::io {
 namespace {
 
 /// Whether the corner's place in the world is p, but for rounding.
-bool is_place_of(const VolumeSpace& space, const Vector3& corner, const Position& p) {
+bool is_position_of(const VolumeSpace& space, const Vector3& corner, const Position& p) {
   constexpr double kUnitsInLastPlace = 10;
   constexpr double kRounding = kUnitsInLastPlace * std::numeric_limits<double>::epsilon();
-  const Vector3 place = to_world(space, corner);
+  const Vector3 position = to_world(space, corner);
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     largest =
         std::max({largest, std::abs(space.origin[i]), space.spacing[i] * std::abs(corner[i])});
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!(std::abs(place[k] - p[k]) <= kRounding * largest)) return false;
+    if (!(std::abs(position[k] - p[k]) <= kRounding * largest)) return false;
   }
   return true;
 }
@@ -41,7 +41,7 @@ Vector3 nearest_lattice_point(const Vector3& corner, Index3 layers) {
 Position array_position(const VolumeSpace& space, const Position& p, Index3 layers) {
   const Vector3 corner = to_corner(space, p);
   const Vector3 point = nearest_lattice_point(corner, layers);
-  const Vector3& found = is_place_of(space, point, p) ? point : corner;
+  const Vector3& found = is_position_of(space, point, p) ? point : corner;
   Position out{};
   for (std::size_t i = 0; i < 3; ++i) out[i] = space.spacing[i] * found[i];
   return out;

@@ -28,16 +28,16 @@ std::uint64_t unsortable(std::uint64_t key) {
 
 /// Hashes the vertices in order and leaves the rank of each row.
 void hash_vertices(ExternalSort<4>& positions, ExternalSort<2>& ranks, Hasher& hasher) {
-  std::uint64_t place = 0;
+  std::uint64_t position = 0;
   std::uint64_t rank = 0;
   std::array<std::uint64_t, 3> last{};
   positions.each([&](const std::array<std::uint64_t, 4>& vertex) {
     const std::array<std::uint64_t, 3> key{vertex[0], vertex[1], vertex[2]};
-    if (key != last) rank = place;
+    if (key != last) rank = position;
     last = key;
     ranks.add({vertex[3], rank});
     for (const std::uint64_t coordinate : key) hasher.add(unsortable(coordinate));
-    ++place;
+    ++position;
   });
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 /// What is no XML is known by that, however much it is.
 bool begins_with_tag(const ByteSource& source) {
-  constexpr std::size_t kMostBlanks = 4096;
-  const std::vector<std::byte> head = read_prefix(source, kMostBlanks);
+  constexpr std::size_t kMaxBlanks = 4096;
+  const std::vector<std::byte> head = read_prefix(source, kMaxBlanks);
   const std::string_view start(reinterpret_cast<const char*>(head.data()), head.size());
   const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   return first != start.npos && start[first] == '<';
@@ -44,13 +44,13 @@ std::string xml_escaped(std::string_view text) {
   return out;
 }
 
-void parse_xml(const ByteSource& source, std::uint64_t most_bytes, pugi::xml_document& document) {
+void parse_xml(const ByteSource& source, std::uint64_t max_bytes, pugi::xml_document& document) {
   if (!begins_with_tag(source)) {
     fail_input(source.name(), {}, "is no XML: it does not begin with a tag", "give another file");
   }
-  const std::optional<std::string> content = read_whole(source, most_bytes);
+  const std::optional<std::string> content = read_whole(source, max_bytes);
   if (!content) {
-    fail_input(source.name(), {}, text("more than ", most_bytes, " bytes of XML"));
+    fail_input(source.name(), {}, text("more than ", max_bytes, " bytes of XML"));
   }
   const pugi::xml_parse_result result = document.load_buffer(content->data(), content->size());
   if (result) return;

@@ -15,7 +15,7 @@ namespace mw::io {
 
 /// Parses a file whole.
 /// ERRORS: mw::Error(kInput) naming file and place when it is truncated, no XML, or larger than
-/// most_bytes.
-void parse_xml(const ByteSource& source, std::uint64_t most_bytes, pugi::xml_document& document);
+/// max_bytes.
+void parse_xml(const ByteSource& source, std::uint64_t max_bytes, pugi::xml_document& document);
 
 }  // namespace mw::io

@@ -26,9 +26,9 @@ Character first_character(std::string_view bytes) {
     if ((byte(i) & 0xC0U) != 0x80) return {};
     code = code << 6U | (byte(i) & 0x3FU);
   }
-  const char32_t least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
+  const char32_t min = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
   const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
-  if (code < least || code > 0x10FFFF || is_surrogate) return {};
+  if (code < min || code > 0x10FFFF || is_surrogate) return {};
   return {code, length};
 }
 

@@ -40,7 +40,7 @@ void each_edge(EdgeRecords& records, Visit visit) {
 
 SharedEdges find_shared_edges(const SurfaceSource& source, const ShellPlan& plan) {
   EdgeRecords records(source.folder, kSortBytes);
-  each_facet(source.mesh, plan, [&](const Triangle& rows) {
+  for_each_facet(source.mesh, plan, [&](const Triangle& rows) {
     for (std::size_t i = 0; i < 3; ++i) {
       const EdgeRows edge = edge_of(rows[i], rows[(i + 1) % 3]);
       const std::uint64_t forward = rows[i] == edge[0] ? 1 : 0;

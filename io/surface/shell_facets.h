@@ -24,7 +24,7 @@ struct SurfaceSource {
 
 /// Calls visit(rows of the mesh) on every facet, normals as planned.
 template <class Visit>
-void each_facet(GroupedMesh& mesh, const ShellPlan& plan, Visit visit) {
+void for_each_facet(GroupedMesh& mesh, const ShellPlan& plan, Visit visit) {
   for (const ShellPart& part : plan.parts) {
     const RowRange facets = mesh.facet_groups()[part.group].facets;
     for (std::uint64_t f = facets.begin; f < facets.end; ++f) {

@@ -20,7 +20,7 @@ using VerticesByCorner = ExternalSort<2>;
 
 void add_corners(const SurfaceSource& source, const ShellPlan& plan, CornersByVertex& corners) {
   std::uint64_t corner = 0;
-  each_facet(source.mesh, plan, [&](const Triangle& rows) {
+  for_each_facet(source.mesh, plan, [&](const Triangle& rows) {
     for (const std::uint64_t row : rows) corners.add({row, 0, corner++});
   });
 }

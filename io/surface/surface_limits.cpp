@@ -7,10 +7,10 @@
 
 namespace mw::io {
 
-void check_most(std::string_view file, std::string_view what, std::uint64_t count,
-                std::uint64_t most) {
-  if (count <= most) return;
-  throw Error(ErrorKind::kUsage, text(file, ": ", count, " ", what, " are more than the ", most,
+void check_max(std::string_view file, std::string_view what, std::uint64_t count,
+               std::uint64_t max) {
+  if (count <= max) return;
+  throw Error(ErrorKind::kUsage, text(file, ": ", count, " ", what, " are more than the ", max,
                                       " that this format can hold; write .vtp"));
 }
 

@@ -9,7 +9,7 @@
 namespace mw::io {
 
 /// ERRORS: mw::Error(kUsage) when there are more than `most` of `what`.
-void check_most(std::string_view file, std::string_view what, std::uint64_t count,
-                std::uint64_t most);
+void check_max(std::string_view file, std::string_view what, std::uint64_t count,
+               std::uint64_t max);
 
 }  // namespace mw::io

@@ -56,14 +56,14 @@ StarCorner* next_corner(Star& star, const StarCorner& at, const EdgeStrands& str
 /// Gives the corners from here on their sheet, if they have none.
 void name_sheet(Star& star, StarCorner& first, const EdgeStrands& strands) {
   std::vector<StarCorner*> fan;
-  std::uint64_t least = kUnknown;
+  std::uint64_t min = kUnknown;
   for (StarCorner* at = &first; at != nullptr && at->sheet == kUnknown;
        at = next_corner(star, *at, strands)) {
     at->sheet = first.corner;
-    least = std::min(least, at->corner);
+    min = std::min(min, at->corner);
     fan.push_back(at);
   }
-  for (StarCorner* const at : fan) at->sheet = least;
+  for (StarCorner* const at : fan) at->sheet = min;
 }
 
 /// Every sheet is called by the least corner in it.
@@ -130,7 +130,7 @@ using Corners = ExternalSort<4>;
 
 void add_corners(const SurfaceSource& source, const ShellPlan& plan, Corners& corners) {
   std::uint64_t corner = 0;
-  each_facet(source.mesh, plan, [&](const Triangle& rows) {
+  for_each_facet(source.mesh, plan, [&](const Triangle& rows) {
     for (std::size_t i = 0; i < 3; ++i) {
       corners.add({rows[i], rows[(i + 1) % 3], rows[(i + 2) % 3], corner++});
     }

@@ -49,15 +49,15 @@ void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64
   const std::uint64_t wanted = payload_bytes(info);
   // One byte more, since the end of a packed source has a checksum, which is compared there; what
   // is refused is counted further, so that it tells which type the voxels may have.
-  const std::uint64_t most =
+  const std::uint64_t max =
       behind == BytesBehind::kIgnored ? wanted + 1 : saturating_product(wanted, 16);
-  const std::uint64_t size = source.size_within(saturating_sum(offset, most));
+  const std::uint64_t size = source.size_within(saturating_sum(offset, max));
   const std::uint64_t held = size > offset ? size - offset : 0;
   if (held == wanted || (held > wanted && behind == BytesBehind::kIgnored)) return;
   const std::string reason =
       text("shape ", info.shape.x, " x ", info.shape.y, " x ", info.shape.z, " of ",
            name(info.type), " needs ", wanted, " bytes after offset ", offset, ", the file holds ",
-           held < most ? "" : "at least ", held);
+           held < max ? "" : "at least ", held);
   fail_input(source.name(), "voxel data", reason,
              held < wanted ? "the file is truncated or the shape or type is wrong"
                            : "the shape or type is wrong");

@@ -16,7 +16,7 @@ namespace {
 
 /// Largest cosine between two axes.  Headers in float are off by 1e-7, the sums of some tools by
 /// 1e-5; over a thousand voxels 1e-4 is a tenth of one.
-constexpr double kMostShear = 1e-4;
+constexpr double kMaxShear = 1e-4;
 
 bool is_direction(const Vector3& step) {
   const double length = std::hypot(step[0], step[1], step[2]);
@@ -86,7 +86,7 @@ std::array<Vector3, 3> axes_of(std::string_view file, const FileSpace& space) {
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const double cosine = dot(axes[i], axes[(i + 1) % 3]);
-    if (std::abs(cosine) <= kMostShear) continue;
+    if (std::abs(cosine) <= kMaxShear) continue;
     fail_input(file, space.steps_field,
                text("the axes ", std::string_view("xyz").substr(i, 1), " and ",
                     std::string_view("xyz").substr((i + 1) % 3, 1),

@@ -18,9 +18,9 @@ constexpr std::uint64_t kMaxGapBytes = 4096;
 /// The rows (runs along the fastest axis) of a box, in file order.
 class Rows {
  public:
-  Rows(const VolumeInfo& info, const ArrayPlace& place, const Box3& box)
+  Rows(const VolumeInfo& info, const ArrayLayout& position, const Box3& box)
       : info_(info),
-        offset_(place.offset),
+        offset_(position.offset),
         size_(static_cast<std::uint64_t>(byte_size(info.type))),
         box_(box) {
     const Index3 shape = box.shape();
@@ -82,8 +82,8 @@ std::int64_t group_end(const Rows& rows, std::int64_t first) {
 
 void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
-  const Rows rows(info_, place_, box);
-  const VoxelCoding coding{info_.type, place_.order, place_.scaling};
+  const Rows rows(info_, position_, box);
+  const VoxelCoding coding{info_.type, position_.order, position_.scaling};
   std::vector<std::byte> scratch;
   for (std::int64_t first = 0; first < rows.count();) {
     const std::int64_t last = group_end(rows, first);

@@ -14,7 +14,7 @@ namespace mw::io {
 
 /// Where the voxels are.  Axes go from fastest to slowest x, y, z, or z, y, x when
 /// VolumeInfo::z_fastest (a Fortran-order npy).
-struct ArrayPlace {
+struct ArrayLayout {
   std::uint64_t offset = 0;
   ByteOrder order = ByteOrder::kLittle;
   VoxelScaling scaling{};
@@ -23,8 +23,8 @@ struct ArrayPlace {
 class RawArrayVolume : public LabelVolume {
  public:
   /// REQUIRES: the source holds all voxels (check_payload).
-  RawArrayVolume(std::unique_ptr<ByteSource> source, VolumeInfo info, ArrayPlace place)
-      : source_(std::move(source)), info_(std::move(info)), place_(place) {}
+  RawArrayVolume(std::unique_ptr<ByteSource> source, VolumeInfo info, ArrayLayout position)
+      : source_(std::move(source)), info_(std::move(info)), position_(position) {}
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   /// Cost: one pread for each run of rows that lie close together; at most 1 MiB or one row of
@@ -34,7 +34,7 @@ class RawArrayVolume : public LabelVolume {
  private:
   std::unique_ptr<ByteSource> source_;
   VolumeInfo info_;
-  ArrayPlace place_;
+  ArrayLayout position_;
 };
 
 }  // namespace mw::io

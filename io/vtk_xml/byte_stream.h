@@ -19,7 +19,7 @@ class ByteStream {
   virtual void read(std::span<std::byte> out) = 0;
   /// An upper bound on the bytes left, counted up to `most`, to refuse absurd lengths before memory
   /// is taken.
-  [[nodiscard]] virtual std::uint64_t left(std::uint64_t most) const = 0;
+  [[nodiscard]] virtual std::uint64_t left(std::uint64_t max) const = 0;
 };
 
 class SourceStream : public ByteStream {
@@ -29,8 +29,8 @@ class SourceStream : public ByteStream {
     source_.read_at(next_, out);
     next_ += out.size();
   }
-  [[nodiscard]] std::uint64_t left(std::uint64_t most) const override {
-    const std::uint64_t size = source_.size_within(saturating_sum(next_, most));
+  [[nodiscard]] std::uint64_t left(std::uint64_t max) const override {
+    const std::uint64_t size = source_.size_within(saturating_sum(next_, max));
     return next_ < size ? size - next_ : 0;
   }
 
@@ -45,8 +45,8 @@ class Base64Stream : public ByteStream {
  public:
   Base64Stream(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
   void read(std::span<std::byte> out) override;
-  [[nodiscard]] std::uint64_t left(std::uint64_t most) const override {
-    return std::min<std::uint64_t>(ready_ + (text_.size() - at_), most);
+  [[nodiscard]] std::uint64_t left(std::uint64_t max) const override {
+    return std::min<std::uint64_t>(ready_ + (text_.size() - at_), max);
   }
 
  private:

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kMaxRatio = 1040;
 constexpr std::uint64_t kPieceBytes = 1 << 20;
 /// Packed bytes of an array whose size is not known from elsewhere.
-constexpr std::uint64_t kMostAnnounced = std::uint64_t{1} << 40U;
+constexpr std::uint64_t kMaxAnnounced = std::uint64_t{1} << 40U;
 
 [[noreturn]] void fail(const ArrayName& name, std::string_view reason) {
   fail_input(name.file, text("array '", name.array, "'"), reason, "the file is damaged");
@@ -209,9 +209,9 @@ std::uint64_t announced_bytes(ByteStream& stream, const VtkEncoding& encoding,
   const std::uint64_t block_bytes = read_word(stream, encoding);
   const std::uint64_t last_bytes = read_word(stream, encoding);
   if (first == 0) return 0;
-  const std::uint64_t most = stream.left(kMostAnnounced) * kMaxRatio;
-  if (block_bytes > most || last_bytes > block_bytes ||
-      (block_bytes != 0 && first > most / block_bytes)) {
+  const std::uint64_t max = stream.left(kMaxAnnounced) * kMaxRatio;
+  if (block_bytes > max || last_bytes > block_bytes ||
+      (block_bytes != 0 && first > max / block_bytes)) {
     fail(name, "block counts are not credible");
   }
   return last_bytes == 0 ? first * block_bytes : (first - 1) * block_bytes + last_bytes;

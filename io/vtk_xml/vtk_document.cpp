@@ -16,11 +16,11 @@ constexpr std::string_view kAppendedTag = "<AppendedData";
 constexpr std::uint64_t kChunkBytes = 1 << 20;
 constexpr std::string_view kRootTag = "<VTKFile";
 /// Of text, which is held in memory.
-constexpr std::uint64_t kMostTextBytes = std::uint64_t{1} << 33U;
+constexpr std::uint64_t kMaxTextBytes = std::uint64_t{1} << 33U;
 constexpr std::uint64_t kMaxStringBytes = 64 << 20;
 
 [[noreturn]] void fail_too_much_text(const std::string& file, std::string_view field) {
-  fail_input(file, field, text("more than ", kMostTextBytes, " bytes of text"),
+  fail_input(file, field, text("more than ", kMaxTextBytes, " bytes of text"),
              "save the arrays as binary data: appended, raw");
 }
 
@@ -63,7 +63,7 @@ VtkDocument::VtkDocument(const ByteSource& source, VtkKind kind) : source_(sourc
   std::size_t found = std::string::npos;
   while (found == std::string::npos) {
     const std::size_t before = head.size();
-    if (before > kMostTextBytes) fail_too_much_text(source.name(), "XML");
+    if (before > kMaxTextBytes) fail_too_much_text(source.name(), "XML");
     if (!append_chunk(source, 0, kChunkBytes, head)) break;
     if (before == 0 && head.find(kRootTag) == std::string::npos) {
       fail_input(source.name(), "XML", "no VTKFile begins here", "give a VTK XML file");
@@ -144,7 +144,7 @@ std::string_view VtkDocument::appended_text() {
     std::size_t end = std::string::npos;
     while (end == std::string::npos) {
       const std::size_t before = appended_text_.size();
-      if (before > kMostTextBytes) fail_too_much_text(file(), "AppendedData");
+      if (before > kMaxTextBytes) fail_too_much_text(file(), "AppendedData");
       if (!append_chunk(source_, appended_start_, kChunkBytes, appended_text_)) break;
       end = appended_text_.find('<', before);
     }
@@ -159,12 +159,12 @@ std::unique_ptr<ByteStream> VtkDocument::stream_of(pugi::xml_node array, const A
     return std::make_unique<Base64Stream>(array.text().get(), name.file);
   }
   const std::uint64_t offset = number(array, "offset", 0);
-  const std::uint64_t place = saturating_sum(appended_start_, offset);
-  if (format != "appended" || !appended_ || source_.size_within(place) < place) {
+  const std::uint64_t position = saturating_sum(appended_start_, offset);
+  if (format != "appended" || !appended_ || source_.size_within(position) < position) {
     fail_input(name.file, text("array '", name.array, "'"),
                text("format '", format, "' with no data at offset ", offset));
   }
-  if (appended_raw_) return std::make_unique<SourceStream>(source_, place);
+  if (appended_raw_) return std::make_unique<SourceStream>(source_, position);
   const std::string_view all = appended_text();
   return std::make_unique<Base64Stream>(all.substr(std::min<std::size_t>(offset, all.size())),
                                         name.file);

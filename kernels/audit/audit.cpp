@@ -55,7 +55,7 @@ Check compare_topology(AuditReport& report, std::size_t looked_at) {
 }
 
 /// "dense 3, dense 5, exterior".
-std::string labels_text(const PlaceLabels& labels, std::size_t label_count) {
+std::string labels_text(const JunctionLabels& labels, std::size_t label_count) {
   std::string out;
   for (const Label l : labels) {
     if (l == kNoLabel) break;
@@ -65,10 +65,10 @@ std::string labels_text(const PlaceLabels& labels, std::size_t label_count) {
   return out;
 }
 
-Check judge_places(const std::string& noun, const std::vector<PlaceChange>& changed,
-                   std::size_t count, const AuditReport& report) {
+Check judge_junctions(const std::string& noun, const std::vector<JunctionChange>& changed,
+                      std::size_t count, const AuditReport& report) {
   Offenders offenders(noun + " changed");
-  for (const PlaceChange& c : changed) {
+  for (const JunctionChange& c : changed) {
     offenders.add([&] {
       return labels_text(c.labels, report.voxels.size() - 1) + ":" +
              change_text("", c.before, c.after);
@@ -79,11 +79,12 @@ Check judge_places(const std::string& noun, const std::vector<PlaceChange>& chan
   return {"P1 " + noun, changed.empty(), detail};
 }
 
-void judge_places(AuditReport& report) {
-  if (!report.places) return;
-  const PlacesReport& p = *report.places;
-  report.checks.push_back(judge_places("interfaces", p.interfaces_changed, p.interfaces, report));
-  report.checks.push_back(judge_places("meetings", p.meetings_changed, p.meetings, report));
+void judge_junctions(AuditReport& report) {
+  if (!report.junctions) return;
+  const JunctionReport& p = *report.junctions;
+  report.checks.push_back(
+      judge_junctions("interfaces", p.interfaces_changed, p.interfaces, report));
+  report.checks.push_back(judge_junctions("meetings", p.meetings_changed, p.meetings, report));
 }
 
 Check judge_quality(const QualityReport& quality, double floor) {
@@ -130,7 +131,7 @@ Check judge_distance(const DistanceReport& distance, const std::optional<double>
 Check judge_volumes(const VolumeSummary& volumes, double bound) {
   if (!volumes.worst) {
     return {"P8 volumes", true,
-            "no label of " + std::to_string(kLeastJudgedVoxels) + " voxels or more"};
+            "no label of " + std::to_string(kMinJudgedVoxels) + " voxels or more"};
   }
   const VolumeRow& worst = *volumes.worst;
   return {"P8 volumes", volumes.error_max_abs <= bound,
@@ -146,7 +147,7 @@ void refuse_all(const AuditOptions& options, std::vector<Check>& checks) {
     checks.push_back({name, false, "not looked at: the input is no mesh"});
   };
   refuse("P1 topology");
-  if (options.count_places) {
+  if (options.count_junctions) {
     refuse("P1 interfaces");
     refuse("P1 meetings");
   }
@@ -176,8 +177,8 @@ AuditReport judge(AuditFindings findings, const AuditOptions& options) {
   const std::size_t looked_at =
       options.kept.empty() ? report.voxels.size() : static_cast<std::size_t>(kept);
   report.checks.push_back(compare_topology(report, looked_at));
-  report.places = std::move(findings.places);
-  judge_places(report);
+  report.junctions = std::move(findings.junctions);
+  judge_junctions(report);
   report.quality = findings.quality;
   report.checks.push_back(judge_quality(report.quality, options.radius_ratio_floor));
   report.distance = std::move(findings.distance);

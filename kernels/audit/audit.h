@@ -11,7 +11,7 @@
 #include "kernels/audit/betti.h"
 #include "kernels/audit/check.h"
 #include "kernels/audit/distance.h"
-#include "kernels/audit/places.h"
+#include "kernels/audit/junctions.h"
 #include "kernels/audit/quality.h"
 #include "kernels/audit/shape.h"
 #include "kernels/audit/subject.h"
@@ -22,14 +22,14 @@ namespace mw::audit {
 
 struct AuditOptions {
   double radius_ratio_floor = kSliverRadiusRatio;  ///< P3 fails below this
-  bool count_places = false;                       ///< P1 also of interfaces and meetings
+  bool count_junctions = false;                    ///< P1 also of interfaces and meetings
   bool measure_distance = true;                    ///< false: only when max_distance is set
   std::optional<double> max_distance;              ///< voxels; P4 is checked, and fails above this
   Index3 layers{1, 1, 1};  ///< distances are in voxels cut into so many layers along each axis
   /// The labels that the mesh is to hold; empty: all.  With some left out P1, P4 and P8 are about
-  /// the others, P2 as check_validity() says.  Then REQUIRES: !count_places.
+  /// the others, P2 as check_validity() says.  Then REQUIRES: !count_junctions.
   KeptLabels kept = {};
-  /// P8 fails above this share, for labels of at least kLeastJudgedVoxels; empty: no check.
+  /// P8 fails above this share, for labels of at least kMinJudgedVoxels; empty: no check.
   std::optional<double> max_volume_error = 0.05;
 };
 
@@ -43,7 +43,8 @@ struct AuditReport {
   std::vector<RegionBetti> mesh;  ///< empty when the mesh could not be read as one
   /// Labels whose Betti numbers differ, ascending dense labels; the exterior is kExterior.
   std::vector<Label> labels_changed;
-  std::optional<PlacesReport> places;  ///< as AuditOptions ask, if the mesh could be read as one
+  std::optional<JunctionReport>
+      junctions;  ///< as AuditOptions ask, if the mesh could be read as one
   /// The mesh is no partition of the box, so what was counted on it is indicative only.
   bool topology_is_indicative = false;
   ValidityReport validity;
@@ -61,7 +62,7 @@ struct AuditFindings {
   std::vector<RegionBetti> voxels;
   std::vector<RegionBetti> mesh;  ///< with gaps, without the exterior
   ValidityReport validity;
-  std::optional<PlacesReport> places;
+  std::optional<JunctionReport> junctions;
   QualityReport quality;
   std::optional<DistanceReport> distance;
   VolumeReport volumes;

@@ -9,10 +9,10 @@ namespace mw::audit {
 
 Cavities cavities_of_interfaces(std::span<const Label> part_class,
                                 const std::vector<PartPair>& face_pairs) {
-  std::vector<PlaceLabels> groups;
+  std::vector<JunctionLabels> groups;
   const auto group_of = [&](const PartPair& p) {
     const auto [a, b] = std::minmax(part_class[p.a], part_class[p.b]);
-    return PlaceLabels{a, b, kNoLabel, kNoLabel};
+    return JunctionLabels{a, b, kNoLabel, kNoLabel};
   };
   for (const PartPair& p : face_pairs) groups.push_back(group_of(p));
   std::sort(groups.begin(), groups.end());

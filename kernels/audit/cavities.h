@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "kernels/audit/junctions.h"
 #include "kernels/audit/part_graph.h"
-#include "kernels/audit/places.h"
 
 namespace mw::audit {
 
 /// Cavities (b2) by pair of labels, for all pairs with an interface.
-using Cavities = std::map<PlaceLabels, std::int64_t>;
+using Cavities = std::map<JunctionLabels, std::int64_t>;
 
 /// By Alexander duality in the 3-sphere: the components of the part graph without the pairs of
 /// parts that bear these two labels, less one.  Cost: as components_leaving_out().

@@ -89,10 +89,10 @@ DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_cou
                                 double limit) {
   const auto triangles =
       interface_triangles(MeshStars(mesh), label_count, frame, volume.shape, !kept.empty());
-  const double most = piece_radius(total_estimates(triangles));
+  const double max = piece_radius(total_estimates(triangles));
   std::vector<InterfaceTriangle> pieces;
   for (const InterfaceTriangle& t : triangles) {
-    visit_pieces(t.corners, most, [&](const VoxelTriangle& piece) {
+    for_each_piece(t.corners, max, [&](const VoxelTriangle& piece) {
       pieces.push_back({piece, t.labels});
     });
   }

@@ -45,8 +45,8 @@ std::uint32_t gathered(std::uint64_t key) {
 }
 
 VoxelFace face_of(std::uint64_t key) {
-  const std::uint64_t place = key >> 2;
-  return {{gathered(place), gathered(place >> 1), gathered(place >> 2)},
+  const std::uint64_t position = key >> 2;
+  return {{gathered(position), gathered(position >> 1), gathered(position >> 2)},
           static_cast<std::uint32_t>(key & 3U)};
 }
 
@@ -173,8 +173,8 @@ std::array<CloseFaces::Near, 2> CloseFaces::nearest(const VoxelPoint& p,
         out[n].squared = squared;
         out[n].face.lo[axis] = out[n].face.hi[axis] =
             static_cast<double>(voxel[axis]) + static_cast<double>(plane);
-        for (const auto& [k, place] : {std::pair{u, i % 3}, std::pair{v, i / 3 % 3}}) {
-          out[n].face.lo[k] = static_cast<double>(voxel[k]) + static_cast<double>(place) - 1;
+        for (const auto& [k, position] : {std::pair{u, i % 3}, std::pair{v, i / 3 % 3}}) {
+          out[n].face.lo[k] = static_cast<double>(voxel[k]) + static_cast<double>(position) - 1;
           out[n].face.hi[k] = out[n].face.lo[k] + 1;
         }
       }

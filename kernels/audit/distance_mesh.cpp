@@ -87,7 +87,7 @@ std::vector<InterfaceTriangle> interface_triangles(const MeshStars& stars, std::
                                                    const Frame& frame, Index3 shape,
                                                    bool with_gaps) {
   TriangleCollector collector(stars.mesh(), label_count, frame, shape);
-  visit_faces(stars, [&](const MeshFace& face) {
+  for_each_face(stars, [&](const MeshFace& face) {
     collector.add(face);
     if (with_gaps) collector.add_gap(face);
   });
@@ -103,8 +103,8 @@ void sort_along_curve(std::vector<InterfaceTriangle>& triangles, const Box3& box
     const VoxelPoint middle = centroid(t.corners);
     std::array<std::uint32_t, 3> cell{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const double place = (middle[k] - static_cast<double>(lo[k])) / longest * kCells;
-      cell[k] = static_cast<std::uint32_t>(std::clamp(place, 0.0, kCells - 1));
+      const double along = (middle[k] - static_cast<double>(lo[k])) / longest * kCells;
+      cell[k] = static_cast<std::uint32_t>(std::clamp(along, 0.0, kCells - 1));
     }
     return curve_position(cell);
   };
@@ -118,7 +118,7 @@ void sort_along_curve(std::vector<InterfaceTriangle>& triangles, const Box3& box
   });
   std::vector<InterfaceTriangle> sorted;
   sorted.reserve(triangles.size());
-  for (const auto& [place, i] : order) sorted.push_back(triangles[i]);
+  for (const auto& [key, i] : order) sorted.push_back(triangles[i]);
   triangles = std::move(sorted);
 }
 
@@ -165,10 +165,10 @@ std::array<VoxelTriangle, 2> halves(const VoxelTriangle& t) {
 
 void add_estimates(const VoxelTriangle& t, PieceEstimates& sums) {
   const double length = radius(t), surface = area(t);
-  double most = kPieceRadius;
+  double max = kPieceRadius;
   for (double& sum : sums) {
-    sum += 1 + length / most + surface / (most * most);
-    most *= 2;
+    sum += 1 + length / max + surface / (max * max);
+    max *= 2;
   }
 }
 
@@ -179,11 +179,11 @@ PieceEstimates total_estimates(std::span<const InterfaceTriangle> triangles) {
 }
 
 double piece_radius(const PieceEstimates& sums) {
-  constexpr double kMostPieces = 1e7, kMostPiecesATriangle = 64;
-  const double most = std::max(kMostPieces, kMostPiecesATriangle * sums.back());
+  constexpr double kMaxPieces = 1e7, kMaxPiecesATriangle = 64;
+  const double max = std::max(kMaxPieces, kMaxPiecesATriangle * sums.back());
   double radius = kPieceRadius;
   for (const double sum : sums) {
-    if (sum <= most) break;
+    if (sum <= max) break;
     radius *= 2;
   }
   return radius;

@@ -46,12 +46,12 @@ inline constexpr double kPieceRadius = 2;
 
 /// Calls visit(VoxelTriangle) for pieces of at most that radius, which together are the triangle.
 template <class Visit>
-void visit_pieces(const VoxelTriangle& t, double most, Visit&& visit) {
-  if (radius(t) <= most) {
+void for_each_piece(const VoxelTriangle& t, double max, Visit&& visit) {
+  if (radius(t) <= max) {
     visit(t);
     return;
   }
-  for (const VoxelTriangle& half : halves(t)) visit_pieces(half, most, visit);
+  for (const VoxelTriangle& half : halves(t)) for_each_piece(half, max, visit);
 }
 
 /// About how many pieces triangles make, by radius: kPieceRadius, twice that, and so on.

@@ -47,7 +47,7 @@ class LabelTrees {
 
  private:
   static constexpr std::uint64_t kFan = 4;
-  static constexpr std::size_t kMostLevels = 33;
+  static constexpr std::size_t kMaxLevels = 33;
 
   /// In single precision, widened by more than it rounds.
   struct Box {
@@ -66,7 +66,7 @@ class LabelTrees {
   };
   /// Nodes to look at, the nearest on top.
   struct Stack {
-    std::array<Waiting, kFan * kMostLevels> nodes;
+    std::array<Waiting, kFan * kMaxLevels> nodes;
     std::size_t size = 0;
   };
 

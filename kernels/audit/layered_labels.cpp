@@ -13,12 +13,12 @@ namespace mw::audit {
 namespace {
 
 void check_shape(Index3 shape) {
-  constexpr std::int64_t kMostVoxels = std::int64_t{1} << 20;
+  constexpr std::int64_t kMaxVoxels = std::int64_t{1} << 20;
   const std::int64_t longest = std::max({shape.x, shape.y, shape.z});
-  if (longest <= kMostVoxels) return;
+  if (longest <= kMaxVoxels) return;
   throw Error(ErrorKind::kResource, "distances: thick slices would be cut into " +
                                         std::to_string(longest) + " layers along an axis, above " +
-                                        std::to_string(kMostVoxels));
+                                        std::to_string(kMaxVoxels));
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ void visit_faces_at(const MeshStars& stars, std::uint32_t vertex, std::vector<Fa
 
 /// Calls visit(MeshFace) for every triangle that the tile owns, in ascending order of its vertices.
 template <class Visit>
-void visit_faces(const MeshStars& stars, Visit&& visit) {
+void for_each_face(const MeshStars& stars, Visit&& visit) {
   std::vector<FaceSide> scratch;
   for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
     if (stars.owns(v)) visit_faces_at(stars, v, scratch, visit);

@@ -34,14 +34,14 @@ bool in_range(const Rows& rows) {
 
 /// Exponent of the last bit of the smallest non-zero coordinate.
 int common_exponent(std::span<const Position* const> points) {
-  int least = std::numeric_limits<int>::max();
+  int min = std::numeric_limits<int>::max();
   for (const Position* point : points) {
     for (const double value : *point) {
       int exponent = 0;
-      if (std::frexp(value, &exponent) != 0) least = std::min(least, exponent - kMantissaBits);
+      if (std::frexp(value, &exponent) != 0) min = std::min(min, exponent - kMantissaBits);
     }
   }
-  return least;
+  return min;
 }
 
 /// value / 2^unit as a whole number.  REQUIRES: unit is common_exponent of a set with value.

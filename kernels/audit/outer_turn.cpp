@@ -133,9 +133,9 @@ void unite_around_edge(const Position& a, const Position& b, std::vector<Boundar
 
 void unite_around_vertex(const Position& v, std::span<const BoundaryWing> wings,
                          std::span<const Cone> cones, const UniteSides& unite) {
-  constexpr std::uint32_t kMostTrials = 100;
+  constexpr std::uint32_t kMaxTrials = 100;
   for (std::size_t i = 1; i < cones.size(); ++i) {
-    for (std::uint32_t trial = 0; trial < kMostTrials; ++trial) {
+    for (std::uint32_t trial = 0; trial < kMaxTrials; ++trial) {
       const Position from = inside(v, cones[i], 2 * trial);
       const Position to = inside(v, cones[0], 2 * trial + 1);  // not where a mirrored tet has it
       Way way(v, from, to);

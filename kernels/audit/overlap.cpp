@@ -36,7 +36,7 @@ class LineFinder {
       : stars_(stars), frame_(frame), shape_(shape) {}
 
   std::vector<LineCrossing> run() {
-    visit_faces(stars_, [&](const MeshFace& face) {
+    for_each_face(stars_, [&](const MeshFace& face) {
       if (face.sides.size() == 1) cross_lines(face);
     });
     return std::move(crossings_);

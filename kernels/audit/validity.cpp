@@ -107,7 +107,7 @@ class TileAudit {
   }
 
   void check_faces() {
-    visit_faces(stars_, [&](const MeshFace& face) {
+    for_each_face(stars_, [&](const MeshFace& face) {
       ++tally_.faces;
       const auto name = [&] {
         return vertex_name(face.vertices[0]) + "-" + vertex_name(face.vertices[1]) + "-" +

@@ -27,11 +27,11 @@ Number determinant(const Edges<Number>& e) {
 
 /// The coordinate in lattice units when it is what a multiple of the unit rounds to.
 std::optional<std::int64_t> lattice_coordinate(double x, double origin, double spacing) {
-  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+  constexpr double kMax = std::numeric_limits<std::int32_t>::max();
   // Half a unit in the last place each for the product, the sum, and a decimal text read back.
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   const double units = std::nearbyint((x - origin) / spacing * kUnitsPerVoxel);
-  if (!(std::abs(units) <= kMost)) return std::nullopt;
+  if (!(std::abs(units) <= kMax)) return std::nullopt;
   const double back = origin + spacing * (units / kUnitsPerVoxel);
   if (std::abs(back - x) > kRounding * (std::abs(origin) + std::abs(x))) return std::nullopt;
   return static_cast<std::int64_t>(units);
@@ -89,7 +89,7 @@ VolumeRow volume_row(Label label, std::uint64_t voxels, Int128 volume6, std::int
 }
 
 void VolumeMeter::add(const VolumeRow& row) {
-  if (row.voxels < kLeastJudgedVoxels) return;
+  if (row.voxels < kMinJudgedVoxels) return;
   const double size = std::abs(row.error);
   if (summary_.labels_measured++ == 0 || size > summary_.error_max_abs) {
     summary_.error_max_abs = size;

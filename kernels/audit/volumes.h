@@ -15,7 +15,7 @@
 namespace mw::audit {
 
 /// Labels of fewer voxels are listed but not judged: a single vertex holds a large share of them.
-inline constexpr std::uint64_t kLeastJudgedVoxels = 1000;
+inline constexpr std::uint64_t kMinJudgedVoxels = 1000;
 
 /// One label in voxels and mesh.
 struct VolumeRow {
@@ -30,7 +30,7 @@ struct VolumeRow {
 [[nodiscard]] VolumeRow volume_row(Label label, std::uint64_t voxels, Int128 volume6,
                                    std::int64_t parts = 1);
 
-/// Over the labels of at least kLeastJudgedVoxels.
+/// Over the labels of at least kMinJudgedVoxels.
 struct VolumeSummary {
   std::uint64_t labels_measured = 0;
   double error_mean_abs = 0;

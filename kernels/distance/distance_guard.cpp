@@ -11,7 +11,7 @@ namespace {
 constexpr double kRoundingGuard = 1e-9;
 
 /// A triangle looks the way of a voxel face when the cosine between their normals is not below.
-constexpr double kLeastCosine = -0.1;
+constexpr double kMinCosine = -0.1;
 constexpr double kAnyCosine = -2.0;
 
 Vec3 in_voxels(Point p) {
@@ -49,7 +49,7 @@ DistanceGuard::Piece DistanceGuard::piece(FaceSamples samples, Label low) const 
 void DistanceGuard::add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other,
                                 LocalVertex survivor, Point target,
                                 std::span<const FanTriangle> fan) {
-  const bool same_place = v == survivor && target == mesh.position(v);
+  const bool same_position = v == survivor && target == mesh.position(v);
   const Vec3 at = in_voxels(target);
   for (const FanTriangle& t : fan) {
     const bool vanishes = t.a == other || t.b == other;
@@ -63,7 +63,7 @@ void DistanceGuard::add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex 
                         .low = t.low,
                         .high = t.high,
                         .vanishes = vanishes,
-                        .stays = same_place && !vanishes});
+                        .stays = same_position && !vanishes});
     ring_.push_back(t.a);
     ring_.push_back(t.b);
   }
@@ -128,7 +128,7 @@ bool DistanceGuard::keeps_bound() {
   neighbours_ = 0;
   const std::size_t changed = changed_.size();
   for (std::size_t i = 0; i < changed; ++i) {
-    if (!changed_[i].stays && !place_samples(i)) return false;
+    if (!changed_[i].stays && !carry_samples(i)) return false;
   }
   return std::all_of(changed_.begin(), changed_.end(), [this](const Changed& t) {
     return t.stays || t.vanishes || reach_.within(t.shape.corners(), t.low, t.high);
@@ -136,7 +136,7 @@ bool DistanceGuard::keeps_bound() {
 }
 
 /// Most samples stay where they are, which is found out for several at once.
-bool DistanceGuard::place_samples(std::size_t from) {
+bool DistanceGuard::carry_samples(std::size_t from) {
   const std::span<const FaceSamples> samples = samples_.of(changed_[from].before);
   changed_[from].kept_begin = changed_[from].kept_end = kept_.size();
   bool all_stay = true;
@@ -150,7 +150,7 @@ bool DistanceGuard::place_samples(std::size_t from) {
     for (std::size_t k = 0; k < group.size(); ++k) {
       const bool stays = (staying >> k & 1U) != 0;
       kept_.push_back(stays);
-      if (!stays && !place(group[k], from)) return false;
+      if (!stays && !carry(group[k], from)) return false;
     }
   }
   changed_[from].kept_end = kept_.size();
@@ -169,13 +169,13 @@ unsigned DistanceGuard::keepers(std::span<const FaceSamples> samples, const Chan
     const Vec3 p = in_voxels(face_centre(s));
     for (std::size_t i = 0; i < 3; ++i) points[i][k] = p[static_cast<int>(i)];
     const double cosine = sign_of(s, t.low) * t.shape.unit_normal()[static_cast<int>(axis_of(s))];
-    if (k < samples.size() && cosine >= kLeastCosine) looking |= 1U << k;
+    if (k < samples.size() && cosine >= kMinCosine) looking |= 1U << k;
   }
   return looking == 0 ? 0 : looking & t.shape.within(points, limit * limit);
 }
 
 /// Together when the centre of the face is so near that all of them are, else one by one.
-bool DistanceGuard::place(FaceSamples samples, std::size_t from) {
+bool DistanceGuard::carry(FaceSamples samples, std::size_t from) {
   Wanderer w{.point = in_voxels(face_centre(samples)),
              .from = from,
              .axis = axis_of(samples),
@@ -202,7 +202,7 @@ bool DistanceGuard::place(FaceSamples samples, std::size_t from) {
 bool DistanceGuard::keeps(const Wanderer& w) const {
   const Changed& old = changed_[w.from];
   return !old.vanishes &&
-         w.sign * old.shape.unit_normal()[static_cast<int>(w.axis)] >= kLeastCosine &&
+         w.sign * old.shape.unit_normal()[static_cast<int>(w.axis)] >= kMinCosine &&
          old.shape.squared_distance(w.point) <= w.limit * w.limit;
 }
 
@@ -210,7 +210,7 @@ bool DistanceGuard::keeps(const Wanderer& w) const {
 /// limit.
 std::optional<std::size_t> DistanceGuard::receiver(const Wanderer& w) const {
   if (w.limit < 0.0) return std::nullopt;
-  if (const auto to = nearest(w, 0, kLeastCosine)) return to;
+  if (const auto to = nearest(w, 0, kMinCosine)) return to;
   return nearest(w, 0, kAnyCosine);
 }
 
@@ -218,24 +218,24 @@ std::optional<std::size_t> DistanceGuard::receiver(const Wanderer& w) const {
 std::optional<std::size_t> DistanceGuard::receiver_nearby(const Wanderer& w) {
   if (mesh_ == nullptr) return std::nullopt;
   if (neighbours_ == 0) add_neighbours();
-  if (const auto to = nearest(w, neighbours_, kLeastCosine)) return to;
+  if (const auto to = nearest(w, neighbours_, kMinCosine)) return to;
   return nearest(w, neighbours_, kAnyCosine);
 }
 
 /// The nearest from row `first` on that looks the sample's way.
 std::optional<std::size_t> DistanceGuard::nearest(const Wanderer& w, std::size_t first,
-                                                  double least_cosine) const {
+                                                  double min_cosine) const {
   const Label low = changed_[w.from].low, high = changed_[w.from].high;
-  double least = w.limit * w.limit;
+  double min = w.limit * w.limit;
   std::optional<std::size_t> to;
   for (std::size_t i = first; i < changed_.size(); ++i) {
     const Changed& t = changed_[i];
     if (t.vanishes || t.low != low || t.high != high) continue;
-    if (w.sign * t.shape.unit_normal()[static_cast<int>(w.axis)] < least_cosine) continue;
+    if (w.sign * t.shape.unit_normal()[static_cast<int>(w.axis)] < min_cosine) continue;
     if (t.shape.is_beyond(w.point, w.limit)) continue;
     const double d = t.shape.squared_distance(w.point);
-    if (to ? d < least : d <= least) {
-      least = d;
+    if (to ? d < min : d <= min) {
+      min = d;
       to = i;
     }
   }

@@ -32,7 +32,7 @@ class DistanceGuard {
   DistanceGuard(const LabelBox& labels, double max_distance, CarriedSamples& samples);
 
   /// Smallest bound that the samples can prove anything for.
-  [[nodiscard]] static constexpr double least_distance() { return 2.0 * kSampleCoveringRadius; }
+  [[nodiscard]] static constexpr double min_distance() { return 2.0 * kSampleCoveringRadius; }
 
   /// The quarters of one voxel face that a triangle carries.
   struct Piece {
@@ -44,7 +44,7 @@ class DistanceGuard {
   /// Calls visit(piece) for what a triangle carries whose smaller label is `low`; in an order that
   /// depends on the window's content only.
   template <typename Visit>
-  void each_piece(const TriangleKey& key, Label low, Visit visit) const {
+  void for_each_piece(const TriangleKey& key, Label low, Visit visit) const {
     for (const FaceSamples s : samples_.of(key)) visit(piece(s, low));
   }
 
@@ -99,14 +99,14 @@ class DistanceGuard {
   void add_neighbours();
   void add_neighbours_at(LocalVertex w);
   [[nodiscard]] bool keeps_bound();
-  [[nodiscard]] bool place_samples(std::size_t from);
+  [[nodiscard]] bool carry_samples(std::size_t from);
   [[nodiscard]] unsigned keepers(std::span<const FaceSamples> samples, const Changed& t) const;
-  [[nodiscard]] bool place(FaceSamples samples, std::size_t from);
+  [[nodiscard]] bool carry(FaceSamples samples, std::size_t from);
   [[nodiscard]] bool keeps(const Wanderer& w) const;
   [[nodiscard]] std::optional<std::size_t> receiver(const Wanderer& w) const;
   [[nodiscard]] std::optional<std::size_t> receiver_nearby(const Wanderer& w);
   [[nodiscard]] std::optional<std::size_t> nearest(const Wanderer& w, std::size_t first,
-                                                   double least_cosine) const;
+                                                   double min_cosine) const;
 
   const LabelBox& labels_;
   LabelReach reach_;

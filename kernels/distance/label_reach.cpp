@@ -85,9 +85,9 @@ Box3 LabelReach::voxels_near(const Triangle& t) const {
   std::array<std::int64_t, 3> lo{}, hi{};
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const auto [least, most] = std::minmax({t[0][i], t[1][i], t[2][i]});
-    lo[k] = floor_index(most - max_distance_);
-    hi[k] = floor_index(least + max_distance_) + 1;
+    const auto [min, max] = std::minmax({t[0][i], t[1][i], t[2][i]});
+    lo[k] = floor_index(max - max_distance_);
+    hi[k] = floor_index(min + max_distance_) + 1;
   }
   const Box3& box = labels_.box;
   return {{std::max(lo[0], box.lo.x), std::max(lo[1], box.lo.y), std::max(lo[2], box.lo.z)},

@@ -81,14 +81,14 @@ bool Cavity::keeps_lengths(Point x, const SizeField& sizes) const {
   for (const LinkTriangle& f : surface_) {
     for (const LocalVertex v : {f.a, f.b, f.c}) {
       const Point p = mesh_.position(v);
-      const double most = std::min(limit, sizes.at(p));
-      if (metric_.vector(x, p).squaredNorm() > most * most) return false;
+      const double max = std::min(limit, sizes.at(p));
+      if (metric_.vector(x, p).squaredNorm() > max * max) return false;
     }
   }
   return true;
 }
 
-void Cavity::search(CavityPlace& best) const {
+void Cavity::search(CavityPosition& best) const {
   const double size = metric_.vector(best.position, mesh_.position(surface_[0].a)).norm() +
                       metric_.vector(best.position, mesh_.position(surface_[0].b)).norm();
   for (const double step : kSteps) {
@@ -102,8 +102,8 @@ void Cavity::search(CavityPlace& best) const {
   }
 }
 
-std::optional<CavityPlace> Cavity::first_place(Point start) const {
-  CavityPlace best{start, worst_at(start, 0.0)};
+std::optional<CavityPosition> Cavity::first_position(Point start) const {
+  CavityPosition best{start, worst_at(start, 0.0)};
   const Point other = middle();
   const double there = worst_at(other, best.worst);
   if (there > best.worst) best = {other, there};
@@ -111,10 +111,11 @@ std::optional<CavityPlace> Cavity::first_place(Point start) const {
   return best;
 }
 
-std::optional<CavityPlace> Cavity::best_place(CavityPlace first, const CavityLimits& limits) const {
-  CavityPlace best = first;
+std::optional<CavityPosition> Cavity::best_position(CavityPosition first,
+                                                    const CavityLimits& limits) const {
+  CavityPosition best = first;
   search(best);
-  if (best.worst < limits.least_ratio) return std::nullopt;
+  if (best.worst < limits.min_ratio) return std::nullopt;
   if (limits.sizes != nullptr && !keeps_lengths(best.position, *limits.sizes)) return std::nullopt;
   return best;
 }

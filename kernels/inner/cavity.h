@@ -12,14 +12,14 @@
 namespace mw {
 
 /// Where a new vertex would go, and the worst radius ratio that it leaves.
-struct CavityPlace {
+struct CavityPosition {
   Point position;
   double worst = 0.0;
 };
 
 /// What is asked of the new tets.
 struct CavityLimits {
-  double least_ratio = 0.0;
+  double min_ratio = 0.0;
   const SizeField* sizes = nullptr;  ///< null: none
 };
 
@@ -35,11 +35,11 @@ class Cavity {
 
   /// The better place of `start` and the middle of the corners; none when some new tet would not be
   /// exactly positive in both.
-  [[nodiscard]] std::optional<CavityPlace> first_place(Point start) const;
+  [[nodiscard]] std::optional<CavityPosition> first_position(Point start) const;
   /// The best place that a search from there finds; none when it does not keep the limits.
   /// Cost: some 25 looks at the surface.
-  [[nodiscard]] std::optional<CavityPlace> best_place(CavityPlace first,
-                                                      const CavityLimits& limits) const;
+  [[nodiscard]] std::optional<CavityPosition> best_position(CavityPosition first,
+                                                            const CavityLimits& limits) const;
 
  private:
   void find_surface();
@@ -47,7 +47,7 @@ class Cavity {
   /// The worst radius ratio with the vertex at x, or less than `enough`; 0 when it is not allowed.
   [[nodiscard]] double worst_at(Point x, double enough) const;
   [[nodiscard]] bool keeps_lengths(Point x, const SizeField& sizes) const;
-  void search(CavityPlace& best) const;
+  void search(CavityPosition& best) const;
 
   const TetMesh& mesh_;
   const Metric& metric_;

@@ -60,7 +60,7 @@ class Pass {
  private:
   struct Choice {
     Cavity cavity;
-    CavityPlace place;
+    CavityPosition found;
   };
 
   [[nodiscard]] bool lacks_inner(const LocalTet& tet) const {
@@ -93,8 +93,8 @@ class Pass {
     const auto is_gone = [&](const LocalTet& t) { return gone_.contains(key_of(t)); };
     if (std::any_of(tets.begin(), tets.end(), is_gone)) return;
     Cavity cavity(mesh_, metric_, std::move(tets));
-    const std::optional<CavityPlace> place = cavity.first_place(start);
-    if (place) choices_.push_back({std::move(cavity), *place});
+    const std::optional<CavityPosition> position = cavity.first_position(start);
+    if (position) choices_.push_back({std::move(cavity), *position});
   }
 
   /// Searches for better places in the cavities that begin best, and takes the best of them.
@@ -102,16 +102,16 @@ class Pass {
     std::vector<Choice*> order;
     for (Choice& c : choices_) order.push_back(&c);
     std::stable_sort(order.begin(), order.end(), [](const Choice* a, const Choice* b) {
-      return a->place.worst > b->place.worst;
+      return a->found.worst > b->found.worst;
     });
     order.resize(std::min(order.size(), kSearches));
     Choice* best = nullptr;
     for (Choice* const c : order) {
-      const auto place = c->cavity.best_place(c->place, options_.limits);
-      if (!place || (best != nullptr && place->worst <= best->place.worst)) continue;
+      const auto position = c->cavity.best_position(c->found, options_.limits);
+      if (!position || (best != nullptr && position->worst <= best->found.worst)) continue;
       best = c;
-      best->place = *place;
-      if (place->worst >= kGoodRatio) break;
+      best->found = *position;
+      if (position->worst >= kGoodRatio) break;
     }
     if (best != nullptr) take(*best);
   }
@@ -171,7 +171,7 @@ class Pass {
 
   void take(const Choice& choice) {
     const auto row = mesh_.vertex_count() + static_cast<LocalVertex>(added_.size());
-    added_.push_back(choice.place.position);
+    added_.push_back(choice.found.position);
     for (const LocalTet& t : choice.cavity.tets()) gone_.insert(key_of(t));
     const std::vector<LocalTet> around = choice.cavity.tets_around(row);
     made_.insert(made_.end(), around.begin(), around.end());

@@ -18,7 +18,7 @@ namespace mw {
 class FailedPairs {
  public:
   explicit FailedPairs(std::size_t vertices)
-      : entries_(std::bit_ceil(std::clamp(4 * vertices, kLeast, kMost))),
+      : entries_(std::bit_ceil(std::clamp(4 * vertices, kMin, kMax))),
         shift_(64 - std::countr_zero(entries_.size())) {}
 
   [[nodiscard]] bool contains(const TetMesh& mesh, LocalVertex p, LocalVertex q) const {
@@ -29,8 +29,8 @@ class FailedPairs {
   }
 
  private:
-  static constexpr std::size_t kLeast = std::size_t{1} << 6;
-  static constexpr std::size_t kMost = std::size_t{1} << 14;
+  static constexpr std::size_t kMin = std::size_t{1} << 6;
+  static constexpr std::size_t kMax = std::size_t{1} << 14;
   static constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;
 
   static std::uint64_t key(std::uint32_t low, std::uint32_t high) {

@@ -113,7 +113,7 @@ CodtStats codt(TetMesh& mesh, CarriedSamples& samples, Point box, const Metric& 
       break;
     }
     const double after = odt_energy(mesh, metric);
-    if (!(after < (1.0 - options.least_gain) * before)) break;
+    if (!(after < (1.0 - options.min_gain) * before)) break;
     before = after;
   }
   return stats;

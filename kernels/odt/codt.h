@@ -20,8 +20,8 @@ struct SteinerIds {
 [[nodiscard]] SteinerIds steiner_ids(std::uint64_t window, std::uint64_t windows);
 
 struct CodtOptions {
-  int iterations = 10;       ///< at most; the paper's number
-  double least_gain = 2e-3;  ///< the last one lowers the ODT energy by less than this share
+  int iterations = 10;     ///< at most; the paper's number
+  double min_gain = 2e-3;  ///< the last one lowers the ODT energy by less than this share
   double quality_floor = 0.0;
   SteinerIds ids;
 };

@@ -9,7 +9,7 @@
 namespace mw {
 namespace {
 
-constexpr double kLeastStep = 0.1;
+constexpr double kMinStep = 0.1;
 
 /// The way from v to the mean of circumcentres.  With edges a, b, c from v the circumcentre times
 /// six-fold volume is half of |a|^2 b x c + |b|^2 c x a + |c|^2 a x b.
@@ -27,11 +27,11 @@ Vec3 way_to_optimum(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
   return sum / (2.0 * volume);
 }
 
-bool may_be_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, Point x, double least) {
+bool may_be_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, Point x, double min) {
   for (const LinkTriangle& t : mesh.star(v)) {
     const Point a = mesh.position(t.a), b = mesh.position(t.b), c = mesh.position(t.c);
     if (volume6(x, a, b, c) <= 0) return false;
-    if (least > 0.0 && radius_ratio(tet_edges(metric, x, a, b, c)) < least) return false;
+    if (min > 0.0 && radius_ratio(tet_edges(metric, x, a, b, c)) < min) return false;
   }
   return true;
 }
@@ -42,11 +42,11 @@ bool move_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double qual
   const Point start = mesh.position(v);
   const Vec3 way = way_to_optimum(mesh, metric, v);
   star.collect(mesh, metric, v);
-  const double least = std::min(quality_floor, star.shape_at(Vec3::Zero()).worst);
-  for (double step = 1.0; step > kLeastStep; step *= 0.5) {
+  const double min = std::min(quality_floor, star.shape_at(Vec3::Zero()).worst);
+  for (double step = 1.0; step > kMinStep; step *= 0.5) {
     const Point x = metric.moved(start, step * way);
     if (x == start) return false;
-    if (!may_be_at(mesh, metric, v, x, least)) continue;
+    if (!may_be_at(mesh, metric, v, x, min)) continue;
     mesh.move(v, x, mesh.quadric(v).shifted(metric.vector(start, x)));
     return true;
   }

@@ -109,13 +109,13 @@ class Patches {
     for (std::uint32_t t = 0; t < all_.tets.size(); ++t) {
       for (int corner = 0; corner < 4; ++corner) faces.push_back(tet_face(all_.tets[t], corner, t));
     }
-    each_triangle(faces, [this](auto first, auto last) {
+    for_each_triangle(faces, [this](auto first, auto last) {
       Meeting at{{{kNone, kNone}, {kNone, kNone}}};
       for (auto f = first; f != last; ++f) {
-        std::uint32_t& place = at[all_.is_old(f->tet) ? 0 : 1][f->side];
-        if (place != kNone) refuse(f->tet);
-        if (place != kNone) refuse(place);
-        place = f->tet;
+        std::uint32_t& slot = at[all_.is_old(f->tet) ? 0 : 1][f->side];
+        if (slot != kNone) refuse(f->tet);
+        if (slot != kNone) refuse(slot);
+        slot = f->tet;
       }
       settle(at);
     });

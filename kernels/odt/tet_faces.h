@@ -38,7 +38,7 @@ struct TetFace {
 
 /// Calls visit(first, last) for the faces of each triangle; triangles ascend, and at one the tets.
 template <typename Visit>
-void each_triangle(std::vector<TetFace>& faces, Visit visit) {
+void for_each_triangle(std::vector<TetFace>& faces, Visit visit) {
   std::sort(faces.begin(), faces.end());
   for (auto first = faces.begin(); first != faces.end();) {
     const auto last = std::find_if(first, faces.end(),

@@ -30,7 +30,7 @@ TetSets join_regions(const std::vector<LocalTet>& tets, Plc& plc) {
     for (int corner = 0; corner < 4; ++corner) faces.push_back(tet_face(tets[t], corner, t));
   }
   TetSets sets(tets.size());
-  each_triangle(faces, [&](auto first, auto last) {
+  for_each_triangle(faces, [&](auto first, auto last) {
     if (last - first == 2 && tets[first->tet].label == tets[first[1].tet].label) {
       sets.unite(first->tet, first[1].tet);
     } else {

@@ -17,7 +17,7 @@ void Flipper::replace() {
 }
 
 double Flipper::energy_of(const LocalTet& tet) const {
-  return tet.label == kExterior ? 0.0 : shape_energy(radius_ratio(mesh_, metric_, tet), least_);
+  return tet.label == kExterior ? 0.0 : shape_energy(radius_ratio(mesh_, metric_, tet), min_);
 }
 
 /// Also decides what new tets must reach: the worst present one, or `decent`.
@@ -29,11 +29,11 @@ double Flipper::energy_of_old_tets(double decent) {
     worst = std::min(worst, r);
     sum += shape_energy(r, 0.0);
   }
-  least_ = least_allowed(worst, decent, quality_floor_);
+  min_ = min_allowed(worst, decent, quality_floor_);
   return sum;
 }
 
-double Flipper::least_energy_worth_trying() const {
+double Flipper::min_energy_worth_trying() const {
   constexpr double kForEachNewTet = 1.3;
   std::size_t tets = 0;
   for (const Polygon& polygon : polygons_) {
@@ -44,23 +44,23 @@ double Flipper::least_energy_worth_trying() const {
 
 double Flipper::best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon,
                                    double limit) {
-  constexpr double kLeastOfTriangle = 2.0;  // two regular tets
+  constexpr double kMinOfTriangle = 2.0;  // two regular tets
   const auto [first, last, label] = polygon;
   for (std::size_t i = first; i < last; ++i) energy_[i][i + 1] = 0.0;
   for (std::size_t gap = 2; gap <= last - first; ++gap) {
-    const double elsewhere = kLeastOfTriangle * static_cast<double>(last - first - gap);
+    const double elsewhere = kMinOfTriangle * static_cast<double>(last - first - gap);
     for (std::size_t i = first; i + gap <= last; ++i) {
       const std::size_t k = i + gap;
-      double most = limit - (label == kExterior ? 0.0 : elsewhere);
+      double max = limit - (label == kExterior ? 0.0 : elsewhere);
       energy_[i][k] = std::numeric_limits<double>::infinity();
       for (std::size_t j = i + 1; j < k; ++j) {
         double sum = energy_[i][j] + energy_[j][k];
-        if (sum >= most) continue;
+        if (sum >= max) continue;
         const LocalVertex a = ring_vertex(i), b = ring_vertex(j), c = ring_vertex(k);
         sum += energy_of({{a, b, c, q}, label});
-        if (sum < most) sum += energy_of({{a, c, b, p}, label});
-        if (sum < most) {
-          energy_[i][k] = most = sum;
+        if (sum < max) sum += energy_of({{a, c, b, p}, label});
+        if (sum < max) {
+          energy_[i][k] = max = sum;
           apex_[i][k] = j;
         }
       }
@@ -143,8 +143,8 @@ bool Flipper::collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_rin
 bool Flipper::replace_within(LocalVertex p, LocalVertex q, double budget) {
   new_tets_.clear();
   for (const Polygon& polygon : polygons_) {
-    budget -= best_triangulation(p, q, polygon, budget - kLeastGain);
-    if (!(budget > kLeastGain) || !collect_triangles(p, q, polygon)) return false;
+    budget -= best_triangulation(p, q, polygon, budget - kMinGain);
+    if (!(budget > kMinGain) || !collect_triangles(p, q, polygon)) return false;
   }
   const auto keeps_lengths = [&](const LocalTet& t) { return limits_.allow_tet(t); };
   if (!std::all_of(new_tets_.begin(), new_tets_.end(), keeps_lengths)) return false;
@@ -158,7 +158,7 @@ bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
   if (mesh_.star(q).size() < mesh_.star(p).size()) std::swap(p, q);
   if (!collect_polygons(p, q, kMaxRing)) return false;
   const double energy = energy_of_old_tets(kDecentRatio);
-  return energy - least_energy_worth_trying() > kLeastGain && replace_within(p, q, energy);
+  return energy - min_energy_worth_trying() > kMinGain && replace_within(p, q, energy);
 }
 
 bool Flipper::flip_surface(LocalVertex p, LocalVertex q, double surface_gain) {

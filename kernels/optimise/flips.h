@@ -30,7 +30,7 @@ namespace mw {
 /// Vertices may be fixed: a flip changes no vertex, and a closed ring of loaded tets is all it
 /// needs.
 ///
-/// A flip must gain at least kLeastGain: the same tet listed in another order has a radius ratio
+/// A flip must gain at least kMinGain: the same tet listed in another order has a radius ratio
 /// that differs in the last bits, and a gain of that size would flip back and forth for ever.
 ///
 /// Rings of six and seven are left out: 94 of 151,000 tries succeeded on EM 64^3, those of three to
@@ -63,7 +63,7 @@ class Flipper {
  private:
   static constexpr std::size_t kMaxRing = 5;
   static constexpr std::size_t kMaxSurfaceRing = 8;
-  static constexpr double kLeastGain = 1e-2;
+  static constexpr double kMinGain = 1e-2;
 
   /// Ring vertices first .. last, a polygon of one label; last may be ring size, which is vertex 0.
   struct Polygon {
@@ -81,7 +81,7 @@ class Flipper {
   [[nodiscard]] double energy_of_old_tets(double decent);
   /// Rings of less energy are not worth a search: of 5,900 that were replaced on EM 40^3, none had
   /// less than 1.32 for each new tet.
-  [[nodiscard]] double least_energy_worth_trying() const;
+  [[nodiscard]] double min_energy_worth_trying() const;
   [[nodiscard]] double energy_of(const LocalTet& tet) const;
   /// Infinite unless below `limit`.
   [[nodiscard]] double best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon,
@@ -98,7 +98,7 @@ class Flipper {
   DistanceGuard* guard_;
   EdgeLimits limits_;
   InnerFilter inner_;
-  double least_ = 0.0;  ///< what the new tets must reach
+  double min_ = 0.0;  ///< what the new tets must reach
   EdgeRing ring_;
   std::vector<Polygon> polygons_;
   std::array<std::array<double, kMaxSurfaceRing + 1>, kMaxSurfaceRing + 1> energy_{};

@@ -22,7 +22,7 @@ constexpr double kQuadricShare = 0.1;
 
 /// A move must lower the energy by this share: tiny moves would only keep stars from coming to
 /// rest.
-constexpr double kLeastGain = 0.002;
+constexpr double kMinGain = 0.002;
 
 /// Steps of the search around a fold, shares of the mean edge.
 constexpr std::array<double, 4> kSearchSteps{0.4, 0.2, 0.1, 0.05};
@@ -33,7 +33,7 @@ class Mover {
  public:
   /// surface: null where none is fitted.
   Mover(const TetMesh& mesh, const Metric& metric, StarBatch& star, SurfaceEnergy* surface,
-        LocalVertex v, const StarShape& present, double least)
+        LocalVertex v, const StarShape& present, double min)
       : mesh_(mesh),
         metric_(metric),
         star_(star),
@@ -41,7 +41,7 @@ class Mover {
         v_(v),
         fixed_(fixed_axes(mesh.planes(v))),
         present_(present.energy),
-        least_(least) {
+        min_(min) {
     if (surface == nullptr && mesh.on_interface(v)) {
       const Quadric& q = mesh.quadric(v);
       quadric_limit_ = std::max(q.c, kInterfaceSlack * q.trace());
@@ -75,7 +75,7 @@ class Mover {
   [[nodiscard]] double energy(Point x, double enough) const {
     const Vec3 at = from_start(x);
     const double of_surface = surface_ == nullptr ? 0.0 : present_ * surface_->value_at(at);
-    return of_surface + star_.energy_at(at, least_, enough - of_surface);
+    return of_surface + star_.energy_at(at, min_, enough - of_surface);
   }
 
   /// Newton's step for StarBatch::terms_at and the surface energy; without one, on interfaces, the
@@ -115,7 +115,7 @@ class Mover {
   LocalVertex v_;
   unsigned fixed_;
   double present_;
-  double least_;
+  double min_;
   std::optional<double> quadric_limit_;
 };
 
@@ -218,16 +218,16 @@ bool Smoother::smooth(LocalVertex v) {
   const StarShape present = star_.shape_at(Vec3::Zero());
   if (!fitted && present.worst >= options_.smooth_below) return false;
   if (fitted) collect_surface(v);
-  const double least =
-      least_allowed(present.worst, fitted ? kFloorOnSurface : kDecentRatio, options_.quality_floor);
-  const Mover mover(mesh_, metric_, star_, fitted ? &surface_energy_ : nullptr, v, present, least);
+  const double min =
+      min_allowed(present.worst, fitted ? kFloorOnSurface : kDecentRatio, options_.quality_floor);
+  const Mover mover(mesh_, metric_, star_, fitted ? &surface_energy_ : nullptr, v, present, min);
   const Point start = mesh_.position(v);
   Best best{start, present.energy};
   search(mover, best, options_.newton_steps);
   const bool folded =
-      fitted && options_.surface->bend > 0.0 && surface_energy_.least_cosine() < kSharpCosine;
+      fitted && options_.surface->bend > 0.0 && surface_energy_.min_cosine() < kSharpCosine;
   if (folded) search_around(mover, surface_, best);
-  const double enough = (1.0 - kLeastGain) * present.energy;
+  const double enough = (1.0 - kMinGain) * present.energy;
   const bool moved = take(mover, start, best, enough, folded || limits_.any() ? kHalvings : 0,
                           [&](Point x) { return move_to(v, x); });
   if (fitted && debts_ != nullptr) {

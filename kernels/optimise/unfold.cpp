@@ -13,7 +13,7 @@ namespace mw {
 namespace {
 
 /// Less gain in bend energy is not worth a look.
-constexpr double kLeastGain = 0.02;
+constexpr double kMinGain = 0.02;
 /// Energy of a bend, in shape energies of a tet, for each unit of SurfaceWeights::bend.
 constexpr double kBendFactor = 5.0;
 /// The same of the mean squared distance of carried faces, for each voxel squared.
@@ -82,7 +82,7 @@ double Unfolder::misfit(const SurfaceTriangle& t, const Hinge& h) const {
   const Vec3 voxel = metric_.voxel();
   const Vec3 at = metric_.vector({}, mesh_.position(star_.vertex()));
   double sum = 0.0;
-  guard_.each_piece(
+  guard_.for_each_piece(
       triangle_key(star_.vertex(), t.a, t.b), t.low, [&](const DistanceGuard::Piece& piece) {
         const Vec3 p = piece.middle.cwiseProduct(voxel) - at;
         const double area =
@@ -100,7 +100,7 @@ bool Unfolder::unfold_one(LocalVertex v) {
     if (failed_.contains(mesh_, v, q)) continue;
     const Hinge h = hinge(spoke);
     const double gain = h.gain();
-    if (gain > kLeastGain) {
+    if (gain > kMinGain) {
       const double misfits = misfit(*h.first, h) + misfit(*h.second, h);
       const double of_surface =
           kBendFactor * weights_.bend * gain - kMisfitFactor / h.area() * misfits;

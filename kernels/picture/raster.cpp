@@ -72,7 +72,7 @@ class Coverage {
     const double half_width = triangle.line_width / 2 * samples * static_cast<double>(kUnits);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto dx = static_cast<double>(sides_[i].dx), dy = static_cast<double>(sides_[i].dy);
-      least_[i] = sides_[i].has_its_points() ? 0 : 1;
+      min_[i] = sides_[i].has_its_points() ? 0 : 1;
       if (corners_[i].lined) lined_[i] = half_width * std::sqrt(dx * dx + dy * dy);
     }
   }
@@ -93,7 +93,7 @@ class Coverage {
     on_line_ = false;
     for (std::size_t i = 0; i < 3; ++i) {
       weights_[i] = sides_[i].at(x, y);
-      if (weights_[i] < least_[i]) return false;
+      if (weights_[i] < min_[i]) return false;
       on_line_ = on_line_ || static_cast<double>(weights_[i]) < lined_[i];
     }
     return true;
@@ -113,7 +113,7 @@ class Coverage {
   std::array<Corner, 3> corners_;
   std::array<Side, 3> sides_;  ///< opposite to each corner
   std::int64_t area_;          ///< doubled
-  std::array<std::int64_t, 3> least_{};
+  std::array<std::int64_t, 3> min_{};
   std::array<double, 3> lined_{-1, -1, -1};
   std::array<std::int64_t, 3> weights_{};
   bool on_line_ = false;

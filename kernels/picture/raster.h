@@ -46,12 +46,12 @@ struct Band {
 class Raster {
  public:
   /// Largest x, y and distance between them that a corner may have, pixels.
-  static constexpr double kMostPixels = 32768;
+  static constexpr double kMaxPixels = 32768;
 
   /// REQUIRES: samples from 1 to 4.
   explicit Raster(const Band& band, int samples = 3);
 
-  /// REQUIRES: |x|, |y| <= kMostPixels; depth in [0, 1].
+  /// REQUIRES: |x|, |y| <= kMaxPixels; depth in [0, 1].
   void draw(const ScreenTriangle& triangle);
 
   /// A row of the band as red, green, blue, alpha; what no triangle covers is transparent, and

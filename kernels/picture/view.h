@@ -36,7 +36,7 @@ struct Extent {
 class Camera {
  public:
   /// REQUIRES: an extent that is not empty, and finite; width and height from 1 to
-  /// Raster::kMostPixels.  Leaves a margin of 4 % of the shorter side.
+  /// Raster::kMaxPixels.  Leaves a margin of 4 % of the shorter side.
   Camera(const View& view, const Extent& extent, int width, int height);
 
   /// REQUIRES: a point in the extent.

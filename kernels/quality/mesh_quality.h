@@ -37,8 +37,8 @@ namespace mw {
 /// Energy of a tet of radius ratio r, to be minimised as a sum: every tet counts, bad ones most.
 /// A tet below `least` makes it infinite.  (Raising only the worst tet of a star, as max-min
 /// optimisation does, leaves the mean radius ratio 0.05 to 0.1 lower at the same mesh size.)
-[[nodiscard]] inline double shape_energy(double r, double least) {
-  return r > 0.0 && r >= least ? 1.0 / r : std::numeric_limits<double>::infinity();
+[[nodiscard]] inline double shape_energy(double r, double min) {
+  return r > 0.0 && r >= min ? 1.0 / r : std::numeric_limits<double>::infinity();
 }
 
 /// What an improvement may lower tets to that were better: decent where shapes are all that
@@ -48,7 +48,7 @@ inline constexpr double kFloorOnSurface = 0.2;
 
 /// What an improvement may lower the radius ratio of a tet to, when the worst present one has
 /// `worst`: never below that, nor below the quality floor, unless it stays decent.
-[[nodiscard]] inline double least_allowed(double worst, double decent, double quality_floor) {
+[[nodiscard]] inline double min_allowed(double worst, double decent, double quality_floor) {
   return std::min(worst, std::max(decent, quality_floor));
 }
 

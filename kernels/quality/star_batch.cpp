@@ -180,18 +180,18 @@ StarShape StarBatch::shape_at(const Vec3& x) {
   return out;
 }
 
-double StarBatch::energy_at(const Vec3& x, double least, double enough) {
+double StarBatch::energy_at(const Vec3& x, double min, double enough) {
   gather_all();
   constexpr double kRounding = 1e-12;
   // No energy is below 1.
   double sum = 0.0, rest = static_cast<double>(size_) * (1.0 - kRounding);
   if (rest > enough) return rest;
-  const double most = 1.0 / least;
+  const double max = 1.0 / min;
   std::array<double, kLanes> e;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     energies(groups_[i], unit_, x, e);
     for (std::size_t k = 0; k < used_lanes(i); ++k) {
-      if (e[k] > most) return std::numeric_limits<double>::infinity();
+      if (e[k] > max) return std::numeric_limits<double>::infinity();
       sum += e[k];
     }
     rest -= static_cast<double>(used_lanes(i));

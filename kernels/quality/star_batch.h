@@ -43,7 +43,7 @@ class StarBatch {
 
   /// The sum of energies; infinite when a tet is below `least`; a lower bound of it when that
   /// exceeds `enough`.
-  [[nodiscard]] double energy_at(const Vec3& x, double least, double enough);
+  [[nodiscard]] double energy_at(const Vec3& x, double min, double enough);
 
   /// The sum of s^3 / v^2, s the sum of a tet's six squared edges and v its volume (times 6): a
   /// convex function of the position wherever all tets are positive, least for regular tets, and

@@ -63,18 +63,18 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
   return c;
 }
 
-std::array<Contraction, 4> other_places(const TetMesh& mesh, const Metric& metric,
-                                        const Contraction& contraction) {
+std::array<Contraction, 4> other_positions(const TetMesh& mesh, const Metric& metric,
+                                           const Contraction& contraction) {
   const Point keep = mesh.position(contraction.keep), drop = mesh.position(contraction.drop);
   const Point middle = between(keep, drop);
-  const std::array<Point, 4> places{between(middle, contraction.position), middle, keep, drop};
+  const std::array<Point, 4> positions{between(middle, contraction.position), middle, keep, drop};
   const Quadric sum = sum_at(mesh, metric, contraction.keep, contraction.drop);
   std::array<Contraction, 4> out;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::size_t i = 0; i < positions.size(); ++i) {
     out[i] = contraction;
-    out[i].position = places[i];
-    out[i].cost = sum.value(metric.vector(keep, places[i]));
-    out[i].moves = places[i] != keep;
+    out[i].position = positions[i];
+    out[i].cost = sum.value(metric.vector(keep, positions[i]));
+    out[i].moves = positions[i] != keep;
   }
   return out;
 }

@@ -36,8 +36,8 @@ struct Contraction {
 /// and its ends.  They spare 5 (EM) to 13 % (CT) of the vertices at the same mean radius ratio.
 /// REQUIRES: contraction.moves.
 /// ENSURES: cost is the quadric error of the place, which is on all planes that the ends are on.
-[[nodiscard]] std::array<Contraction, 4> other_places(const TetMesh& mesh, const Metric& metric,
-                                                      const Contraction& contraction);
+[[nodiscard]] std::array<Contraction, 4> other_positions(const TetMesh& mesh, const Metric& metric,
+                                                         const Contraction& contraction);
 
 /// The quadric of the surviving vertex, relative to its new position.
 [[nodiscard]] Quadric contracted_quadric(const TetMesh& mesh, const Metric& metric,

@@ -31,12 +31,12 @@ StarVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point
 
 /// Eq (3) for the paper's filter.
 StarVerdict variance_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other,
-                        Point x, double most) {
+                        Point x, double max) {
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior || t.has(other)) continue;
     const TetEdges edges =
         tet_edges(metric, x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c));
-    if (edge_length_variance(edges) >= most) return StarVerdict::kLowQuality;
+    if (edge_length_variance(edges) >= max) return StarVerdict::kLowQuality;
   }
   return StarVerdict::kGood;
 }

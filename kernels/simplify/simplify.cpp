@@ -149,7 +149,7 @@ class Simplifier {
   }
 
   /// Edges and tets at this very place.
-  StarVerdict judge_place(const Contraction& c) {
+  StarVerdict judge_junction(const Contraction& c) {
     return keeps_lengths(c) ? shape_.judge(c) : StarVerdict::kTooLong;
   }
 
@@ -157,11 +157,11 @@ class Simplifier {
   /// places that is good, and as cheap as this round demands; not with the paper's filter, which
   /// goes with the paper's place.
   StarVerdict judge(Contraction& c) {
-    const StarVerdict verdict = judge_place(c);
+    const StarVerdict verdict = judge_junction(c);
     if (verdict == StarVerdict::kGood || !c.moves || options_.edge_variance) return verdict;
-    for (const Contraction& other : other_places(mesh_, metric_, c)) {
+    for (const Contraction& other : other_positions(mesh_, metric_, c)) {
       if (other.cost > queue_.current_bound()) continue;
-      if (judge_place(other) != StarVerdict::kGood) continue;
+      if (judge_junction(other) != StarVerdict::kGood) continue;
       c = other;
       return StarVerdict::kGood;
     }
@@ -169,12 +169,12 @@ class Simplifier {
   }
 
   /// True when no fold is left at the place, or at another one that is good; that is then c's.
-  bool find_smooth_place(Contraction& c) {
+  bool find_smooth_position(Contraction& c) {
     if (bends_.stays_smooth(c)) return true;
     if (!c.moves) return false;
-    for (const Contraction& other : other_places(mesh_, metric_, c)) {
+    for (const Contraction& other : other_positions(mesh_, metric_, c)) {
       if (other.position == c.position || other.cost > queue_.current_bound()) continue;
-      if (!bends_.stays_smooth(other) || judge_place(other) != StarVerdict::kGood) continue;
+      if (!bends_.stays_smooth(other) || judge_junction(other) != StarVerdict::kGood) continue;
       c = other;
       return true;
     }
@@ -205,7 +205,7 @@ class Simplifier {
       ++stats_.topology;
       return false;
     }
-    if (both_on_boundaries && options_.keep_smooth && !find_smooth_place(c)) {
+    if (both_on_boundaries && options_.keep_smooth && !find_smooth_position(c)) {
       ++stats_.folded;
       return false;
     }

@@ -49,7 +49,7 @@ struct SimplifyStats {
 };
 
 /// Contracts edges with both ends free until none that passes the filters costs less than the last
-/// bound of VertexQueue.  Where shapes refuse the optimum, other_places() are tried; not with
+/// bound of VertexQueue.  Where shapes refuse the optimum, other_positions() are tried; not with
 /// options.edge_variance, the paper's filter, which goes with the paper's place.
 /// guard: keeps the distance bound; null: no bound.
 /// ENSURES: all tets strictly positive (exactly), options.topology kept, box kept, fixed vertices

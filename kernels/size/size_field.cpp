@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/size/cube_distance.h"
 
 namespace mw {
@@ -37,7 +37,7 @@ SizeField::SizeField(Index3 volume, const Metric& metric, std::vector<double> la
 
 void SizeField::add(const Box3& box, std::span<const Label> voxels) {
   std::size_t i = 0;
-  each_index(box, [&](Index3 v) {
+  for_each_index(box, [&](Index3 v) {
     const double limit = of_label(voxels[i++]);
     if (limit == kNoLimit) return;
     float& value = values_[row(v.x / kCube, v.y / kCube, v.z / kCube)];
@@ -70,11 +70,11 @@ bool SizeField::allows_cell(Index3 lo, int level) const {
   const auto end = [&](std::int64_t v, std::int64_t cubes) {
     return std::min((v + size) / kCube + 1, cubes);
   };
-  float least = kUnlimited;
-  each_index(Box3{{first(lo.x), first(lo.y), first(lo.z)},
-                  {end(lo.x, cubes_.x), end(lo.y, cubes_.y), end(lo.z, cubes_.z)}},
-             [&](Index3 c) { least = std::min(least, values_[row(c.x, c.y, c.z)]); });
-  return static_cast<double>(size) * voxel_diagonal_ <= static_cast<double>(least);
+  float min = kUnlimited;
+  for_each_index(Box3{{first(lo.x), first(lo.y), first(lo.z)},
+                      {end(lo.x, cubes_.x), end(lo.y, cubes_.y), end(lo.z, cubes_.z)}},
+                 [&](Index3 c) { min = std::min(min, values_[row(c.x, c.y, c.z)]); });
+  return static_cast<double>(size) * voxel_diagonal_ <= static_cast<double>(min);
 }
 
 }  // namespace mw

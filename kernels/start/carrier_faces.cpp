@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "kernels/core/each_index.h"
 #include "kernels/core/face_sample.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw {
 namespace {
@@ -43,13 +43,13 @@ std::int64_t farthest_sample(unsigned axis, const VoxelFace& to) {
 }  // namespace
 
 CarrierFaces::CarrierFaces(double max_distance) {
-  const double reach = 4.0 * (std::min(max_distance, kMostCoarseDistance) - kSampleCoveringRadius);
+  const double reach = 4.0 * (std::min(max_distance, kMaxCoarseDistance) - kSampleCoveringRadius);
   for (unsigned axis = 0; axis < 3; ++axis) find_carriers(axis, std::max(reach, 0.0));
 }
 
 void CarrierFaces::find_carriers(unsigned axis, double reach) {
   std::vector<std::pair<std::int64_t, VoxelFace>> found;
-  each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 lower) {
+  for_each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 lower) {
     for (unsigned other = 0; other < 3; ++other) {
       const VoxelFace face{lower, other};
       const std::int64_t distance = farthest_sample(axis, face);

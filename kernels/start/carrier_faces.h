@@ -38,7 +38,7 @@ struct VoxelFace {
 }
 
 /// The largest bound that coarsening makes use of, in voxels.
-inline constexpr double kMostCoarseDistance = 1.5;
+inline constexpr double kMaxCoarseDistance = 1.5;
 
 /// For a face f, the faces g on which all four samples of f (kernels/core/face_sample.h) have a
 /// point within D less the covering radius: if one of them lies between the same labels as f does
@@ -46,7 +46,7 @@ inline constexpr double kMostCoarseDistance = 1.5;
 /// each sample by itself lets no more cubes become uniform.)
 class CarrierFaces {
  public:
-  /// REQUIRES: max_distance > 0; larger ones than kMostCoarseDistance count as that.
+  /// REQUIRES: max_distance > 0; larger ones than kMaxCoarseDistance count as that.
   /// ENSURES: every face listed differs by at most one voxel along each axis.
   explicit CarrierFaces(double max_distance);
 

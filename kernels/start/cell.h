@@ -44,7 +44,7 @@ inline constexpr CellNode kCellCentre = 13;
 }
 
 /// The corner of voxels where the node is.  REQUIRES: of a single voxel, a corner of it.
-[[nodiscard]] inline Index3 place_of(const Cell& cell, CellNode node) {
+[[nodiscard]] inline Index3 position_of(const Cell& cell, CellNode node) {
   const std::int64_t s = cell.size();
   return cell.lo + Index3{node_along(node, 0) * s / 2, node_along(node, 1) * s / 2,
                           node_along(node, 2) * s / 2};

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw {
 namespace {
@@ -44,7 +44,7 @@ CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked,
   find_leaves(asked);
   bool all_large = true;
   std::size_t i = 0;
-  each_index(pairs_, [&](Index3 c) {
+  for_each_index(pairs_, [&](Index3 c) {
     int level = max_level;
     while (level > 2 && !large.is_allowed({2 * c.x, 2 * c.y, 2 * c.z}, level)) --level;
     leaves_[i++] = static_cast<std::uint8_t>(level > 2 ? level : 0);
@@ -53,7 +53,7 @@ CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked,
   if (all_large) return;
   find_levels(std::min(max_level, 2));
   i = 0;
-  each_index(pairs_, [&](Index3 c) {
+  for_each_index(pairs_, [&](Index3 c) {
     std::uint8_t& leaf = leaves_[i++];
     if (leaf == 0) leaf = small_level_at({2 * c.x, 2 * c.y, 2 * c.z});
   });
@@ -64,7 +64,7 @@ void CellLevels::find_levels(int highest) {
   for (int k = 1; k <= highest; ++k) {
     Level level = cells_of(k);
     std::size_t i = 0;
-    each_index(level.cells, [&](Index3 c) {
+    for_each_index(level.cells, [&](Index3 c) {
       level.allowed[i++] = is_uniform(c, k) && finer_allowed(c, k) && is_small(c, k) ? 1 : 0;
     });
     levels_.push_back(std::move(level));
@@ -116,7 +116,7 @@ void CellLevels::find_leaves(const Box3& asked) {
   const Box3 known = intersection(asked, {{0, 0, 0}, volume_});
   pairs_ = {cell_at(known.lo, 1), cell_at(known.hi - Index3{1, 1, 1}, 1) + Index3{1, 1, 1}};
   leaves_.reserve(static_cast<std::size_t>(pairs_.voxels()));
-  each_index(pairs_, [&](Index3 c) {
+  for_each_index(pairs_, [&](Index3 c) {
     leaves_.push_back(small_level_at({2 * c.x, 2 * c.y, 2 * c.z}));
   });
 }

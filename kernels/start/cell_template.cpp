@@ -15,7 +15,7 @@ constexpr std::array<CellFace, 6> kFaces{
     {{0, false}, {0, true}, {1, false}, {1, true}, {2, false}, {2, true}}};
 
 /// Start meshes must keep above the default quality floor, with something to spare.
-constexpr double kLeastShape = 0.25;
+constexpr double kMinShape = 0.25;
 
 bool is_odd_corner(CellNode node, bool odd) {
   const unsigned sum = (node_along(node, 0) + node_along(node, 1) + node_along(node, 2)) / 2;
@@ -169,7 +169,7 @@ CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric, double qu
     return out;
   }
   find_cone(kCellCentre, out.surface, out.tets);
-  double best = std::min(std::max(kLeastShape, quality_floor), worst_ratio(out.tets, metric));
+  double best = std::min(std::max(kMinShape, quality_floor), worst_ratio(out.tets, metric));
   bool at_centre = true;
   std::vector<NodeTet> tets;
   for (CellNode apex = 0; apex <= 26; ++apex) {

@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/start/carrier_faces.h"
 #include "kernels/start/simple_voxel.h"
 
@@ -24,8 +24,8 @@ class Coarsener {
  public:
   Coarsener(const LabelBox& original, LabelBox& labels, double max_distance)
       : original_(original), labels_(labels), carriers_(max_distance) {
-    const double reach = std::min(max_distance, kMostCoarseDistance);
-    each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 o) {
+    const double reach = std::min(max_distance, kMaxCoarseDistance);
+    for_each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 o) {
       if (static_cast<double>(o.x * o.x + o.y * o.y + o.z * o.z) <= reach * reach) {
         displacements_.push_back(o);
       }

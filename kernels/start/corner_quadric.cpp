@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/start/cell.h"
 
 namespace mw {
@@ -40,12 +40,12 @@ class WideCube {
   WideCube(const StartLabels& labels, Index3 corner) {
     const Octant around = voxels_around(labels.shape, corner);
     std::size_t i = 0;
-    each_index(Box3{corner - Index3{kWide, kWide, kWide}, corner + Index3{kWide, kWide, kWide}},
-               [&](Index3 v) {
-                 const Label l = labels.original.at(v);
-                 const bool meets = std::find(around.begin(), around.end(), l) != around.end();
-                 labels_[i++] = meets ? l : kExterior;
-               });
+    for_each_index(Box3{corner - Index3{kWide, kWide, kWide}, corner + Index3{kWide, kWide, kWide}},
+                   [&](Index3 v) {
+                     const Label l = labels.original.at(v);
+                     const bool meets = std::find(around.begin(), around.end(), l) != around.end();
+                     labels_[i++] = meets ? l : kExterior;
+                   });
   }
 
   /// Adds up the faces of each pair of labels.

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "kernels/core/each_index.h"
 #include "kernels/core/error.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/start/carrier_faces.h"
 #include "kernels/start/cell_template.h"
 #include "kernels/start/corner_quadric.h"
@@ -21,7 +21,7 @@ namespace {
 using CornerTriangle = std::array<Index3, 3>;
 
 CornerTriangle placed(const Cell& cell, const NodeTriangle& t) {
-  return {place_of(cell, t[0]), place_of(cell, t[1]), place_of(cell, t[2])};
+  return {position_of(cell, t[0]), position_of(cell, t[1]), position_of(cell, t[2])};
 }
 
 Point lattice_point(Index3 corner) {
@@ -97,7 +97,7 @@ class StartBuilder {
     out.tets = mesh_.tets.size();
     if (options_.with_samples) {
       each_input_face([&](const VoxelFace& face) {
-        if (place_in_block(face)) out.samples += kSamplesPerFace;
+        if (index_in_block(face)) out.samples += kSamplesPerFace;
       });
     }
     return out;
@@ -105,7 +105,7 @@ class StartBuilder {
 
  private:
   /// Position of a corner among those of the block: ascending with the id, but not yet a row.
-  std::uint32_t place(Index3 corner) {
+  std::uint32_t position(Index3 corner) {
     const std::int64_t at = corners_.offset(corner);
     used_[static_cast<std::size_t>(at)] = 1;
     return static_cast<std::uint32_t>(at);
@@ -114,7 +114,7 @@ class StartBuilder {
   void add_cells() {
     const Box3 pairs{{block_.lo.x / 2, block_.lo.y / 2, block_.lo.z / 2},
                      {(block_.hi.x + 1) / 2, (block_.hi.y + 1) / 2, (block_.hi.z + 1) / 2}};
-    each_index(pairs, [&](Index3 p) {
+    for_each_index(pairs, [&](Index3 p) {
       const Index3 voxel{2 * p.x, 2 * p.y, 2 * p.z};
       const Cell cell{voxel, levels_.level_at(voxel)};
       if (is_single(cell)) return add_voxels(voxel);
@@ -138,15 +138,15 @@ class StartBuilder {
   }
 
   void add_tet(const Cell& cell, const NodeTet& t, Label label) {
-    std::array<std::uint32_t, 4> places{};
-    for (std::size_t i = 0; i < 4; ++i) places[i] = place(place_of(cell, t[i]));
-    std::sort(places.begin(), places.end());
-    mesh_.tets.push_back({places, label});
+    std::array<std::uint32_t, 4> positions{};
+    for (std::size_t i = 0; i < 4; ++i) positions[i] = position(position_of(cell, t[i]));
+    std::sort(positions.begin(), positions.end());
+    mesh_.tets.push_back({positions, label});
   }
 
   /// Those of the eight voxels from `lo` that are in the block.
   void add_voxels(Index3 lo) {
-    each_index(Box3{lo, lo + Index3{2, 2, 2}}, [&](Index3 voxel) {
+    for_each_index(Box3{lo, lo + Index3{2, 2, 2}}, [&](Index3 voxel) {
       if (block_.contains(voxel)) add_cell({voxel, 0});
     });
   }
@@ -180,7 +180,7 @@ class StartBuilder {
     if (std::all_of(all.begin(), all.end(), [&](Label l) { return l == all[0]; })) return;
     const std::int64_t reach = options_.coarse ? 1 : 0;
     const Index3 lo = block_.lo - Index3{reach + 1, reach + 1, reach + 1};
-    each_index(Box3{lo, block_.hi + Index3{reach, reach, reach}}, [&](Index3 lower) {
+    for_each_index(Box3{lo, block_.hi + Index3{reach, reach, reach}}, [&](Index3 lower) {
       const Label label = labels_.original.at(lower);
       if (label == kExterior) return;
       for (unsigned axis = 0; axis < 3; ++axis) {
@@ -197,7 +197,7 @@ class StartBuilder {
     Label label = 0;
   };
 
-  [[nodiscard]] std::optional<Place> place_in_block(const VoxelFace& face) const {
+  [[nodiscard]] std::optional<Place> index_in_block(const VoxelFace& face) const {
     const LabelPair pair = labels_beside(labels_.original, face);
     const VoxelFace carrier = carrier_of(face);
     const bool low_is_lower = labels_.shape.at(carrier.lower) == pair.low;
@@ -207,16 +207,17 @@ class StartBuilder {
   }
 
   void add_samples(const VoxelFace& face) {
-    const std::optional<Place> place = place_in_block(face);
-    if (!place) return;
-    triangulate(place->owner, {place->carrier.axis, place->owner == place->carrier.lower});
+    const std::optional<Place> position = index_in_block(face);
+    if (!position) return;
+    triangulate(position->owner,
+                {position->carrier.axis, position->owner == position->carrier.lower});
     const FaceSamples all = face_samples(face.lower, face.axis, kAllQuarters);
     const std::size_t first = mesh_.samples.size();
     for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
       const Point p = sample_position(all, quarter);
-      add_to_face(
-          {triangle_below(p, place->carrier), place->label, with_quarters(all, 1U << quarter)},
-          first);
+      add_to_face({triangle_below(p, position->carrier), position->label,
+                   with_quarters(all, 1U << quarter)},
+                  first);
     }
   }
 
@@ -269,9 +270,10 @@ class StartBuilder {
         std::find_if(triangles_.begin(), triangles_.end(),
                      [&](const CornerTriangle& t) { return on_triangle(foot, t, carrier.axis); });
     MW_ASSERT(found != triangles_.end());
-    std::array<std::uint32_t, 3> places{place((*found)[0]), place((*found)[1]), place((*found)[2])};
-    std::sort(places.begin(), places.end());
-    return places;
+    std::array<std::uint32_t, 3> positions{position((*found)[0]), position((*found)[1]),
+                                           position((*found)[2])};
+    std::sort(positions.begin(), positions.end());
+    return positions;
   }
 
   /// Joins a sample to those of its face, which begin at `first`, on the same triangle.
@@ -288,7 +290,7 @@ class StartBuilder {
   void number_vertices() {
     std::vector<std::uint32_t> row(used_.size());
     std::size_t at = 0;
-    each_index(corners_, [&](Index3 corner) {
+    for_each_index(corners_, [&](Index3 corner) {
       if (used_[at] != 0) {
         row[at] = static_cast<std::uint32_t>(mesh_.vertices.size());
         const auto id = static_cast<VertexId>(

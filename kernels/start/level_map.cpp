@@ -3,7 +3,7 @@
 // Eighths by CellLevels, whole cubes by their neighbours' eighths.
 #include "kernels/start/level_map.h"
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/start/cell_levels.h"
 
 namespace mw {
@@ -37,7 +37,7 @@ std::uint8_t LevelMap::allowed_eighths(const LabelBox& labels, Index3 volume, In
   const Index3 lo{cube.x * kCube, cube.y * kCube, cube.z * kCube};
   const CellLevels levels(labels, volume, {lo, lo + Index3{kCube, kCube, kCube}}, 3, sizes);
   unsigned bits = 0;
-  each_index(Index3{2, 2, 2}, [&](Index3 i) {
+  for_each_index(Index3{2, 2, 2}, [&](Index3 i) {
     const Index3 voxel = lo + Index3{i.x * kEighth, i.y * kEighth, i.z * kEighth};
     const bool inside = Box3{{0, 0, 0}, volume}.contains(voxel);
     if (inside && levels.level_at(voxel) == 3) bits |= 1U << eighth_at(voxel);
@@ -48,7 +48,7 @@ std::uint8_t LevelMap::allowed_eighths(const LabelBox& labels, Index3 volume, In
 bool LevelMap::eighths_around_allowed(Index3 cube) const {
   const Index3 lo{cube.x * kCube, cube.y * kCube, cube.z * kCube};
   bool all = true;
-  each_index(Box3{{-1, -1, -1}, {3, 3, 3}}, [&](Index3 i) {
+  for_each_index(Box3{{-1, -1, -1}, {3, 3, 3}}, [&](Index3 i) {
     const Index3 voxel = lo + Index3{i.x * kEighth, i.y * kEighth, i.z * kEighth};
     if (!Box3{{0, 0, 0}, volume_}.contains(voxel)) return;
     all = all && is_allowed(voxel, 3);

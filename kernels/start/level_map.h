@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/core/label_box.h"
 #include "kernels/size/size_field.h"
 
@@ -39,7 +39,7 @@ class LevelMap {
   /// lies inside the volume and inside one label, and may be one cell for its size.
   template <typename IsUniform>
   void find_cubes(IsUniform is_uniform) {
-    each_index(cubes_, [&](Index3 c) {
+    for_each_index(cubes_, [&](Index3 c) {
       whole_[row(c)] = is_uniform(c) && eighths_around_allowed(c) ? 1 : 0;
     });
   }

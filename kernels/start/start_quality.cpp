@@ -20,9 +20,9 @@ std::vector<CellNode> middles_on(CellFace face) {
 }
 
 /// Tets between the centre of a cell and a face, whatever hangs on that.
-double least_behind(CellFace face, bool odd, const Metric& metric) {
+double min_behind(CellFace face, bool odd, const Metric& metric) {
   const std::vector<CellNode> middles = middles_on(face);
-  double least = 1.0;
+  double min = 1.0;
   for (unsigned set = 0; set < 1U << middles.size(); ++set) {
     CellNodes nodes = kCellCorners;
     for (std::size_t i = 0; i < middles.size(); ++i) nodes |= (set >> i & 1U) << middles[i];
@@ -30,24 +30,24 @@ double least_behind(CellFace face, bool odd, const Metric& metric) {
     for (const NodeTriangle& t : face_triangles(nodes, odd, face)) {
       tets.push_back({kCellCentre, t[0], t[1], t[2]});
     }
-    least = std::min(least, worst_ratio(tets, metric));
+    min = std::min(min, worst_ratio(tets, metric));
   }
-  return least;
+  return min;
 }
 
 }  // namespace
 
-double least_start_ratio(const Metric& metric, int max_level) {
-  double least = 1.0;
+double min_start_ratio(const Metric& metric, int max_level) {
+  double min = 1.0;
   for (const bool odd : {false, true}) {
-    least = std::min(least, worst_ratio(cut_cell(kCellCorners, odd, metric).tets, metric));
+    min = std::min(min, worst_ratio(cut_cell(kCellCorners, odd, metric).tets, metric));
     if (max_level == 0) continue;
     for (const unsigned axis : {0U, 1U, 2U}) {
-      least = std::min({least, least_behind({axis, false}, odd, metric),
-                        least_behind({axis, true}, odd, metric)});
+      min = std::min(
+          {min, min_behind({axis, false}, odd, metric), min_behind({axis, true}, odd, metric)});
     }
   }
-  return least;
+  return min;
 }
 
 }  // namespace mw

@@ -17,6 +17,6 @@ namespace mw {
 /// max_level: as in StartOptions.
 /// ENSURES: no tet of graded_start() is below the floor asked of it, if that is at most the result.
 /// Cost: some 2,000 tets.
-[[nodiscard]] double least_start_ratio(const Metric& metric, int max_level);
+[[nodiscard]] double min_start_ratio(const Metric& metric, int max_level);
 
 }  // namespace mw

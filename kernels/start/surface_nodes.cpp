@@ -3,7 +3,7 @@
 // Hanging nodes from the levels of the cells around, or from labels around mixed cells.
 #include "kernels/start/surface_nodes.h"
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw {
 namespace {
@@ -30,7 +30,7 @@ CellNodes SurfaceNodes::of(const Cell& cell) const {
 
 CellNodes SurfaceNodes::beside_smaller(const Cell& cell) const {
   return with_middles([&](CellNode node) {
-    const Index3 at = place_of(cell, node);
+    const Index3 at = position_of(cell, node);
     for (std::int64_t i = 0; i < 8; ++i) {
       const Index3 voxel = at - Index3{i & 1, i >> 1 & 1, i >> 2};
       if (volume_.contains(voxel) && levels_.level_at(voxel) < cell.level) return true;
@@ -68,7 +68,7 @@ SurfaceNodes::Around SurfaceNodes::around(Index3 lo) const {
   const Box3 box = grown({lo, lo + Index3{2, 2, 2}}, 1);
   const bool may = sizes_ != nullptr || !volume_.contains(box.hi);
   std::size_t i = 0;
-  each_index(box, [&](Index3 voxel) {
+  for_each_index(box, [&](Index3 voxel) {
     out.labels[i] = labels_.at(voxel);
     out.has_corners[i] = may && volume_.contains(voxel) && has_corners(voxel);
     ++i;

@@ -10,9 +10,9 @@ namespace mw {
 namespace {
 
 /// 1 / voxel: what is sharper than a ball of a few voxels is no shape but a step.
-constexpr double kMostCurvature = 0.5;
+constexpr double kMaxCurvature = 0.5;
 /// Where it cannot be told.
-constexpr double kUnknown = 2.0 * kMostCurvature;
+constexpr double kUnknown = 2.0 * kMaxCurvature;
 
 double curvature_of(const SurfaceStar& star) {
   Vec3 volume_gradient = Vec3::Zero(), area_gradient = Vec3::Zero();
@@ -25,7 +25,7 @@ double curvature_of(const SurfaceStar& star) {
   }
   const double square = volume_gradient.squaredNorm();
   if (!(square > 0.0)) return kUnknown;
-  return std::clamp(area_gradient.dot(volume_gradient) / square, -kMostCurvature, kMostCurvature);
+  return std::clamp(area_gradient.dot(volume_gradient) / square, -kMaxCurvature, kMaxCurvature);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard&
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
     const TriangleKey key = triangle_key(star_->vertex(), t.a, t.b);
-    guard.each_piece(key, t.low, [&](const DistanceGuard::Piece& piece) {
+    guard.for_each_piece(key, t.low, [&](const DistanceGuard::Piece& piece) {
       const double area = piece.quarters / kSamplesPerFace * metric.face_area(piece.axis);
       add_piece(piece.middle.cwiseProduct(voxel) - at, area, piece, i);
     });
@@ -166,15 +166,15 @@ void SurfaceEnergy::take_debts(const VolumeDebts& debts) {
   }
 }
 
-double SurfaceEnergy::least_cosine() const {
-  double least = 1.0;
+double SurfaceEnergy::min_cosine() const {
+  double min = 1.0;
   for (const Spoke& s : star_->spokes()) {
-    least = std::min(least, unit_normals_[s.first].dot(unit_normals_[s.second]));
+    min = std::min(min, unit_normals_[s.first].dot(unit_normals_[s.second]));
   }
   for (const Rim& r : star_->rims()) {
-    least = std::min(least, unit_normals_[r.triangle].dot(r.normal));
+    min = std::min(min, unit_normals_[r.triangle].dot(r.normal));
   }
-  return least;
+  return min;
 }
 
 double SurfaceEnergy::raw_value_at(const Vec3& x) const {

@@ -67,7 +67,7 @@ class SurfaceEnergy {
   [[nodiscard]] std::span<const VolumeDebt> debts_at(const Vec3& x);
 
   /// The least cosine of a spoke or rim at present; 1 when there is none.
-  [[nodiscard]] double least_cosine() const;
+  [[nodiscard]] double min_cosine() const;
 
  private:
   /// Sums of the fit between two labels.

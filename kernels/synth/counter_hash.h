@@ -20,9 +20,9 @@ __extension__ using Wide = unsigned __int128;
 }
 
 /// A number for a place (each coordinate below 2^21), the same in every run.
-[[nodiscard]] constexpr std::uint64_t hash_place(std::uint64_t seed, Index3 place) {
+[[nodiscard]] constexpr std::uint64_t hash_position(std::uint64_t seed, Index3 position) {
   const auto part = [](std::int64_t i) { return static_cast<std::uint64_t>(i) & 0x1fffffU; };
-  const std::uint64_t key = part(place.x) | part(place.y) << 21 | part(place.z) << 42;
+  const std::uint64_t key = part(position.x) | part(position.y) << 21 | part(position.z) << 42;
   return mix_bits(key ^ mix_bits(seed));
 }
 

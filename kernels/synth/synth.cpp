@@ -27,7 +27,7 @@ void fill_slab(const Box3& slab, std::span<RawLabel> out, Value value) {
 
 void synth_noise(const SynthSpec& spec, const Box3& slab, std::span<RawLabel> out) {
   fill_slab(slab, out, [&](Index3 v) {
-    return static_cast<RawLabel>((Wide{hash_place(spec.seed, v)} * spec.labels) >> 64);
+    return static_cast<RawLabel>((Wide{hash_position(spec.seed, v)} * spec.labels) >> 64);
   });
 }
 

@@ -60,7 +60,7 @@ void synth_tubes(const SynthSpec& spec, const Box3& slab, std::span<RawLabel> ou
     for_each_cell(grid, plane, [&](Index3 at, const Box3& box) {
       const Index3 cell{at.x, at.y, 0};
       if (!grid.contains(cell) || !grid.is_first(cell)) return;
-      const Disc disc = tube_section(grid, hash_place(spec.seed, cell), cell, z);
+      const Disc disc = tube_section(grid, hash_position(spec.seed, cell), cell, z);
       for (std::int64_t y = box.lo.y; y < box.hi.y; ++y) {
         const Index3 first{box.lo.x, y, z};
         mark_row(box, first, disc.x, disc.squared_radius - squared_distance(y, disc.y),
@@ -75,7 +75,7 @@ void synth_spheres(const SynthSpec& spec, const Box3& slab, std::span<RawLabel> 
   const CellGrid grid = make_cell_grid(spec.shape, spec.labels, CellFit::kInside, false);
   for_each_cell(grid, slab, [&](Index3 cell, const Box3& box) {
     if (!grid.contains(cell) || !grid.is_first(cell)) return;
-    const std::uint64_t h = hash_place(spec.seed, cell);
+    const std::uint64_t h = hash_position(spec.seed, cell);
     const std::int64_t radius = pick(mix_bits(h + 2), grid.edge / 5, grid.edge * 9 / 20 + 1);
     const auto centre = [&](std::int64_t c, std::uint64_t key) {
       return c * grid.edge + pick(key, radius, grid.edge - radius + 1);

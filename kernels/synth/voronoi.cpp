@@ -20,7 +20,7 @@ struct Seeds {
 /// from its own cell's seed and at least 1.28 from seeds two cells away: the 27 cells around are
 /// enough.
 Index3 seed_of(const CellGrid& grid, std::uint64_t seed, Index3 cell) {
-  const std::uint64_t h = hash_place(seed, cell);
+  const std::uint64_t h = hash_position(seed, cell);
   const std::int64_t lo = (2 * grid.edge + 6) / 7;
   const std::int64_t hi = 5 * grid.edge / 7 + 1;
   return {cell.x * grid.edge + pick(h, lo, hi), cell.y * grid.edge + pick(mix_bits(h), lo, hi),
@@ -49,11 +49,11 @@ void fill_row(const Seeds& seeds, Index3 first, std::int64_t count, RawLabel* ou
   }
   for (std::int64_t i = 0; i < count; ++i) {
     std::size_t nearest = 0;
-    std::int64_t least = base[0] + squared_distance(first.x + i, seeds.at[0].x);
+    std::int64_t min = base[0] + squared_distance(first.x + i, seeds.at[0].x);
     for (std::size_t k = 1; k < seeds.count; ++k) {
       const std::int64_t distance = base[k] + squared_distance(first.x + i, seeds.at[k].x);
-      nearest = distance < least ? k : nearest;
-      least = std::min(distance, least);
+      nearest = distance < min ? k : nearest;
+      min = std::min(distance, min);
     }
     out[i] = seeds.label[nearest];
   }

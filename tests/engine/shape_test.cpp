@@ -24,7 +24,7 @@ using test::SmallVolume;
 template <typename LabelAt>
 SmallVolume body(std::int64_t edge, std::size_t labels, LabelAt label_at) {
   SmallVolume out{{edge, edge, edge}, labels, {}};
-  each_index(out.shape, [&](Index3 v) {
+  for_each_index(out.shape, [&](Index3 v) {
     const auto centre = [](std::int64_t i) { return static_cast<double>(i) + 0.5; };
     out.labels.push_back(label_at(Vec3(centre(v.x), centre(v.y), centre(v.z))));
   });
@@ -37,13 +37,13 @@ struct Result {
 
   /// The largest share by which a label's volume is off.
   [[nodiscard]] double volume_error() const {
-    double most = 0.0;
+    double max = 0.0;
     for (std::size_t l = 0; l < report.label_voxels.size(); ++l) {
       const auto row = audit::volume_row(static_cast<Label>(l), report.label_voxels[l],
                                          report.label_volumes6[l]);
-      most = std::max(most, std::abs(row.error));
+      max = std::max(max, std::abs(row.error));
     }
-    return most;
+    return max;
   }
 };
 

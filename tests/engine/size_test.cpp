@@ -11,7 +11,7 @@
 #include "kernels/audit/betti.h"
 #include "kernels/audit/quality.h"
 #include "kernels/audit/validity.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
@@ -46,11 +46,11 @@ double diagonal_of(const Trial& trial) {
 
 /// Some labels with limits from the least that can be kept to six times that.
 void add_sizes(std::mt19937& random, Trial& trial) {
-  const double least = diagonal_of(trial);
+  const double min = diagonal_of(trial);
   for (const Label label : labels_of(trial.volume)) {
     if (below(random, 2) == 0) continue;
     trial.settings.sizes.labels.push_back(
-        {raw_label(label), least * (1.0 + 0.05 * below(random, 100))});
+        {raw_label(label), min * (1.0 + 0.05 * below(random, 100))});
   }
   trial.settings.sizes.gradation = 0.25 * below(random, 5);
 }
@@ -77,9 +77,9 @@ Trial random_sized(std::mt19937& random, int i) {
 
 /// How far a place is from a label's voxels.
 double distance_to(const Trial& trial, Label label, const audit::Position& p) {
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   std::size_t i = 0;
-  each_index(trial.volume.shape, [&](Index3 v) {
+  for_each_index(trial.volume.shape, [&](Index3 v) {
     if (trial.volume.labels[i++] != label) return;
     const std::array<std::int64_t, 3> at{v.x, v.y, v.z};
     double squared = 0.0;
@@ -90,21 +90,21 @@ double distance_to(const Trial& trial, Label label, const audit::Position& p) {
       const double way = std::max({lo - p[axis], p[axis] - hi, 0.0});
       squared += way * way;
     }
-    least = std::min(least, squared);
+    min = std::min(min, squared);
   });
-  return std::sqrt(least);
+  return std::sqrt(min);
 }
 
 /// The limit at each vertex: what the gradation allows.
 std::vector<double> limits_at_vertices(const Trial& trial, const SmallMesh& mesh) {
   std::vector<double> out;
   for (const audit::Position& p : mesh.vertices) {
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (const LabelSize& s : trial.settings.sizes.labels) {
       const double way = distance_to(trial, test::test_label(s.label), p);
-      least = std::min(least, s.longest_edge + trial.settings.sizes.gradation * way);
+      min = std::min(min, s.longest_edge + trial.settings.sizes.gradation * way);
     }
-    out.push_back(least);
+    out.push_back(min);
   }
   return out;
 }
@@ -130,14 +130,14 @@ double expect_sizes(const Trial& trial, const SmallMesh& mesh) {
     of_label[test::test_label(s.label)] = s.longest_edge;
   }
   const std::vector<double> at = limits_at_vertices(trial, mesh);
-  double most = 0.0;
+  double max = 0.0;
   each_edge(mesh, [&](std::size_t t, auto a, auto b, double length) {
     const double limit = of_label[mesh.labels[t]];
     EXPECT_LE(length, limit * (1 + kRounding));
     EXPECT_LE(length, std::min(at[a], at[b]) * (1 + kRounding));
-    most = std::max(most, length / limit);
+    max = std::max(max, length / limit);
   });
-  return most;
+  return max;
 }
 
 void expect_promises(const Trial& trial, const SmallMesh& mesh) {
@@ -159,9 +159,9 @@ TEST(Sizes, AreKeptByEveryEdgeWithAllPromises) {
     SCOPED_TRACE(trial.text());
     const SmallMesh mesh = small_mesh(run_in_memory(trial));
     expect_promises(trial, mesh);
-    const double most = expect_sizes(trial, mesh);
+    const double max = expect_sizes(trial, mesh);
     listed += trial.settings.sizes.labels.empty() ? 0 : 1;
-    used += most > 0.8 ? 1 : 0;
+    used += max > 0.8 ? 1 : 0;
   }
   EXPECT_GT(listed, 12);
   EXPECT_GT(used, listed / 2) << "the limits hardly matter";

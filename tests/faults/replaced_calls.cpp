@@ -38,20 +38,20 @@ std::size_t cut(const Fault& fault, std::size_t size) {
   return fault.is_short && size > 1 ? size / 2 : size;
 }
 
-std::uint64_t place(off_t offset) {
+std::uint64_t position(off_t offset) {
   return static_cast<std::uint64_t>(offset);
 }
 
 std::uint64_t size_of(int file) {
   struct stat facts {};
-  return ::fstat(file, &facts) == 0 ? place(facts.st_size) : 0;
+  return ::fstat(file, &facts) == 0 ? position(facts.st_size) : 0;
 }
 
 void record_write(int file, const void* data, ssize_t wrote, off_t offset) {
   if (wrote <= 0) return;
   record({.name = "write",
           .path = path_of(file),
-          .offset = place(offset),
+          .offset = position(offset),
           .size = static_cast<std::uint64_t>(wrote),
           .data = data});
 }
@@ -124,7 +124,7 @@ int resize(int file, off_t size) {
   const std::string path = path_of(file);
   if (on("ftruncate", path).fails()) return -1;
   const int result = next<int(int, off_t)>("ftruncate64")(file, size);
-  if (result == 0) record({.name = "resize", .path = path, .size = place(size)});
+  if (result == 0) record({.name = "resize", .path = path, .size = position(size)});
   return result;
 }
 
@@ -149,7 +149,7 @@ void* map(void* at, std::size_t size, int protection, int flags, int file, off_t
   const bool writes = (protection & PROT_WRITE) != 0 && (flags & MAP_SHARED) != 0;
   if (out == MAP_FAILED || !writes || !is_watched(path)) return out;
   const std::lock_guard lock(mappings_mutex());
-  mappings()[out] = {path, place(offset), size};
+  mappings()[out] = {path, position(offset), size};
   return out;
 }
 

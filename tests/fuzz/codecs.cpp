@@ -17,7 +17,7 @@
 namespace mw::fuzz {
 namespace {
 
-using Unpack = std::vector<std::byte> (*)(Bytes packed, std::size_t most, std::string_view name);
+using Unpack = std::vector<std::byte> (*)(Bytes packed, std::size_t max, std::string_view name);
 using Pack = std::string (*)(const std::string& plain);
 
 struct Packing {
@@ -26,8 +26,8 @@ struct Packing {
 };
 
 template <io::Codec codec>
-std::vector<std::byte> unpack_as(Bytes packed, std::size_t most, std::string_view name) {
-  return io::unpack(codec, packed, most, name);
+std::vector<std::byte> unpack_as(Bytes packed, std::size_t max, std::string_view name) {
+  return io::unpack(codec, packed, max, name);
 }
 
 /// Nothing but literal runs.
@@ -79,13 +79,13 @@ bool same(Bytes a, Bytes b) {
 
 /// The first byte says which codec, and whether the others are packed or plain.
 void fuzz_codecs(Bytes bytes) {
-  constexpr std::size_t kMost = 1 << 14;
+  constexpr std::size_t kMax = 1 << 14;
   Choices choices(bytes);
   const std::uint32_t choice = choices.below(2 * kPackings.size());
   const Packing& packing = kPackings[choice / 2];
   if (choice % 2 == 0) {
     ends_well([&] {
-      require(packing.unpack(choices.rest(), kMost, "fuzzed chunk").size() <= kMost, "no more");
+      require(packing.unpack(choices.rest(), kMax, "fuzzed chunk").size() <= kMax, "no more");
     });
     return;
   }

@@ -10,7 +10,7 @@ namespace mw::fuzz {
 namespace {
 
 constexpr std::string_view kMark = "@@ ";
-constexpr std::size_t kMostFiles = 16;
+constexpr std::size_t kMaxFiles = 16;
 
 /// Where the next mark that begins a line is, from `from` on.
 std::size_t next_mark(std::string_view text, std::size_t from) {
@@ -34,7 +34,7 @@ bool is_plain(std::string_view name) {
 FileTree::FileTree(Bytes bytes) {
   const std::string_view text = text_of(bytes);
   std::size_t at = next_mark(text, 0);
-  for (std::size_t files = 0; at != text.npos && files < kMostFiles; ++files) {
+  for (std::size_t files = 0; at != text.npos && files < kMaxFiles; ++files) {
     const std::size_t line_end = std::min(text.find('\n', at), text.size());
     const std::size_t next = next_mark(text, line_end);
     const std::size_t begin = std::min(line_end + 1, text.size());

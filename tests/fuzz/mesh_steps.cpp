@@ -41,9 +41,9 @@ void check_fixed(const TetMesh& before, const TetMesh& mesh) {
 }
 
 /// Of the places where labels meet, the exterior one of them.
-audit::test::PlacesBetti places(const TetMesh& mesh, std::size_t label_count) {
+audit::test::JunctionsBetti positions(const TetMesh& mesh, std::size_t label_count) {
   const test::SmallMesh rows = test::small_mesh(mesh, mesh.tets());
-  return audit::test::places_of(audit::test::complex_of(rows.view(), label_count));
+  return audit::test::junctions_of(audit::test::complex_of(rows.view(), label_count));
 }
 
 /// A vertex of the star of p, by two choices.
@@ -113,13 +113,13 @@ void fuzz_collapse(Bytes bytes) {
   const SmallVolume volume = choose_volume(choices, 3);
   TetMesh mesh = test::dense_mesh(volume);
   const std::int64_t before = positive_volume6(mesh);
-  const audit::test::PlacesBetti places_before = places(mesh, volume.label_count);
+  const audit::test::JunctionsBetti junctions_before = positions(mesh, volume.label_count);
   LinkCondition link_condition(mesh,
                                interfaces ? KeptTopology::kInterfaces : KeptTopology::kLabels);
   for (int i = 0; i < 200 && !choices.at_end(); ++i) try_contraction(mesh, link_condition, choices);
   require(positive_volume6(mesh) == before, "tets fill the box");
   require(test::betti(mesh, volume.label_count) == test::betti(volume), "Betti numbers stay");
-  require(!interfaces || places(mesh, volume.label_count) == places_before,
+  require(!interfaces || positions(mesh, volume.label_count) == junctions_before,
           "interfaces keep theirs");
 }
 
@@ -135,9 +135,9 @@ void fuzz_simplify(Bytes bytes) {
   require(worst_ratio(mesh, subject.metric) >= promised - 1e-12, "no tet below the floor");
   const std::size_t labels = subject.volume.label_count;
   require(test::betti(mesh, labels) == test::betti(subject.volume), "Betti numbers stay");
-  require(
-      options.topology == KeptTopology::kLabels || places(mesh, labels) == places(before, labels),
-      "interfaces keep theirs");
+  require(options.topology == KeptTopology::kLabels ||
+              positions(mesh, labels) == positions(before, labels),
+          "interfaces keep theirs");
 }
 
 /// Of a mesh that was disturbed or contracted, whole or cut out of a larger one.

@@ -11,9 +11,9 @@ namespace mw::fuzz {
 
 /// Up to `most` voxels along each axis and 5 labels, each voxel by a byte; or of some kind, by
 /// random numbers.
-[[nodiscard]] inline audit::test::SmallVolume choose_volume(Choices& choices, std::uint32_t most) {
+[[nodiscard]] inline audit::test::SmallVolume choose_volume(Choices& choices, std::uint32_t max) {
   using audit::test::VolumeKind;
-  const auto edge = [&] { return std::int64_t{1 + choices.below(most)}; };
+  const auto edge = [&] { return std::int64_t{1 + choices.below(max)}; };
   const std::int64_t x = edge(), y = edge(), z = edge();
   const std::uint32_t labels = 1 + choices.below(5);
   const std::uint32_t kind = choices.below(1 + audit::test::kVolumeKinds);

@@ -63,11 +63,11 @@ class Simplices {
 
 /// Calls visit for every subset of 2 .. most labels.
 template <class Visit>
-void each_subset(const std::set<Label>& all, std::size_t most, Visit visit) {
+void each_subset(const std::set<Label>& all, std::size_t max, Visit visit) {
   std::vector<std::set<Label>> subsets{{}};
   for (const Label label : all) {
     for (std::size_t i = 0, count = subsets.size(); i < count; ++i) {
-      if (subsets[i].size() == most) continue;
+      if (subsets[i].size() == max) continue;
       subsets.push_back(subsets[i]);
       subsets.back().insert(label);
     }
@@ -192,24 +192,24 @@ Betti CellComplex::open(Label label) const {
   return {b[3], b[2], b[1]};
 }
 
-BettiOfPlaces CellComplex::betti_of(const std::map<std::set<Label>, Cells>& places) const {
-  BettiOfPlaces out;
-  for (const auto& [labels, cells] : places) {
+BettiOfJunctions CellComplex::betti_of(const std::map<std::set<Label>, Cells>& junctions) const {
+  BettiOfJunctions out;
+  for (const auto& [labels, cells] : junctions) {
     const auto b = homology(cells);
     out[labels] = {b[0], b[1], b[2]};
   }
   return out;
 }
 
-BettiOfPlaces CellComplex::meetings(std::size_t most) const {
-  std::map<std::set<Label>, Cells> places;
+BettiOfJunctions CellComplex::meetings(std::size_t max) const {
+  std::map<std::set<Label>, Cells> junctions;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    each_subset(cells_[i].above, most, [&](const std::set<Label>& s) { places[s].push_back(i); });
+    each_subset(cells_[i].above, max, [&](const std::set<Label>& s) { junctions[s].push_back(i); });
   }
-  return betti_of(places);
+  return betti_of(junctions);
 }
 
-BettiOfPlaces CellComplex::interfaces() const {
+BettiOfJunctions CellComplex::interfaces() const {
   std::map<std::set<Label>, std::set<std::size_t>> closures;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (cells_[i].dimension != 2 || cells_[i].above.size() != 2) continue;
@@ -220,9 +220,9 @@ BettiOfPlaces CellComplex::interfaces() const {
       closure.insert(cells_[edge].boundary.begin(), cells_[edge].boundary.end());
     }
   }
-  std::map<std::set<Label>, Cells> places;
-  for (const auto& [pair, cells] : closures) places[pair] = {cells.begin(), cells.end()};
-  return betti_of(places);
+  std::map<std::set<Label>, Cells> junctions;
+  for (const auto& [pair, cells] : closures) junctions[pair] = {cells.begin(), cells.end()};
+  return betti_of(junctions);
 }
 
 CellComplex complex_of(const VoxelLabels& volume, std::size_t label_count) {
@@ -250,9 +250,9 @@ CellComplex complex_of(const AuditMesh& mesh, std::size_t label_count) {
   return complex;
 }
 
-PlacesBetti places_of(const CellComplex& complex) {
-  constexpr std::size_t kMostLabels = 4;
-  return {complex.meetings(kMostLabels), complex.interfaces()};
+JunctionsBetti junctions_of(const CellComplex& complex) {
+  constexpr std::size_t kMaxLabels = 4;
+  return {complex.meetings(kMaxLabels), complex.interfaces()};
 }
 
 std::vector<RegionBetti> betti_of(const CellComplex& complex, std::size_t label_count) {

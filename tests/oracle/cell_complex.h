@@ -15,14 +15,14 @@
 namespace mw::audit::test {
 
 /// Betti numbers of places, by the labels that make them.
-using BettiOfPlaces = std::map<std::set<Label>, Betti>;
+using BettiOfJunctions = std::map<std::set<Label>, Betti>;
 
 /// What KeptTopology::kInterfaces keeps besides the labels.
-struct PlacesBetti {
-  BettiOfPlaces meetings;    ///< of all sets of 2 to 4 labels, where they meet
-  BettiOfPlaces interfaces;  ///< of all pairs that share a face
+struct JunctionsBetti {
+  BettiOfJunctions meetings;    ///< of all sets of 2 to 4 labels, where they meet
+  BettiOfJunctions interfaces;  ///< of all pairs that share a face
 
-  friend bool operator==(const PlacesBetti&, const PlacesBetti&) = default;
+  friend bool operator==(const JunctionsBetti&, const JunctionsBetti&) = default;
 };
 
 /// A regular cell complex whose 3-cells are labelled and fill the 3-sphere.
@@ -40,9 +40,9 @@ class CellComplex {
   [[nodiscard]] Betti open(Label label) const;
   /// For every set of 2 .. most labels, where all of them meet: the cells with all of them above.
   /// Only sets that meet somewhere.
-  [[nodiscard]] BettiOfPlaces meetings(std::size_t most) const;
+  [[nodiscard]] BettiOfJunctions meetings(std::size_t max) const;
   /// For every pair of labels, the closure of the faces between them.  Only pairs with a face.
-  [[nodiscard]] BettiOfPlaces interfaces() const;
+  [[nodiscard]] BettiOfJunctions interfaces() const;
 
  private:
   struct Cell {
@@ -56,7 +56,7 @@ class CellComplex {
   /// Number of cells less ranks of both boundary maps, for dimensions 0 .. 3.
   [[nodiscard]] std::vector<std::int64_t> homology(const Cells& kept) const;
   [[nodiscard]] std::int64_t boundary_rank(const Cells& kept, std::size_t dimension) const;
-  [[nodiscard]] BettiOfPlaces betti_of(const std::map<std::set<Label>, Cells>& places) const;
+  [[nodiscard]] BettiOfJunctions betti_of(const std::map<std::set<Label>, Cells>& junctions) const;
 
   std::vector<Cell> cells_;
 };
@@ -71,6 +71,6 @@ class CellComplex {
 [[nodiscard]] std::vector<RegionBetti> betti_of(const CellComplex& complex,
                                                 std::size_t label_count);
 
-[[nodiscard]] PlacesBetti places_of(const CellComplex& complex);
+[[nodiscard]] JunctionsBetti junctions_of(const CellComplex& complex);
 
 }  // namespace mw::audit::test

@@ -25,9 +25,9 @@ SmallVolume noise(std::mt19937& random, Index3 shape, std::uint32_t labels) {
 
 /// Mostly one label, full of holes.
 SmallVolume sponge(std::mt19937& random, Index3 shape, std::uint32_t labels) {
-  const std::uint32_t most = below(random, labels);
+  const std::uint32_t max = below(random, labels);
   return volume_from(shape, labels, [&](auto, auto, auto) {
-    return below(random, 4) != 0 ? most : below(random, labels);
+    return below(random, 4) != 0 ? max : below(random, labels);
   });
 }
 
@@ -125,8 +125,8 @@ std::uint32_t below(std::mt19937& random, std::uint32_t count) {
 
 SmallVolume random_volume(std::mt19937& random) {
   const std::size_t kind = below(random, 6);
-  const std::uint32_t least = kind < 3 ? 1 : 3;
-  const auto edge = [&] { return std::int64_t{least + below(random, 6 - least)}; };
+  const std::uint32_t min = kind < 3 ? 1 : 3;
+  const auto edge = [&] { return std::int64_t{min + below(random, 6 - min)}; };
   const auto x = edge(), y = edge(), z = edge();
   const Index3 shape{x, y, z};
   const std::uint32_t labels = 1 + below(random, 4);

@@ -5,7 +5,7 @@
 
 #include "kernels/audit/layered_labels.h"
 #include "kernels/audit/region_betti.h"
-#include "tests/oracle/whole_places.h"
+#include "tests/oracle/whole_junctions.h"
 
 namespace mw::audit::test {
 namespace {
@@ -33,9 +33,9 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
   if (!found.validity.checks.front().passed) return judge(std::move(found), options);
   found.mesh =
       options.kept.empty() ? mesh_betti(mesh, label_count) : region_betti(mesh, label_count);
-  if (options.count_places) {
-    found.places =
-        compare_places(places_of_volume(volume, label_count), places_of_mesh(mesh, label_count));
+  if (options.count_junctions) {
+    found.junctions = compare_junctions(junctions_of_volume(volume, label_count),
+                                        junctions_of_mesh(mesh, label_count));
   }
   found.quality = measure_quality(mesh);
   if (options.measure_distance || options.max_distance) {

@@ -31,7 +31,7 @@ class MemoryProgramTest : public ProgramTest {
 
   /// Runs with less memory than works, then with the least that is asked for, until it is done;
   /// the report of the last run.
-  json under_least_budget(const std::string& options) const {
+  json under_min_budget(const std::string& options) const {
     std::string budget = "1";
     for (int i = 0; i < 8; ++i) {
       const ProgramRun result =
@@ -62,7 +62,7 @@ TEST_F(MemoryProgramTest, Promise6LeastBudgetBoundsResidentMemory) {
   for (const char* options :
        {"--start coarse --threads 1", "--start octree --threads 4", "--start dense --threads 2"}) {
     SCOPED_TRACE(options);
-    const json r = under_least_budget(options);
+    const json r = under_min_budget(options);
     ASSERT_FALSE(r.is_null());
     expect_within(r);
   }
@@ -72,7 +72,7 @@ TEST_F(MemoryProgramTest, Promise6HoldsForNoiseAndManyThreads) {
   make("noise", "30,26,26", 1000);
   for (const char* threads : {"2", "8"}) {
     SCOPED_TRACE(threads);
-    const json r = under_least_budget(std::string("--window 16 --threads ") + threads);
+    const json r = under_min_budget(std::string("--window 16 --threads ") + threads);
     ASSERT_FALSE(r.is_null());
     expect_within(r);
   }
@@ -81,7 +81,7 @@ TEST_F(MemoryProgramTest, Promise6HoldsForNoiseAndManyThreads) {
 /// Blocks have to go to disk, and the merge has to read them back.
 TEST_F(MemoryProgramTest, Promise6HoldsWhenBlocksAreSpilled) {
   make("voronoi", "112,64,64", 60);
-  const json r = under_least_budget("--threads 2");
+  const json r = under_min_budget("--threads 2");
   ASSERT_FALSE(r.is_null());
   expect_within(r);
   EXPECT_GT(r["engine"]["bytes_written"], 0);

@@ -62,15 +62,15 @@ inline VolumeKind random_kind(std::mt19937& random) {
   return static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
 }
 
-inline Index3 random_shape(std::mt19937& random, std::uint32_t least, std::uint32_t most) {
-  const auto edge = [&] { return std::int64_t{least + below(random, most - least + 1)}; };
+inline Index3 random_shape(std::mt19937& random, std::uint32_t min, std::uint32_t max) {
+  const auto edge = [&] { return std::int64_t{min + below(random, max - min + 1)}; };
   const auto x = edge(), y = edge(), z = edge();
   return {x, y, z};
 }
 
-inline SmallVolume random_small(std::mt19937& random, std::uint32_t least, std::uint32_t most,
+inline SmallVolume random_small(std::mt19937& random, std::uint32_t min, std::uint32_t max,
                                 std::uint32_t labels) {
-  const Index3 shape = random_shape(random, least, most);
+  const Index3 shape = random_shape(random, min, max);
   const VolumeKind kind = random_kind(random);
   return random_volume_of(random, kind, shape, 1 + below(random, labels));
 }

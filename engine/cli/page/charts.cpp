@@ -14,14 +14,14 @@ namespace {
 // Of the view box of a chart.
 constexpr double kWidth = 270, kHeight = 140, kBase = 116, kTop = 8;
 
-std::string at(double place) {
-  return format_fixed(place, 1);
+std::string at(double position) {
+  return format_fixed(position, 1);
 }
 
-std::string column(const Histogram& histogram, std::size_t i, double most) {
+std::string column(const Histogram& histogram, std::size_t i, double max) {
   const double width = kWidth / static_cast<double>(histogram.shares.size());
   const double share = histogram.shares[i];
-  const double height = share > 0 ? std::max((kBase - kTop) * share / most, 0.8) : 0;
+  const double height = share > 0 ? std::max((kBase - kTop) * share / max, 0.8) : 0;
   const double x = static_cast<double>(i) * width;
   const double step =
       (histogram.to - histogram.from) / static_cast<double>(histogram.shares.size());
@@ -50,22 +50,22 @@ std::string axis(const Histogram& histogram) {
 }  // namespace
 
 std::string histogram_figure(const Histogram& histogram) {
-  const auto most = std::max_element(histogram.shares.begin(), histogram.shares.end());
+  const auto max = std::max_element(histogram.shares.begin(), histogram.shares.end());
   std::string out = "<figure class=\"card\"><figcaption><b>" + escaped(histogram.title) +
                     "</b><span>" + escaped(histogram.note) + "</span></figcaption>";
   out += "<svg class=\"chart\" viewBox=\"0 0 " + at(kWidth) + " " + at(kHeight) +
          "\" role=\"img\" aria-label=\"" + escaped(histogram.title) + "\">";
-  for (std::size_t i = 0; i < histogram.shares.size(); ++i) out += column(histogram, i, *most);
+  for (std::size_t i = 0; i < histogram.shares.size(); ++i) out += column(histogram, i, *max);
   return out + axis(histogram) + "</svg></figure>\n";
 }
 
 std::string bar_figure(const std::string& title, const std::vector<BarRow>& rows) {
-  double most = 0;
-  for (const BarRow& row : rows) most = std::max(most, row.value);
+  double max = 0;
+  for (const BarRow& row : rows) max = std::max(max, row.value);
   std::string out = "<figure class=\"card\"><figcaption><b>" + escaped(title) +
                     "</b></figcaption><table class=\"bars\">";
   for (const BarRow& row : rows) {
-    const double share = most > 0 ? 100 * row.value / most : 0;
+    const double share = max > 0 ? 100 * row.value / max : 0;
     out += "<tr><th scope=\"row\">" + escaped(row.name) + "</th><td><i style=\"width:" + at(share) +
            "%\"></i></td><td>" + escaped(row.text) + "</td></tr>";
   }

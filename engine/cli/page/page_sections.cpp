@@ -62,12 +62,12 @@ Verdict unchecked(const char* name, const char* promise, std::string evidence) {
 }
 
 Verdict shape_verdict(const ordered_json& report) {
-  const double least = report["quality"]["radius_ratio_min"];
+  const double min = report["quality"]["radius_ratio_min"];
   const double floor = report["settings"]["quality_floor"];
-  const std::string found = "least radius ratio " + format_fixed(least, 4);
+  const std::string found = "least radius ratio " + format_fixed(min, 4);
   constexpr const char* kPromise = "No tet is below the quality floor.";
   if (floor <= 0) return unchecked("P3", kPromise, found + "; the run had no floor");
-  return judged("P3", kPromise, least >= floor,
+  return judged("P3", kPromise, min >= floor,
                 found + ", floor " + format_number(floor) + ", over all tets as they were written");
 }
 
@@ -119,9 +119,9 @@ Verdict bound_verdict(const ordered_json& report) {
   constexpr const char* kPromise = "No boundary moves farther than the bound, both ways.";
   if (bound == "none") return unchecked("P4", kPromise, "the run had no bound");
   Verdict out = certified(report, "P4", kPromise, "verify measures it");
-  const ordered_json& most = report["distance"]["max_voxels"];
+  const ordered_json& max = report["distance"]["max_voxels"];
   out.evidence = "bound " + flag_text(bound) + " voxels of the lattice; " +
-                 (most.is_null() ? out.evidence : format_fixed(most.get<double>(), 2) + " at most");
+                 (max.is_null() ? out.evidence : format_fixed(max.get<double>(), 2) + " at most");
   return out;
 }
 

@@ -32,20 +32,20 @@ std::vector<double> shares_of(const Counts& counts) {
 
 /// Of labels of 1,000 voxels and more; what is off by more than 5 % is in the outermost columns.
 Histogram volume_errors(const report::FinishedRun& run) {
-  constexpr double kMost = 0.05;
+  constexpr double kMax = 0.05;
   std::array<std::uint64_t, 20> counts{};
   std::uint64_t labels = 0;
-  each_volume(run, [&](const audit::VolumeRow& row) {
-    if (row.voxels < audit::kLeastJudgedVoxels) return;
-    const double place = (row.error / kMost + 1) / 2 * static_cast<double>(counts.size());
+  for_each_volume(run, [&](const audit::VolumeRow& row) {
+    if (row.voxels < audit::kMinJudgedVoxels) return;
+    const double position = (row.error / kMax + 1) / 2 * static_cast<double>(counts.size());
     ++counts[static_cast<std::size_t>(
-        std::clamp(place, 0.0, static_cast<double>(counts.size()) - 1))];
+        std::clamp(position, 0.0, static_cast<double>(counts.size()) - 1))];
     ++labels;
   });
   return {.title = "Volume error",
           .note = with_commas(labels) + " labels of 1,000 voxels and more",
-          .from = -100 * kMost,
-          .to = 100 * kMost,
+          .from = -100 * kMax,
+          .to = 100 * kMax,
           .unit = " %",
           .shares = shares_of(counts)};
 }
@@ -88,7 +88,7 @@ struct PageLabels {
 PageLabels labels_of(const report::FinishedRun& run, io::GroupedMesh& mesh) {
   PageLabels out{.mesh = mesh, .surrounding = surrounding_label(mesh), .volumes = {}};
   out.volumes.resize(mesh.table().size());
-  each_volume(run, [&](const audit::VolumeRow& row) {
+  for_each_volume(run, [&](const audit::VolumeRow& row) {
     const RawLabel raw = run.labels.raw(row.label);
     if (mesh.table().contains(raw)) out.volumes[mesh.table().dense(raw)] = row;
   });
@@ -106,14 +106,14 @@ std::string hex(const picture::Colour& colour) {
 }
 
 /// place: in the view, if it is there.
-std::string label_row(const PageLabels& labels, Label rank, std::optional<std::size_t> place) {
+std::string label_row(const PageLabels& labels, Label rank, std::optional<std::size_t> position) {
   const io::LabelNames& names = labels.mesh.names();
   const std::string swatch =
       "<i style=\"background:" + hex(label_colour(labels.raw(rank), names)) + "\"></i>";
   const std::string digits = labels.digits(rank);
   std::string out = "<tr><td><label>";
-  if (place) {
-    out += "<input type=\"checkbox\" data-label=\"" + std::to_string(*place) +
+  if (position) {
+    out += "<input type=\"checkbox\" data-label=\"" + std::to_string(*position) +
            "\" aria-label=\"show " + digits + "\"" +
            (labels.surrounding == rank ? "" : " checked") + ">";
   }
@@ -127,11 +127,11 @@ std::string label_row(const PageLabels& labels, Label rank, std::optional<std::s
 /// Rows of all labels, or of too many only of those in the view.
 std::string label_rows(const PageLabels& labels, const ViewData& view) {
   std::string out;
-  std::size_t place = 0;
-  const bool all = labels.mesh.table().size() <= kMostViewLabels;
+  std::size_t position = 0;
+  const bool all = labels.mesh.table().size() <= kMaxViewLabels;
   for (Label rank = 0; rank < labels.mesh.table().size(); ++rank) {
-    const bool seen = place < view.labels().size() && view.labels()[place] == rank;
-    if (seen) out += label_row(labels, rank, place++);
+    const bool seen = position < view.labels().size() && view.labels()[position] == rank;
+    if (seen) out += label_row(labels, rank, position++);
     if (!seen && all) out += label_row(labels, rank, std::nullopt);
   }
   return out;
@@ -160,8 +160,8 @@ std::string view_note(const ViewData& view) {
                     " triangles.";
   if (view.left_out() == 0) return out;
   return out + " " + with_commas(view.left_out()) + " smaller labels are not in this page, which " +
-         "holds " + with_commas(kMostViewTriangles) + " triangles and " +
-         with_commas(kMostViewLabels) + " labels at most; they are in the mesh.";
+         "holds " + with_commas(kMaxViewTriangles) + " triangles and " +
+         with_commas(kMaxViewLabels) + " labels at most; they are in the mesh.";
 }
 
 std::string label_section(const PageLabels& labels, const ViewData& view) {
@@ -191,7 +191,7 @@ void add_pictures(io::AtomicFile& file, const PageLabels& labels) {
   MeshScene scene(labels.mesh, std::move(shown), labels.mesh.names());
   file.append("<section><h2>Pictures</h2><div class=\"pictures\">\n");
   add_picture(file, scene, "Surfaces", default_view({}));
-  const CutPlace middle = middle_cut(scene, labels.mesh.box(), 0);
+  const CutPosition middle = middle_cut(scene, labels.mesh.box(), 0);
   const picture::View view = default_view(middle);
   scene.cut(cut_plane(labels.mesh.box(), middle, view));
   add_picture(file, scene, "Cut across x", view);

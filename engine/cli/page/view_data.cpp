@@ -50,7 +50,7 @@ void ViewData::choose(std::optional<Label> surrounding) {
   for (const Label rank : by_size(mesh_, surrounding)) {
     std::uint64_t more = 0;
     for (const std::size_t i : of_label[rank]) more += taken[i] ? 0 : groups[i].facets.size();
-    if (triangles_ + more > kMostViewTriangles || labels_.size() == kMostViewLabels) continue;
+    if (triangles_ + more > kMaxViewTriangles || labels_.size() == kMaxViewLabels) continue;
     for (const std::size_t i : of_label[rank]) taken[i] = true;
     triangles_ += more;
     labels_.push_back(rank);
@@ -80,7 +80,7 @@ void ViewData::collect_rows() {
   }
 }
 
-std::int64_t ViewData::place(Label rank) const {
+std::int64_t ViewData::index(Label rank) const {
   const auto found = std::lower_bound(labels_.begin(), labels_.end(), rank);
   return found == labels_.end() || *found != rank ? -1 : found - labels_.begin();
 }
@@ -88,7 +88,7 @@ std::int64_t ViewData::place(Label rank) const {
 nlohmann::ordered_json ViewData::json() const {
   nlohmann::ordered_json groups = nlohmann::ordered_json::array();
   for (const io::FacetGroup& group : groups_) {
-    groups.push_back({place(group.first), place(group.second), group.facets.size()});
+    groups.push_back({index(group.first), index(group.second), group.facets.size()});
   }
   return {{"lo", lo_},
           {"hi", hi_},

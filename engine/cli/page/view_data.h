@@ -11,9 +11,9 @@
 namespace mw::cli {
 
 /// Triangles that a page holds at most: some 12 MB of it.
-inline constexpr std::uint64_t kMostViewTriangles = 600'000;
+inline constexpr std::uint64_t kMaxViewTriangles = 600'000;
 /// And labels, each of which takes a pass when a cut is drawn.
-inline constexpr std::size_t kMostViewLabels = 1000;
+inline constexpr std::size_t kMaxViewLabels = 1000;
 
 /// The facets of the largest labels, each with all of its facets, as long as they fit.
 /// Of the surrounding label (surrounding_label) last, as it hides the others.
@@ -40,7 +40,7 @@ class ViewData {
  private:
   void choose(std::optional<Label> surrounding);
   void collect_rows();
-  [[nodiscard]] std::int64_t place(Label rank) const;
+  [[nodiscard]] std::int64_t index(Label rank) const;
 
   io::GroupedMesh& mesh_;
   std::vector<Label> labels_;

@@ -32,8 +32,8 @@ Measured measure(MeshScene& scene, const picture::View& view) {
                 "there is nothing to see: no tets of these labels, or none "
                 "behind the cut");
   }
-  constexpr double kMost = 1e100;  // products of lengths are far from infinite
-  if (out.extent.lo.minCoeff() < -kMost || out.extent.hi.maxCoeff() > kMost) {
+  constexpr double kMax = 1e100;  // products of lengths are far from infinite
+  if (out.extent.lo.minCoeff() < -kMax || out.extent.hi.maxCoeff() > kMax) {
     throw Error(ErrorKind::kInput, "vertices lie farther out than 1e100; the mesh is damaged");
   }
   return out;

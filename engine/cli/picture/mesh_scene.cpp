@@ -58,22 +58,23 @@ std::optional<Label> surrounding_label(io::GroupedMesh& mesh) {
   return std::nullopt;
 }
 
-picture::CutPlane cut_plane(const io::MeshBox& box, const CutPlace& place,
+picture::CutPlane cut_plane(const io::MeshBox& box, const CutPosition& position,
                             const picture::View& view) {
-  const Vec3 edge = vec(box.edges[place.axis]);
-  picture::CutPlane plane{.normal = edge, .offset = edge.dot(vec(box.origin) + place.share * edge)};
+  const Vec3 edge = vec(box.edges[position.axis]);
+  picture::CutPlane plane{.normal = edge,
+                          .offset = edge.dot(vec(box.origin) + position.share * edge)};
   if (edge.dot(view.viewer) < 0) plane = {.normal = -edge, .offset = -plane.offset};
   return plane;
 }
 
 void MeshScene::each(const Visit& visit) {
-  for (const io::FacetGroup& group : mesh_.facet_groups()) each_facet(group, visit);
+  for (const io::FacetGroup& group : mesh_.facet_groups()) for_each_facet(group, visit);
   for (Label rank = 0; plane_ && rank < shown_.size(); ++rank) {
-    if (shown_[rank]) each_section(rank, visit);
+    if (shown_[rank]) for_each_section(rank, visit);
   }
 }
 
-void MeshScene::each_facet(const io::FacetGroup& group, const Visit& visit) {
+void MeshScene::for_each_facet(const io::FacetGroup& group, const Visit& visit) {
   const bool one = shown_[group.first];
   const bool other = group.second != kExterior && shown_[group.second];
   if (one == other) return;
@@ -93,7 +94,7 @@ void MeshScene::each_facet(const io::FacetGroup& group, const Visit& visit) {
   }
 }
 
-void MeshScene::each_section(Label rank, const Visit& visit) {
+void MeshScene::for_each_section(Label rank, const Visit& visit) {
   const SceneTriangle triangle{.colour = colour(rank)};
   const io::RowRange tets = mesh_.label_tets()[rank];
   for (std::uint64_t number = tets.begin; number < tets.end; ++number) {
@@ -111,17 +112,17 @@ Vec3 MeshScene::vertex(std::uint64_t row) {
   return point;
 }
 
-CutPlace middle_cut(MeshScene& scene, const io::MeshBox& box, std::size_t axis) {
+CutPosition middle_cut(MeshScene& scene, const io::MeshBox& box, std::size_t axis) {
   const Vec3 origin = vec(box.origin), edge = vec(box.edges[axis]);
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+  double min = std::numeric_limits<double>::infinity(), max = -min;
   scene.each([&](const SceneTriangle& triangle) {
     for (const Vec3& corner : triangle.corners) {
       const double share = edge.dot(corner - origin) / edge.squaredNorm();
-      least = std::min(least, share);
-      most = std::max(most, share);
+      min = std::min(min, share);
+      max = std::max(max, share);
     }
   });
-  return {.axis = axis, .share = (least + most) / 2};
+  return {.axis = axis, .share = (min + max) / 2};
 }
 
 }  // namespace mw::cli

@@ -21,13 +21,13 @@ namespace mw::cli {
 [[nodiscard]] std::optional<Label> surrounding_label(io::GroupedMesh& mesh);
 
 /// A plane across an axis of the array.
-struct CutPlace {
+struct CutPosition {
   std::size_t axis = 0;
   double share = 0.5;  ///< 0: where the box begins, 1: where it ends
 };
 
 /// The plane of the box there; what lies towards the viewer goes.
-[[nodiscard]] picture::CutPlane cut_plane(const io::MeshBox& box, const CutPlace& place,
+[[nodiscard]] picture::CutPlane cut_plane(const io::MeshBox& box, const CutPosition& position,
                                           const picture::View& view);
 
 struct SceneTriangle {
@@ -54,8 +54,8 @@ class MeshScene {
   void each(const Visit& visit);
 
  private:
-  void each_facet(const io::FacetGroup& group, const Visit& visit);
-  void each_section(Label rank, const Visit& visit);
+  void for_each_facet(const io::FacetGroup& group, const Visit& visit);
+  void for_each_section(Label rank, const Visit& visit);
   [[nodiscard]] Vec3 vertex(std::uint64_t row);
   [[nodiscard]] picture::Colour colour(Label rank) const {
     return label_colour(mesh_.table().raw(rank), names_);
@@ -69,6 +69,6 @@ class MeshScene {
 
 /// The place half way between the ends of an uncut scene along an axis of the box, where a cut
 /// leaves something to see.  Cost: a pass over the facets.
-[[nodiscard]] CutPlace middle_cut(MeshScene& scene, const io::MeshBox& box, std::size_t axis);
+[[nodiscard]] CutPosition middle_cut(MeshScene& scene, const io::MeshBox& box, std::size_t axis);
 
 }  // namespace mw::cli

@@ -9,7 +9,7 @@
 namespace mw::cli {
 namespace {
 
-constexpr int kMostSide = 8192;  // pixels
+constexpr int kMaxSide = 8192;  // pixels
 
 [[noreturn]] void fail_expected(const std::string& what) {
   throw Error(ErrorKind::kUsage, "expected " + what);
@@ -21,7 +21,7 @@ void parse_size(std::string_view text, PictureRequest& request) {
   if (cross == std::string_view::npos) fail_expected(expected);
   const auto side = [&](std::string_view digits) {
     const std::int64_t pixels = parse_integer(digits);
-    if (pixels < 16 || pixels > kMostSide) fail_expected(expected);
+    if (pixels < 16 || pixels > kMaxSide) fail_expected(expected);
     return static_cast<int>(pixels);
   };
   request.width = side(text.substr(0, cross));
@@ -103,19 +103,19 @@ void add_picture_options(OptionSet& options, PictureRequest& request) {
   add_style(options, request);
 }
 
-picture::View default_view(const std::optional<CutPlace>& cut) {
+picture::View default_view(const std::optional<CutPosition>& cut) {
   if (!cut) return picture::view_from(-55, 24);
   if (cut->axis == 0) return picture::view_from(-28, 20);
   return cut->axis == 1 ? picture::view_from(-62, 20) : picture::view_from(-60, 52);
 }
 
-CutPlace parse_cut(std::string_view text) {
+CutPosition parse_cut(std::string_view text) {
   constexpr const char* kExpected = "x=SHARE, y=SHARE or z=SHARE with a share from 0 to 1";
   if (text.size() < 3 || text[0] < 'x' || text[0] > 'z' || text[1] != '=') fail_expected(kExpected);
-  const CutPlace place{.axis = static_cast<std::size_t>(text[0] - 'x'),
-                       .share = parse_number(text.substr(2))};
-  if (place.share < 0 || place.share > 1) fail_expected(kExpected);
-  return place;
+  const CutPosition position{.axis = static_cast<std::size_t>(text[0] - 'x'),
+                             .share = parse_number(text.substr(2))};
+  if (position.share < 0 || position.share > 1) fail_expected(kExpected);
+  return position;
 }
 
 picture::View parse_view(std::string_view text) {

@@ -14,7 +14,7 @@ struct PictureRequest {
   std::filesystem::path mesh;
   std::filesystem::path output;
   std::filesystem::path names;  ///< empty: those in the mesh
-  std::optional<CutPlace> cut;
+  std::optional<CutPosition> cut;
   std::optional<std::vector<RawLabel>> labels;  ///< empty: all but the surrounding one
   std::optional<picture::View> view;            ///< empty: as suits the cut
   int width = 1200;
@@ -27,10 +27,10 @@ struct PictureRequest {
 void add_picture_options(OptionSet& options, PictureRequest& request);
 
 /// The view where none is asked for: the cut is seen, and some of the sides.
-[[nodiscard]] picture::View default_view(const std::optional<CutPlace>& cut);
+[[nodiscard]] picture::View default_view(const std::optional<CutPosition>& cut);
 
 /// "x=0.5".  ERRORS (both): mw::Error(kUsage) saying what was expected.
-[[nodiscard]] CutPlace parse_cut(std::string_view text);
+[[nodiscard]] CutPosition parse_cut(std::string_view text);
 /// "iso", "x", "y", "z" (from the far end of that axis), or "AZIMUTH,ELEVATION" in degrees.
 [[nodiscard]] picture::View parse_view(std::string_view text);
 

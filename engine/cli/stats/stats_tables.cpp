@@ -61,8 +61,8 @@ Fields label_fields(const StatsFacts& facts, Label rank, Digits digits) {
   return row;
 }
 
-constexpr std::array kPlaceTitles{"lo_x", "lo_y",       "lo_z",       "hi_x",      "hi_y",
-                                  "hi_z", "centroid_x", "centroid_y", "centroid_z"};
+constexpr std::array kJunctionTitles{"lo_x", "lo_y",       "lo_z",       "hi_x",      "hi_y",
+                                     "hi_z", "centroid_x", "centroid_y", "centroid_z"};
 
 Fields place_fields(const LabelStats& label, Digits digits) {
   Fields row;
@@ -73,7 +73,7 @@ Fields place_fields(const LabelStats& label, Digits digits) {
 Fields titles_of(const StatsFacts& facts, LabelColumns columns) {
   Fields titles = columns == LabelColumns::kPlaces ? Fields{"label"} : label_titles(facts);
   if (columns == LabelColumns::kSizes) return titles;
-  titles.insert(titles.end(), kPlaceTitles.begin(), kPlaceTitles.end());
+  titles.insert(titles.end(), kJunctionTitles.begin(), kJunctionTitles.end());
   return titles;
 }
 
@@ -81,8 +81,8 @@ Fields fields_of(const StatsFacts& facts, Label rank, Digits digits, LabelColumn
   Fields row = label_fields(facts, rank, digits);
   if (columns == LabelColumns::kSizes) return row;
   if (columns == LabelColumns::kPlaces) row.resize(1);
-  const Fields place = place_fields(facts.mesh.labels[rank], digits);
-  row.insert(row.end(), place.begin(), place.end());
+  const Fields position = place_fields(facts.mesh.labels[rank], digits);
+  row.insert(row.end(), position.begin(), position.end());
   return row;
 }
 

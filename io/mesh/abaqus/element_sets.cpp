@@ -33,15 +33,15 @@ void ElementSets::mark_range(const Members& members, std::uint64_t none,
 }
 
 std::vector<std::string> ElementSets::keep_used(std::span<RawLabel> marks) const {
-  std::vector<std::uint64_t> places(names_.size(), 0);
-  for (const RawLabel mark : marks) places[mark] = 1;
+  std::vector<std::uint64_t> indices(names_.size(), 0);
+  for (const RawLabel mark : marks) indices[mark] = 1;
   std::vector<std::string> used;
   for (std::size_t set = 0; set < names_.size(); ++set) {
-    if (places[set] == 0) continue;
-    places[set] = used.size();
+    if (indices[set] == 0) continue;
+    indices[set] = used.size();
     used.push_back(names_[set]);
   }
-  for (RawLabel& mark : marks) mark = places[mark];
+  for (RawLabel& mark : marks) mark = indices[mark];
   return used;
 }
 

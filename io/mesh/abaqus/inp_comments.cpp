@@ -13,11 +13,11 @@ constexpr std::string_view kMark = "**";
 }  // namespace
 
 std::string inp_comment(const LabelName& row, bool is_signed) {
-  constexpr std::size_t kMostBytes = 256;
+  constexpr std::size_t kMaxBytes = 256;
   std::string line = medit_comment(row, is_signed);
   line.replace(0, 1, kMark);
   line.pop_back();
-  return line.size() > kMostBytes ? std::string() : line;
+  return line.size() > kMaxBytes ? std::string() : line;
 }
 
 std::optional<LabelName> parse_inp_comment(std::string_view line) {

@@ -14,7 +14,7 @@ namespace mw::io {
 namespace {
 
 /// Abaqus allows 256; other tools write more.
-constexpr std::size_t kMostLineBytes = 1 << 20;
+constexpr std::size_t kMaxLineBytes = 1 << 20;
 
 /// What commas part, without blanks at the ends.
 std::vector<std::string> items_of(std::string_view line) {
@@ -44,9 +44,9 @@ std::string in_capitals(std::string_view text) {
 bool InpLines::read() {
   do {
     const std::uint64_t line = cursor_.line();
-    if (!cursor_.read_line(text_, kMostLineBytes)) return false;
+    if (!cursor_.read_line(text_, kMaxLineBytes)) return false;
     line_ = line;
-    if (text_.size() == kMostLineBytes) fail("no line of an input file is that long");
+    if (text_.size() == kMaxLineBytes) fail("no line of an input file is that long");
     if (text_.starts_with("**")) comment_(text_);
   } while (text_.starts_with("**") || trimmed(text_).empty());
   return true;
@@ -70,7 +70,7 @@ void InpLines::read_keyword(InpLine& line) {
   std::string whole(trimmed(text_));
   while (whole.ends_with(',') && read()) {
     whole += trimmed(text_);
-    if (whole.size() > kMostLineBytes) fail("no keyword is that long");
+    if (whole.size() > kMaxLineBytes) fail("no keyword is that long");
   }
   const std::vector<std::string> items = items_of(whole);
   line.keyword = in_capitals(trimmed(std::string_view(items[0]).substr(1)));

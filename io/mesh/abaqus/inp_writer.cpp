@@ -11,7 +11,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMostNumber = 999'999'999;
+constexpr std::uint64_t kMaxNumber = 999'999'999;
 
 /// "1, 2, 3", numbers from 1 on for rows from 0 on.
 void append_rows(std::string& line, std::span<const std::uint64_t> rows) {
@@ -48,9 +48,9 @@ void InpWriter::write(GroupedMesh& mesh) {
 }
 
 void InpWriter::check_counts(const GroupedMesh& mesh) const {
-  const std::uint64_t most = std::max(mesh.node_count(), mesh.tet_count());
-  if (most <= kMostNumber) return;
-  throw Error(ErrorKind::kUsage, text(name_, ": Abaqus has numbers up to ", kMostNumber, ", ", most,
+  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count());
+  if (max <= kMaxNumber) return;
+  throw Error(ErrorKind::kUsage, text(name_, ": Abaqus has numbers up to ", kMaxNumber, ", ", max,
                                       " are needed; write .msh or .vtkhdf"));
 }
 
@@ -99,7 +99,7 @@ void InpWriter::write_surface(GroupedMesh& mesh, const std::string& name, RowRan
 
 void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets) {
   constexpr std::size_t kSortBytes = 8 << 20;
-  constexpr std::size_t kMostItems = 16;  // of a data line
+  constexpr std::size_t kMaxItems = 16;  // of a data line
   ExternalSort<1> rows(folder_, kSortBytes);
   const auto add = [&](std::span<const std::uint64_t> more) {
     for (const std::uint64_t row : more) rows.add({row});
@@ -116,7 +116,7 @@ void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRa
   rows.each([&](const std::array<std::uint64_t, 1>& row) {
     if (row[0] == last) return;
     last = row[0];
-    if (count++ == kMostItems) {
+    if (count++ == kMaxItems) {
       line(items);
       items.clear();
       count = 1;

@@ -16,7 +16,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 33U;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 33U;
 
 class FebioReader {
  public:
@@ -86,12 +86,13 @@ class FebioReader {
 
   void read_element(pugi::xml_node element, std::size_t nodes) {
     const auto ids = parse_integers(spaced(element));
-    const std::string place = text("element ", element.attribute("id").as_string());
-    if (!ids || ids->size() != nodes) fail(place, text("has not ", nodes, " nodes"));
+    const std::string position = text("element ", element.attribute("id").as_string());
+    if (!ids || ids->size() != nodes) fail(position, text("has not ", nodes, " nodes"));
     TetRows& tet = mesh_.tets.emplace_back();
     for (std::size_t i = 0; i < nodes; ++i) {
       const auto row = rows_.find(static_cast<std::uint64_t>((*ids)[i]));
-      if (row == rows_.end()) fail(place, text("names node ", (*ids)[i], ", which is not there"));
+      if (row == rows_.end())
+        fail(position, text("names node ", (*ids)[i], ", which is not there"));
       if (i < tet.size()) {
         tet[i] = row->second;
       } else {
@@ -127,7 +128,7 @@ class FebioReader {
 
 MeshData read_febio(const ByteSource& source) {
   pugi::xml_document document;
-  parse_xml(source, kMostBytes, document);
+  parse_xml(source, kMaxBytes, document);
   const pugi::xml_node model = document.child("febio_spec");
   if (!model) fail_input(source.name(), "febio_spec", "missing", "give an FEBio model");
   return FebioReader(model, source.name()).read();

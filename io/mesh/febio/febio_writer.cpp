@@ -70,7 +70,7 @@ std::array<std::uint64_t, 6> six_rows(GroupedMesh& mesh, const Facet& facet) {
 
 void FebioWriter::write(GroupedMesh& mesh) {
   const auto labels = static_cast<std::int64_t>(mesh.table().size());
-  const LabelNumbers numbers(mesh.table(), {.least = 1, .most = labels});
+  const LabelNumbers numbers(mesh.table(), {.min = 1, .max = labels});
   const std::vector<std::string> parts = part_names(mesh);
   file_.append(kHead);
   write_materials(parts, numbers);

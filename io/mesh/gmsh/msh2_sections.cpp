@@ -32,10 +32,10 @@ struct Kind {
 };
 
 Kind kind_of(const MshInput& in, std::int64_t type, std::int64_t tags) {
-  constexpr std::int64_t kMostTags = 1 << 20;
+  constexpr std::int64_t kMaxTags = 1 << 20;
   const std::uint64_t nodes = msh_nodes_of(type);
   if (nodes == 0) in.fail(text("elements of type ", type, " are not known here"));
-  if (tags < 0 || tags > kMostTags) in.fail(text(tags, " tags of an element"));
+  if (tags < 0 || tags > kMaxTags) in.fail(text(tags, " tags of an element"));
   return {nodes, static_cast<std::uint64_t>(tags), is_msh_tet(type)};
 }
 
@@ -63,12 +63,12 @@ void read_text_element(MshInput& in, MshContent& out) {
 }
 
 /// Elements of one type behind a common head.
-void read_element_block(MshInput& in, std::uint64_t most, MshContent& out) {
+void read_element_block(MshInput& in, std::uint64_t max, MshContent& out) {
   const std::int64_t type = in.integer("a type of elements");
   const std::int64_t rows = in.integer("a number of elements");
   const Kind kind = kind_of(in, type, in.integer("a number of tags"));
-  if (rows < 1 || static_cast<std::uint64_t>(rows) > most) {
-    in.fail(text("a block of ", rows, " elements, where ", most, " are left"));
+  if (rows < 1 || static_cast<std::uint64_t>(rows) > max) {
+    in.fail(text("a block of ", rows, " elements, where ", max, " are left"));
   }
   for (std::int64_t i = 0; i < rows; ++i) {
     static_cast<void>(in.integer("the number of an element"));

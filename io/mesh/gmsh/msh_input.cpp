@@ -13,8 +13,8 @@ namespace mw::io {
 namespace {
 
 /// No number is that long, and no line that is read as one; keeps memory bounded on other files.
-constexpr std::size_t kMostWordBytes = 256;
-constexpr std::size_t kMostLineBytes = 1 << 13;
+constexpr std::size_t kMaxWordBytes = 256;
+constexpr std::size_t kMaxLineBytes = 1 << 13;
 
 bool is_blank(int c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
@@ -30,7 +30,7 @@ void MshInput::set_binary(ByteOrder order) {
 std::string_view MshInput::next_line(std::string_view expected) {
   do {
     line_ = cursor_.line();
-    if (!cursor_.read_line(text_, kMostLineBytes)) {
+    if (!cursor_.read_line(text_, kMaxLineBytes)) {
       text_.clear();
       fail_word(expected);
     }
@@ -53,7 +53,7 @@ void MshInput::end_section(std::string_view section) {
 
 void MshInput::skip_section(std::string_view section) {
   const std::string end = text("$End", section);
-  while (cursor_.read_line(text_, kMostLineBytes)) {
+  while (cursor_.read_line(text_, kMaxLineBytes)) {
     if (trimmed(text_) == end) return;
   }
   fail(text("truncated: no ", end));
@@ -64,7 +64,7 @@ std::string_view MshInput::word() {
   line_ = cursor_.line();
   text_.clear();
   for (int c = cursor_.peek(); c >= 0 && !is_blank(c); c = cursor_.peek()) {
-    if (text_.size() == kMostWordBytes) fail("no number is that long");
+    if (text_.size() == kMaxWordBytes) fail("no number is that long");
     text_.push_back(static_cast<char>(c));
     cursor_.take();
   }
@@ -114,8 +114,8 @@ void MshInput::skip_reals(std::int64_t how_many) {
 }
 
 void MshInput::check_rows(std::uint64_t rows, std::uint64_t bytes, std::uint64_t numbers) const {
-  const std::uint64_t least = ascii_ ? 2 * numbers : bytes;  // a digit and a blank
-  const std::uint64_t wanted = saturating_product(rows, least);
+  const std::uint64_t min = ascii_ ? 2 * numbers : bytes;  // a digit and a blank
+  const std::uint64_t wanted = saturating_product(rows, min);
   const std::uint64_t left = cursor_.left(wanted);
   if (wanted <= left) return;
   fail(text(rows, " rows are announced, the ", left, " bytes left cannot hold them"));
@@ -127,8 +127,8 @@ void MshInput::fail_word(std::string_view expected) const {
 }
 
 void MshInput::fail(std::string_view reason) const {
-  const std::string place = ascii_ ? text("line ", line_) : text("byte ", cursor_.offset());
-  fail_input(name(), place, reason, "save the mesh anew, as Gmsh's .msh of version 4.1");
+  const std::string where = ascii_ ? text("line ", line_) : text("byte ", cursor_.offset());
+  fail_input(name(), where, reason, "save the mesh anew, as Gmsh's .msh of version 4.1");
 }
 
 }  // namespace mw::io

@@ -27,8 +27,8 @@ std::int32_t physical_surface(const FacetGroup& group, std::size_t index) {
 
 /// Gmsh documents 127 bytes and knows no way to write a quote.
 std::string gmsh_name(std::string name, const std::string& plain) {
-  constexpr std::size_t kMostBytes = 127;
-  if (name.size() > kMostBytes) return plain;
+  constexpr std::size_t kMaxBytes = 127;
+  if (name.size() > kMaxBytes) return plain;
   std::replace(name.begin(), name.end(), '"', '\'');
   return name;
 }
@@ -159,15 +159,15 @@ void MshWriter::write_nodes(Contents& contents) {
 
 void MshWriter::put_nodes(Contents& contents, std::size_t entity) {
   const auto [dimension, tag] = tag_of(contents, entity);
-  const RowRange places = contents.classes.nodes(entity);
+  const RowRange positions = contents.classes.nodes(entity);
   for (const std::int32_t number : {dimension, tag, 0}) out_.put(number);  // 0: not parametric
-  out_.put(places.size());
+  out_.put(positions.size());
   out_.end_row();
-  for (std::uint64_t i = places.begin; i < places.end; ++i) {
+  for (std::uint64_t i = positions.begin; i < positions.end; ++i) {
     out_.put(contents.classes.row(i) + 1);
     out_.end_row();
   }
-  for (std::uint64_t i = places.begin; i < places.end; ++i) {
+  for (std::uint64_t i = positions.begin; i < positions.end; ++i) {
     for (const double x : contents.mesh.node(contents.classes.row(i))) out_.put(x);
     out_.end_row();
   }

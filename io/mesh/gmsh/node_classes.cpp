@@ -52,23 +52,23 @@ void extend(EntityBox& box, const Position& p, bool first) {
 NodeClasses::NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder) : rows_(folder) {
   boxes_.resize(mesh.facet_groups().size() + std::max<std::size_t>(mesh.table().size(), 1));
   nodes_.resize(boxes_.size());
-  Pairs places(folder, kSortBytes);  // entity, row
+  Pairs indices(folder, kSortBytes);  // entity, row
   {
     Pairs uses(folder, kSortBytes);
     add_facet_uses(mesh, uses);
     add_tet_uses(mesh, uses);
-    place_rows(mesh, uses, places);
+    place_rows(mesh, uses, indices);
   }
-  places.each([&](const std::array<std::uint64_t, 2>& place) {
-    RowRange& range = nodes_[place[0]];
+  indices.each([&](const std::array<std::uint64_t, 2>& index) {
+    RowRange& range = nodes_[index[0]];
     if (range.size() == 0) range = {rows_.size(), rows_.size()};
     ++range.end;
-    rows_.append(place[1]);
+    rows_.append(index[1]);
   });
 }
 
 /// Uses come by row, those of a row by entity: the first is where it is placed.
-void NodeClasses::place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& places) {
+void NodeClasses::place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& indices) {
   const std::uint64_t unused = mesh.facet_groups().size();
   std::vector<bool> has_box(boxes_.size());
   std::array<std::uint64_t, 2> last{mesh.node_count(), 0};
@@ -79,10 +79,10 @@ void NodeClasses::place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& places) {
     const auto [row, entity] = use;
     extend(boxes_[entity], mesh.node(row), !has_box[entity]);
     has_box[entity] = true;
-    for (; next < row; ++next) places.add({unused, next});
-    if (next == row) places.add({entity, next++});
+    for (; next < row; ++next) indices.add({unused, next});
+    if (next == row) indices.add({entity, next++});
   });
-  for (; next < mesh.node_count(); ++next) places.add({unused, next});
+  for (; next < mesh.node_count(); ++next) indices.add({unused, next});
 }
 
 }  // namespace mw::io

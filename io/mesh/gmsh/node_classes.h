@@ -29,12 +29,12 @@ class NodeClasses {
   /// The places in row() of the nodes on it.
   [[nodiscard]] const RowRange& nodes(std::size_t entity) const { return nodes_[entity]; }
   /// Rows of nodes by entity, ascending in each.
-  [[nodiscard]] std::uint64_t row(std::uint64_t place) { return rows_[place]; }
+  [[nodiscard]] std::uint64_t row(std::uint64_t index) { return rows_[index]; }
 
  private:
   using Pairs = ExternalSort<2>;
 
-  void place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& places);
+  void place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& indices);
 
   std::vector<EntityBox> boxes_;
   std::vector<RowRange> nodes_;

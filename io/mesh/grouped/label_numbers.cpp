@@ -20,7 +20,7 @@ bool fits(const LabelTable& table, Label rank, NumberRange range) {
   const RawLabel raw = table.raw(rank);
   const auto number = static_cast<std::int64_t>(raw);
   if (!table.is_signed() && number < 0) return false;  // 2^63 and more
-  return number >= range.least && number <= range.most;
+  return number >= range.min && number <= range.max;
 }
 
 std::string colour_text(const LabelName* row) {
@@ -58,18 +58,18 @@ LabelNumbers::LabelNumbers(const LabelTable& table, NumberRange range) : numbers
   for (Label rank = 0; rank < table.size(); ++rank) {
     if (fits(table, rank, range)) taken.insert(static_cast<std::int64_t>(table.raw(rank)));
   }
-  if (table.size() > static_cast<std::uint64_t>(range.most - range.least) + 1) {
+  if (table.size() > static_cast<std::uint64_t>(range.max - range.min) + 1) {
     throw Error(ErrorKind::kUsage,
                 text(table.size(), " labels are more than this format has numbers; write .vtkhdf"));
   }
-  std::int64_t last = taken.empty() ? range.least - 1 : *taken.rbegin();
-  std::int64_t low = range.least - 1;
+  std::int64_t last = taken.empty() ? range.min - 1 : *taken.rbegin();
+  std::int64_t low = range.min - 1;
   for (Label rank = 0; rank < table.size(); ++rank) {
     if (fits(table, rank, range)) {
       numbers_[rank] = static_cast<std::int64_t>(table.raw(rank));
       continue;
     }
-    if (last < range.most) {
+    if (last < range.max) {
       numbers_[rank] = ++last;
       continue;
     }
@@ -97,8 +97,8 @@ std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh) {
   const std::filesystem::path path = label_table_path(mesh);
   if (!std::filesystem::exists(path)) return std::nullopt;
   const std::unique_ptr<ByteSource> source = open_bytes(path);
-  constexpr std::uint64_t kMostBytes = 1 << 30;
-  const std::optional<std::string> content = read_whole(*source, kMostBytes);
+  constexpr std::uint64_t kMaxBytes = 1 << 30;
+  const std::optional<std::string> content = read_whole(*source, kMaxBytes);
   if (!content) {
     fail_input(source->name(), {}, "is too large for a table of labels", "remove it");
   }

@@ -17,8 +17,8 @@ namespace mw::io {
 
 /// What a format can hold, both ends included; least is 0 or 1.
 struct NumberRange {
-  std::int64_t least = 1;
-  std::int64_t most = 2147483647;
+  std::int64_t min = 1;
+  std::int64_t max = 2147483647;
 };
 
 /// Labels that a format can hold keep their number; the others get, in their order, the smallest

@@ -13,12 +13,11 @@ namespace {
 constexpr std::string_view kRecord = " mwmesh ";
 
 /// A count that the file could hold, so that a damaged one cannot ask for all memory.
-std::uint64_t next_rows(TokenScanner& scanner, const ByteSource& source,
-                        std::uint64_t least_bytes) {
+std::uint64_t next_rows(TokenScanner& scanner, const ByteSource& source, std::uint64_t min_bytes) {
   const std::uint64_t rows = scanner.next_count("a number of rows");
-  const std::uint64_t least = saturating_product(rows, least_bytes);
-  const std::uint64_t size = source.size_within(least);
-  if (size < least) {
+  const std::uint64_t min = saturating_product(rows, min_bytes);
+  const std::uint64_t size = source.size_within(min);
+  if (size < min) {
     scanner.fail(text(rows, " rows are announced, the file of ", size, " bytes cannot hold them"));
   }
   return rows;
@@ -58,7 +57,7 @@ bool is_keyword(std::string_view word) {
 }  // namespace
 
 MeshData read_medit(const ByteSource& source) {
-  constexpr std::uint64_t kLeastVertexBytes = 8, kLeastTetBytes = 10;
+  constexpr std::uint64_t kMinVertexBytes = 8, kMinTetBytes = 10;
   TokenScanner scanner(source);
   MeshData mesh;
   std::vector<LabelName> names;
@@ -79,10 +78,10 @@ MeshData read_medit(const ByteSource& source) {
     if (word == "Dimension") {
       if (scanner.next_count("the dimension") != 3) scanner.fail("the dimension is not 3");
     } else if (word == "Vertices" && !vertices) {
-      read_vertices(scanner, next_rows(scanner, source, kLeastVertexBytes), mesh);
+      read_vertices(scanner, next_rows(scanner, source, kMinVertexBytes), mesh);
       vertices = true;
     } else if (word == "Tetrahedra" && vertices && !tets) {
-      read_tets(scanner, next_rows(scanner, source, kLeastTetBytes), mesh);
+      read_tets(scanner, next_rows(scanner, source, kMinTetBytes), mesh);
       tets = true;
     } else if (word == "Vertices" || word == "Tetrahedra") {
       scanner.fail(text("a second or misplaced section ", word));

@@ -32,17 +32,17 @@ class TetgenFile {
   [[nodiscard]] TokenScanner& scanner() { return scanner_; }
   /// A count that the file could hold, so that a damaged one cannot ask for all memory.
   [[nodiscard]] std::uint64_t next_rows() {
-    constexpr std::uint64_t kLeastRowBytes = 8;
+    constexpr std::uint64_t kMinRowBytes = 8;
     const std::uint64_t rows = scanner_.next_count("a number of rows");
-    if (rows <= source_->size() / kLeastRowBytes) return rows;
+    if (rows <= source_->size() / kMinRowBytes) return rows;
     scanner_.fail(text(rows, " rows are announced, the file of ", source_->size(),
                        " bytes cannot hold them"));
   }
   /// How many numbers of a kind a row has.
   [[nodiscard]] std::uint64_t next_width(std::string_view of_what) {
-    constexpr std::uint64_t kMost = 1000;
+    constexpr std::uint64_t kMax = 1000;
     const std::uint64_t width = scanner_.next_count(of_what);
-    if (width > kMost) scanner_.fail(text(width, " is no credible ", of_what));
+    if (width > kMax) scanner_.fail(text(width, " is no credible ", of_what));
     return width;
   }
   void skip(std::uint64_t words) {
@@ -86,11 +86,11 @@ std::uint64_t read_nodes(const std::filesystem::path& path, MeshData& mesh) {
 
 /// An attribute is a real number for TetGen.
 std::int64_t next_label(TokenScanner& scanner) {
-  constexpr double kMostExact = 9007199254740992.0;  // 2^53
+  constexpr double kMaxExact = 9007199254740992.0;  // 2^53
   const std::string word(scanner.next());
   if (const auto integer = parse_integer(word)) return *integer;
   const auto real = parse_real(word);
-  if (!real || std::trunc(*real) != *real || std::abs(*real) > kMostExact) {
+  if (!real || std::trunc(*real) != *real || std::abs(*real) > kMaxExact) {
     scanner.fail(text("'", word, "' stands where the label of a tet is expected"));
   }
   return static_cast<std::int64_t>(*real);

@@ -62,7 +62,7 @@ void TetgenWriter::write_nodes(GroupedMesh& mesh) {
 }
 
 void TetgenWriter::write_tets(GroupedMesh& mesh) {
-  const LabelNumbers numbers(mesh.table(), {.least = 0});
+  const LabelNumbers numbers(mesh.table(), {.min = 0});
   const bool ten = mesh.element() == Element::kTet10;
   tets_.append(text(mesh.tet_count(), " ", node_count(mesh.element()), " 1\n"));
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {

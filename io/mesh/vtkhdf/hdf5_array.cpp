@@ -17,8 +17,8 @@ constexpr std::uint64_t kMaxRows = std::uint64_t{1} << 56;
 
 }  // namespace
 
-Hdf5Array::Hdf5Array(hid_t place, const std::string& path, const std::string& file)
-    : file_(file), path_(path), set_(H5Dopen2(place, path.c_str(), H5P_DEFAULT), &H5Dclose) {
+Hdf5Array::Hdf5Array(hid_t where, const std::string& path, const std::string& file)
+    : file_(file), path_(path), set_(H5Dopen2(where, path.c_str(), H5P_DEFAULT), &H5Dclose) {
   if (!set_.valid()) fail("missing or damaged");
   inspect();
 }
@@ -64,12 +64,12 @@ void Hdf5Array::read_as(std::uint64_t first, std::uint64_t count, hid_t type, vo
   if (count == 0) return;
   const std::array<hsize_t, 2> start{first, 0};
   const std::array<hsize_t, 2> size{count, components_};
-  const Hdf5Handle place(H5Dget_space(set_.get()), &H5Sclose);
-  const int rank = H5Sget_simple_extent_ndims(place.get());
+  const Hdf5Handle where(H5Dget_space(set_.get()), &H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(where.get());
   const Hdf5Handle memory(H5Screate_simple(rank, size.data(), nullptr), &H5Sclose);
-  if (H5Sselect_hyperslab(place.get(), H5S_SELECT_SET, start.data(), nullptr, size.data(),
+  if (H5Sselect_hyperslab(where.get(), H5S_SELECT_SET, start.data(), nullptr, size.data(),
                           nullptr) < 0 ||
-      H5Dread(set_.get(), type, memory.get(), place.get(), H5P_DEFAULT, out) < 0) {
+      H5Dread(set_.get(), type, memory.get(), where.get(), H5P_DEFAULT, out) < 0) {
     fail(text("cannot read rows ", first, " to ", first + count));
   }
 }

@@ -15,7 +15,7 @@ class Hdf5Array {
  public:
   /// ERRORS of all: mw::Error(kInput) naming file and data set; here when it is missing, no array
   /// of numbers, or announces more than its bytes in the file can hold.
-  Hdf5Array(hid_t place, const std::string& path, const std::string& file);
+  Hdf5Array(hid_t where, const std::string& path, const std::string& file);
 
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
   [[nodiscard]] std::uint64_t components() const { return components_; }

@@ -58,7 +58,7 @@ void read_hdf5_apart(const std::string& file, std::uint64_t bytes,
 void stream_points(const Hdf5Array& points, RowRange range, const KeptRows* kept, MeshSink& sink) {
   std::vector<Position> batch;
   for (std::uint64_t at = range.begin; at < range.end;) {
-    batch.resize(std::min(kMostApartRows, range.end - at));
+    batch.resize(std::min(kMaxApartRows, range.end - at));
     points.read(at, batch.size(), batch.data()->data());
     check_finite(points, at, batch);
     const std::uint64_t first = at;

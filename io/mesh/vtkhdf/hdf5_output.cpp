@@ -27,7 +27,7 @@ Hdf5DataSet Hdf5Output::add_texts(const std::string& name, std::span<const std::
   const Hdf5Texts all = hdf5_texts(texts, next());
   write_at(reserve(all.heap.size()), std::as_bytes(std::span(all.heap)));
   return add({.name = name, .kind = Hdf5Kind::kText, .shape = {texts.size()}},
-             std::as_bytes(std::span(all.places)));
+             std::as_bytes(std::span(all.positions)));
 }
 
 AtomicFile& Hdf5Output::finish(const Hdf5Group& root) {

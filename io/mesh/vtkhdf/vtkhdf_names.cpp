@@ -52,8 +52,8 @@ std::string bytes_of(const LabelNames& names) {
 }
 
 /// Not there is an answer, not known is none.
-bool has_link(hid_t place, const std::string& path, const std::string& file) {
-  const htri_t found = H5Lexists(place, path.c_str(), H5P_DEFAULT);
+bool has_link(hid_t index, const std::string& path, const std::string& file) {
+  const htri_t found = H5Lexists(index, path.c_str(), H5P_DEFAULT);
   if (found < 0) {
     fail_input(file, path, "cannot be looked up: " + hdf5_reason(), "the file or disk is damaged");
   }
@@ -61,15 +61,15 @@ bool has_link(hid_t place, const std::string& path, const std::string& file) {
 }
 
 /// An array of a group that may not be there either.
-struct ArrayPlace {
-  hid_t place = H5I_INVALID_HID;
+struct ArrayLayout {
+  hid_t index = H5I_INVALID_HID;
   const char* group = nullptr;
   const char* array = nullptr;
 };
 
-bool has_array(const ArrayPlace& at, const std::string& file) {
-  return has_link(at.place, at.group, file) &&
-         has_link(at.place, text(at.group, "/", at.array), file);
+bool has_array(const ArrayLayout& at, const std::string& file) {
+  return has_link(at.index, at.group, file) &&
+         has_link(at.index, text(at.group, "/", at.array), file);
 }
 
 std::vector<std::uint64_t> read_numbers(const Hdf5Array& array, std::uint64_t components) {

@@ -18,7 +18,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kBatchRows = kMostApartRows;
+constexpr std::uint64_t kBatchRows = kMaxApartRows;
 std::string type_of(hid_t group) {
   const Hdf5Handle attribute(H5Aopen(group, "Type", H5P_DEFAULT), &H5Aclose);
   const Hdf5Handle type(H5Aget_type(attribute.get()), &H5Tclose);

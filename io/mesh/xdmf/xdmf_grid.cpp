@@ -16,7 +16,7 @@ namespace mw::io {
 namespace {
 
 /// There are no numbers in it.
-constexpr std::uint64_t kMostBytes = 256 << 20;
+constexpr std::uint64_t kMaxBytes = 256 << 20;
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -33,7 +33,7 @@ std::string type_of(pugi::xml_node node, const char* long_name) {
 class GridReader {
  public:
   explicit GridReader(const std::filesystem::path& path) : path_(path) {
-    parse_xml(FileSource(path), kMostBytes, document_);
+    parse_xml(FileSource(path), kMaxBytes, document_);
   }
 
   [[nodiscard]] XdmfContent read() const {
@@ -58,36 +58,36 @@ class GridReader {
   }
 
   [[nodiscard]] XdmfGrid read_grid(pugi::xml_node grid, pugi::xml_node nodes) const {
-    const std::string place = text("grid '", grid.attribute("Name").as_string(), "'");
+    const std::string position = text("grid '", grid.attribute("Name").as_string(), "'");
     const std::string kind = type_of(nodes, "GeometryType");
     if (kind != "xyz" && !(nodes && kind.empty())) {
-      fail_input(path_.string(), place, text("geometry '", kind, "' is not XYZ"));
+      fail_input(path_.string(), position, text("geometry '", kind, "' is not XYZ"));
     }
-    XdmfGrid out{.topology = item_of(grid.child("Topology"), place),
-                 .geometry = item_of(nodes, place),
+    XdmfGrid out{.topology = item_of(grid.child("Topology"), position),
+                 .geometry = item_of(nodes, position),
                  .cells = {}};
     for (const pugi::xml_node attribute : grid.children("Attribute")) {
       if (lower(attribute.attribute("Center").as_string()) != "cell") continue;
       const std::string name = attribute.attribute("Name").as_string();
-      out.cells.push_back({name, item_of(attribute, text(place, ", attribute '", name, "'"))});
+      out.cells.push_back({name, item_of(attribute, text(position, ", attribute '", name, "'"))});
     }
     return out;
   }
 
   /// "FILE:/PATH" of the one DataItem.
-  [[nodiscard]] XdmfItem item_of(pugi::xml_node parent, const std::string& place) const {
+  [[nodiscard]] XdmfItem item_of(pugi::xml_node parent, const std::string& position) const {
     const pugi::xml_node item = parent.child("DataItem");
     const std::string format = lower(item.attribute("Format").as_string());
     if (format != "hdf") {
-      fail_input(path_.string(), place, text("numbers in format '", format, "' are not read"),
+      fail_input(path_.string(), position, text("numbers in format '", format, "' are not read"),
                  "store them in HDF5 (data_format=\"HDF\" of meshio)");
     }
     const std::string_view words = trimmed(item.text().get());
     const std::size_t colon = words.rfind(':');
     if (colon == std::string_view::npos) {
-      fail_input(path_.string(), place, text("'", words.substr(0, 80), "' is not FILE:/PATH"));
+      fail_input(path_.string(), position, text("'", words.substr(0, 80), "' is not FILE:/PATH"));
     }
-    return {named_beside(path_, place, words.substr(0, colon)),
+    return {named_beside(path_, position, words.substr(0, colon)),
             std::string(words.substr(colon + 1))};
   }
 

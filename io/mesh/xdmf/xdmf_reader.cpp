@@ -72,7 +72,7 @@ class Reader {
   void each_batch(Take take) const {
     std::vector<std::int64_t> nodes;
     for (std::uint64_t at = 0; at < tets_.rows();) {
-      const std::uint64_t count = std::min(kMostApartRows, tets_.rows() - at);
+      const std::uint64_t count = std::min(kMaxApartRows, tets_.rows() - at);
       nodes.resize(count * tets_.components());
       tets_.read(at, count, nodes.data());
       for (const std::int64_t node : nodes) {

@@ -63,7 +63,7 @@ XdmfWriter::XdmfWriter(const std::filesystem::path& path)
       facets_(facet_table_path(path)) {}
 
 void XdmfWriter::write(GroupedMesh& mesh) {
-  const LabelNumbers numbers(mesh.table(), {.least = 0});
+  const LabelNumbers numbers(mesh.table(), {.min = 0});
   const std::vector<NumberedFacets> runs = number_facets(mesh);
   const Hdf5Group meshes{
       .name = "Mesh",

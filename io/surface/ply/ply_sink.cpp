@@ -23,10 +23,10 @@ constexpr std::string_view kOnFaces =
 }  // namespace
 
 void PlySink::begin(const SurfaceHeader& header) {
-  constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
-  check_most(name_, "vertices", header.vertices(), kMost);
+  constexpr std::uint64_t kMax = std::numeric_limits<std::int32_t>::max();
+  check_max(name_, "vertices", header.vertices(), kMax);
   header_ = header;
-  numbers_.emplace(header.labels->table, NumberRange{.least = 0});
+  numbers_.emplace(header.labels->table, NumberRange{.min = 0});
   cursor_.emplace(header_);
   colours_ = has_colours(header);
   of_labels_ = std::all_of(header.shells.begin(), header.shells.end(),

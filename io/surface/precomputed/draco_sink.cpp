@@ -16,7 +16,7 @@
 namespace mw::io {
 namespace {
 
-constexpr double kMostStep = (1 << kDracoBits) - 1;
+constexpr double kMaxStep = (1 << kDracoBits) - 1;
 
 /// What the file says, in the numbers that it has.
 struct FloatBox {
@@ -42,7 +42,7 @@ std::array<std::int32_t, 3> steps_of(const Position& p, const FloatBox& box) {
   std::array<std::int32_t, 3> steps{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double share = (p[k] - static_cast<double>(box.origin[k])) / box.shape[k];
-    steps[k] = static_cast<std::int32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kMostStep));
+    steps[k] = static_cast<std::int32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kMaxStep));
   }
   return steps;
 }
@@ -91,8 +91,8 @@ void write_manifest(const std::filesystem::path& path, const FloatBox& box, std:
 }  // namespace
 
 void DracoSink::begin(const SurfaceHeader& header) {
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max() / 3;
-  check_most(segment_.string(), "triangles", header.triangles(), kMost);
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max() / 3;
+  check_max(segment_.string(), "triangles", header.triangles(), kMax);
   vertices_.reserve(header.vertices());
   triangles_.reserve(header.triangles());
 }
@@ -121,7 +121,7 @@ void DracoSink::finish() {
     throw Error(ErrorKind::kInternal,
                 text(segment_.string(), ": Draco: ", status.error_msg_string()));
   }
-  check_most(segment_.string(), "bytes", buffer.size(), std::numeric_limits<std::uint32_t>::max());
+  check_max(segment_.string(), "bytes", buffer.size(), std::numeric_limits<std::uint32_t>::max());
   AtomicFile file(segment_);
   file.append(std::string_view(buffer.data(), buffer.size()));
   file.commit();

@@ -17,8 +17,8 @@ LegacySink::LegacySink(const std::filesystem::path& segment, double nm_per_unit)
       nm_per_unit_(nm_per_unit) {}
 
 void LegacySink::begin(const SurfaceHeader& header) {
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
-  check_most(segment_.string(), "vertices", header.vertices(), kMost);
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
+  check_max(segment_.string(), "vertices", header.vertices(), kMax);
   append_little(file_, static_cast<std::uint32_t>(header.vertices()));
 }
 

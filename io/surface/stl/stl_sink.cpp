@@ -41,7 +41,7 @@ StlSink::StlSink(const std::filesystem::path& path)
 
 void StlSink::begin(const SurfaceHeader& header) {
   const std::uint64_t count = header.triangles();
-  check_most(name_, "triangles", count, std::numeric_limits<std::uint32_t>::max());
+  check_max(name_, "triangles", count, std::numeric_limits<std::uint32_t>::max());
   std::string title(kTitle);
   title.resize(kTitleBytes, ' ');
   file_.append(title);

@@ -15,7 +15,7 @@ namespace mw::io {
 namespace {
 
 /// Data sets that an error names.
-constexpr std::size_t kMostNamed = 12;
+constexpr std::size_t kMaxNamed = 12;
 
 Hdf5Entry entry_of(hid_t group, const char* name, std::string path) {
   Hdf5Entry entry{.path = std::move(path), .shape = {}, .type = "unreadable"};
@@ -41,7 +41,7 @@ herr_t visit(hid_t group, const char* name, const H5O_info_t* info, void* data) 
   auto& found = *static_cast<Visit*>(data);
   if (info->type != H5O_TYPE_DATASET) return 0;
   found.entries.push_back(entry_of(group, name, found.below + name));
-  return found.entries.size() < kMostHdf5Entries ? 0 : 1;
+  return found.entries.size() < kMaxHdf5Entries ? 0 : 1;
 }
 
 using Fits = std::function<bool(const Hdf5Entry&)>;
@@ -115,12 +115,12 @@ const std::string& choose_data_set(const std::vector<Hdf5Entry>& entries, std::s
 std::string list_text(const std::vector<Hdf5Entry>& entries) {
   if (entries.empty()) return "there is none";
   std::string out;
-  for (std::size_t i = 0; i < std::min(entries.size(), kMostNamed); ++i) {
+  for (std::size_t i = 0; i < std::min(entries.size(), kMaxNamed); ++i) {
     const Hdf5Entry& entry = entries[i];
     out += text(i == 0 ? "" : ", ", entry.path, " ", shape_text(entry.shape),
                 entry.shape.empty() ? "" : " ", entry.type);
   }
-  if (entries.size() > kMostNamed) out += text(" and ", entries.size() - kMostNamed, " more");
+  if (entries.size() > kMaxNamed) out += text(" and ", entries.size() - kMaxNamed, " more");
   return out;
 }
 

@@ -20,9 +20,9 @@ struct Hdf5Entry {
 };
 
 /// Data sets that are looked at; a file of labels has a few.
-inline constexpr std::size_t kMostHdf5Entries = 4096;
+inline constexpr std::size_t kMaxHdf5Entries = 4096;
 
-/// The first kMostHdf5Entries data sets in and below a group, by name; each once, whatever hard
+/// The first kMaxHdf5Entries data sets in and below a group, by name; each once, whatever hard
 /// links lead to it; soft and external links are not followed.  group: "/" or "/a/b".
 /// ERRORS: mw::Error(kInput) naming `file`.  To be called apart (io/file/apart.h) only.
 [[nodiscard]] std::vector<Hdf5Entry> list_data_sets(hid_t hdf5, const std::string& group,

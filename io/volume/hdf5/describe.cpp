@@ -140,9 +140,9 @@ class Checker {
 
 Hdf5Description describe_hdf5(const ByteSource& source, const std::string& data_set) {
   // A chunk takes at least a byte of the file.
-  const std::uint64_t most_chunks = std::min<std::uint64_t>(kMostHdf5Chunks, source.size());
+  const std::uint64_t max_chunks = std::min<std::uint64_t>(kMaxHdf5Chunks, source.size());
   ApartLimits limits;
-  limits.answer_bytes = kMostPackedDescription + sizeof(Hdf5Chunk) * most_chunks;
+  limits.answer_bytes = kMaxPackedDescription + sizeof(Hdf5Chunk) * max_chunks;
   const ApartAnswer answer = run_apart(limits, [&] { return describe_here(source, data_set); });
   if (!answer.bytes) {
     fail_input(source.name(), "HDF5 structure",

@@ -9,7 +9,7 @@
 #include "io/file/apart.h"
 #include "io/file/errors.h"
 #include "io/hdf5/library_errors.h"
-#include "io/volume/hdf5/describe_place.h"
+#include "io/volume/hdf5/describe_geometry.h"
 #include "io/volume/hdf5/number_type.h"
 
 namespace mw::io {
@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kDamaged = "the file is damaged: check it with h5dump, or h5repack it";
 /// A compact data set is part of a header message, which has a size of 16 bits.
-constexpr std::uint64_t kMostCompactBytes = 1 << 16;
+constexpr std::uint64_t kMaxCompactBytes = 1 << 16;
 /// Chunks of the grid that a slow processor finds in a second.
 constexpr std::uint64_t kChunksPerSecond = 20'000;
 constexpr std::uint64_t kSecondsBeside = 5;
@@ -53,7 +53,7 @@ class Describer {
       default:
         fail("its storage is unknown", kDamaged);
     }
-    find_place(hdf5_, set_.get(), source_.bytes->name(), out_);
+    find_geometry(hdf5_, set_.get(), source_.bytes->name(), out_);
     return std::move(out_);
   }
 
@@ -95,7 +95,7 @@ class Describer {
     out_.layout = Hdf5Layout::kCompact;
     auto bytes = static_cast<std::uint64_t>(byte_size(out_.type));
     for (const std::uint64_t extent : out_.shape) {
-      if (extent > kMostCompactBytes || (bytes *= extent) > kMostCompactBytes) {
+      if (extent > kMaxCompactBytes || (bytes *= extent) > kMaxCompactBytes) {
         fail("its shape does not fit its storage", kDamaged);
       }
     }
@@ -164,8 +164,8 @@ class Describer {
       const std::uint64_t extent = out_.shape[d], chunk = out_.chunk_shape[d];
       if (chunk == 0) fail("a chunk is empty", kDamaged);
       counts.push_back(extent / chunk + (extent % chunk == 0 ? 0 : 1));
-      if (__builtin_mul_overflow(all, counts.back(), &all) || all > kMostHdf5Chunks) {
-        fail(text("it is in more than ", kMostHdf5Chunks, " chunks"),
+      if (__builtin_mul_overflow(all, counts.back(), &all) || all > kMaxHdf5Chunks) {
+        fail(text("it is in more than ", kMaxHdf5Chunks, " chunks"),
              "h5repack it into larger ones: -l CHUNK=64x64x64");
       }
     }

@@ -56,9 +56,9 @@ struct Hdf5Description {
 };
 
 /// Chunks that a data set may have: 24 bytes each are kept.
-inline constexpr std::uint64_t kMostHdf5Chunks = std::uint64_t{1} << 22U;
+inline constexpr std::uint64_t kMaxHdf5Chunks = std::uint64_t{1} << 22U;
 /// The most that pack() makes beside 24 bytes a chunk.
-inline constexpr std::size_t kMostPackedDescription = std::size_t{1} << 20U;
+inline constexpr std::size_t kMaxPackedDescription = std::size_t{1} << 20U;
 
 [[nodiscard]] std::string pack(const Hdf5Description& description);
 

@@ -72,23 +72,23 @@ std::vector<std::byte> without_checksum(std::vector<std::byte> bytes, std::strin
   return bytes;
 }
 
-std::vector<std::byte> undo(const Hdf5Filter& filter, std::vector<std::byte> bytes,
-                            std::size_t most, std::string_view name) {
+std::vector<std::byte> undo(const Hdf5Filter& filter, std::vector<std::byte> bytes, std::size_t max,
+                            std::string_view name) {
   switch (filter.id) {
     case kDeflate:
-      return unpack(Codec::kZlib, bytes, most, name);
+      return unpack(Codec::kZlib, bytes, max, name);
     case kShuffle:
       return filter.parameters.empty() ? bytes : unshuffle(bytes, filter.parameters[0]);
     case kFletcher32:
       return without_checksum(std::move(bytes), name);
     case kLzf:
-      return unpack_lzf(bytes, most, name);
+      return unpack_lzf(bytes, max, name);
     case kBlosc:
-      return unpack(Codec::kBlosc, bytes, most, name);
+      return unpack(Codec::kBlosc, bytes, max, name);
     case kLz4:
-      return unpack_lz4_hdf5(bytes, most, name);
+      return unpack_lz4_hdf5(bytes, max, name);
     default:
-      return unpack(Codec::kZstd, bytes, most, name);
+      return unpack(Codec::kZstd, bytes, max, name);
   }
 }
 
@@ -108,10 +108,10 @@ std::vector<std::byte> unfilter(const std::vector<Hdf5Filter>& filters,
   // Checksums may be packed with the voxels.
   const auto checksums = std::count_if(filters.begin(), filters.end(),
                                        [](const auto& filter) { return filter.id == kFletcher32; });
-  const std::size_t most = wanted.bytes + kChecksumBytes * static_cast<std::size_t>(checksums);
+  const std::size_t max = wanted.bytes + kChecksumBytes * static_cast<std::size_t>(checksums);
   for (std::size_t i = filters.size(); i > 0; --i) {
     const bool skipped = i <= 32 && ((wanted.skipped >> (i - 1)) & 1U) != 0;
-    if (!skipped) stored = undo(filters[i - 1], std::move(stored), most, wanted.name);
+    if (!skipped) stored = undo(filters[i - 1], std::move(stored), max, wanted.name);
   }
   if (stored.size() != wanted.bytes) {
     fail_input(wanted.name, {},
@@ -121,15 +121,15 @@ std::vector<std::byte> unfilter(const std::vector<Hdf5Filter>& filters,
   return stored;
 }
 
-std::uint64_t most_unfilter_scratch(const std::vector<Hdf5Filter>& filters, std::size_t bytes) {
-  std::uint64_t most = 0;
+std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters, std::size_t bytes) {
+  std::uint64_t max = 0;
   for (const Hdf5Filter& filter : filters) {
     const Codec codec = filter.id == kBlosc  ? Codec::kBlosc
                         : filter.id == kZstd ? Codec::kZstd
                                              : Codec::kZlib;
-    most = std::max(most, bytes + most_scratch(codec, bytes));
+    max = std::max(max, bytes + max_scratch(codec, bytes));
   }
-  return most;
+  return max;
 }
 
 }  // namespace mw::io

@@ -32,7 +32,7 @@ struct Unfiltering {
 
 /// The most that unfilter() takes in memory for `bytes` of voxels, beside the stored ones and what
 /// it returns.
-[[nodiscard]] std::uint64_t most_unfilter_scratch(const std::vector<Hdf5Filter>& filters,
-                                                  std::size_t bytes);
+[[nodiscard]] std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters,
+                                                 std::size_t bytes);
 
 }  // namespace mw::io

@@ -13,7 +13,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMostChunkBytes = UINT32_MAX;
+constexpr std::uint64_t kMaxChunkBytes = UINT32_MAX;
 
 /// Elements from one to the next along axis d of an array in a chunk.
 std::int64_t stride_of(const Hdf5Description& description, std::optional<std::size_t> axis) {
@@ -29,7 +29,7 @@ std::int64_t stride_of(const Hdf5Description& description, std::optional<std::si
 std::size_t checked_chunk_bytes(const Hdf5Description& description, std::string_view file) {
   auto bytes = static_cast<std::uint64_t>(byte_size(description.type));
   for (const std::uint64_t extent : description.chunk_shape) {
-    if (__builtin_mul_overflow(bytes, extent, &bytes) || bytes > kMostChunkBytes) {
+    if (__builtin_mul_overflow(bytes, extent, &bytes) || bytes > kMaxChunkBytes) {
       fail_input(file, text("data set ", description.path),
                  text("a chunk of ", shape_text(description.chunk_shape), " of ",
                       name(description.type), " is above 4 GiB, the most of HDF5"),
@@ -56,12 +56,12 @@ std::string Hdf5Chunks::name_of(Index3 chunk) const {
 }
 
 std::optional<Chunk> Hdf5Chunks::load(Index3 chunk, const Box3& /*box*/) const {
-  const std::vector<std::uint64_t> place = place_in_grid(chunk);
-  const Hdf5Chunk* const stored = find(place);
+  const std::vector<std::uint64_t> index = index_in_grid(chunk);
+  const Hdf5Chunk* const stored = find(index);
   if (stored == nullptr) return std::nullopt;
   std::vector<std::byte> bytes(stored->bytes);
   source_->read_at(stored->offset, bytes);
-  const bool unfiltered = description_.edges_unfiltered && sticks_out(place);
+  const bool unfiltered = description_.edges_unfiltered && sticks_out(index);
   const std::string name = name_of(chunk);
   const Unfiltering wanted{.skipped = unfiltered ? ~std::uint32_t{0} : stored->skipped,
                            .bytes = chunk_bytes_,
@@ -76,23 +76,23 @@ std::uint64_t Hdf5Chunks::scratch_bytes() const {
   for (const Hdf5Chunk& chunk : description_.chunks) {
     stored = std::max<std::uint64_t>(stored, chunk.bytes);
   }
-  return stored + most_unfilter_scratch(description_.filters, chunk_bytes_);
+  return stored + max_unfilter_scratch(description_.filters, chunk_bytes_);
 }
 
-std::vector<std::uint64_t> Hdf5Chunks::place_in_grid(Index3 chunk) const {
-  std::vector<std::uint64_t> place(description_.shape.size(), 0);
+std::vector<std::uint64_t> Hdf5Chunks::index_in_grid(Index3 chunk) const {
+  std::vector<std::uint64_t> index(description_.shape.size(), 0);
   const std::array<std::int64_t, 3> numbers{chunk.x, chunk.y, chunk.z};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (axes_[i]) place[*axes_[i]] = static_cast<std::uint64_t>(numbers[i]);
+    if (axes_[i]) index[*axes_[i]] = static_cast<std::uint64_t>(numbers[i]);
   }
-  return place;
+  return index;
 }
 
-const Hdf5Chunk* Hdf5Chunks::find(const std::vector<std::uint64_t>& place) const {
+const Hdf5Chunk* Hdf5Chunks::find(const std::vector<std::uint64_t>& index) const {
   std::uint64_t number = 0;
-  for (std::size_t d = 0; d < place.size(); ++d) {
+  for (std::size_t d = 0; d < index.size(); ++d) {
     const std::uint64_t extent = description_.chunk_shape[d];
-    number = number * ((description_.shape[d] + extent - 1) / extent) + place[d];
+    number = number * ((description_.shape[d] + extent - 1) / extent) + index[d];
   }
   const auto found = std::lower_bound(
       description_.chunks.begin(), description_.chunks.end(), number,
@@ -100,9 +100,9 @@ const Hdf5Chunk* Hdf5Chunks::find(const std::vector<std::uint64_t>& place) const
   return found != description_.chunks.end() && found->number == number ? &*found : nullptr;
 }
 
-bool Hdf5Chunks::sticks_out(const std::vector<std::uint64_t>& place) const {
-  for (std::size_t d = 0; d < place.size(); ++d) {
-    if ((place[d] + 1) * description_.chunk_shape[d] > description_.shape[d]) return true;
+bool Hdf5Chunks::sticks_out(const std::vector<std::uint64_t>& index) const {
+  for (std::size_t d = 0; d < index.size(); ++d) {
+    if ((index[d] + 1) * description_.chunk_shape[d] > description_.shape[d]) return true;
   }
   return false;
 }

@@ -24,9 +24,9 @@ class Hdf5Chunks : public ChunkSource {
   [[nodiscard]] std::uint64_t scratch_bytes() const override;
 
  private:
-  [[nodiscard]] std::vector<std::uint64_t> place_in_grid(Index3 chunk) const;
-  [[nodiscard]] const Hdf5Chunk* find(const std::vector<std::uint64_t>& place) const;
-  [[nodiscard]] bool sticks_out(const std::vector<std::uint64_t>& place) const;
+  [[nodiscard]] std::vector<std::uint64_t> index_in_grid(Index3 chunk) const;
+  [[nodiscard]] const Hdf5Chunk* find(const std::vector<std::uint64_t>& index) const;
+  [[nodiscard]] bool sticks_out(const std::vector<std::uint64_t>& index) const;
 
   std::unique_ptr<ByteSource> source_;
   Hdf5Description description_;

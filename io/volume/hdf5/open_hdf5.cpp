@@ -14,8 +14,8 @@
 #include "io/volume/hdf5/axes.h"
 #include "io/volume/hdf5/describe.h"
 #include "io/volume/hdf5/filters.h"
+#include "io/volume/hdf5/geometry.h"
 #include "io/volume/hdf5/hdf5_chunks.h"
-#include "io/volume/hdf5/place.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {
@@ -83,8 +83,9 @@ std::unique_ptr<LabelVolume> open_run(std::unique_ptr<ByteSource> source, Volume
     offset = 0;
   }
   check_payload(*source, info, offset);
-  return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
-                                          ArrayPlace{.offset = offset, .order = description.order});
+  return std::make_unique<RawArrayVolume>(
+      std::move(source), std::move(info),
+      ArrayLayout{.offset = offset, .order = description.order});
 }
 
 /// The label of voxels whose chunk was never written.

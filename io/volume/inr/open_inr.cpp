@@ -26,7 +26,7 @@ std::unique_ptr<LabelVolume> open_inr(std::unique_ptr<ByteSource> source,
   check_payload(*source, info, header.bytes);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
-      ArrayPlace{.offset = header.bytes, .order = header.order});
+      ArrayLayout{.offset = header.bytes, .order = header.order});
 }
 
 }  // namespace mw::io

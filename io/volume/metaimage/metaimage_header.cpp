@@ -184,7 +184,7 @@ FileSpace parse_space(const FieldMap& fields, std::size_t rank, std::string_view
   return space;
 }
 
-void parse_data_place(const FieldMap& fields, MetaImageHeader& header, std::string_view file) {
+void parse_data_offset(const FieldMap& fields, MetaImageHeader& header, std::string_view file) {
   header.data_file = required(fields, "ElementDataFile", file);
   header.compressed = is_true(find_any(fields, {"CompressedData"}));
   if (const std::string* value = find_any(fields, {"HeaderSize"})) {
@@ -218,7 +218,7 @@ MetaImageHeader parse_metaimage_header(std::string_view head, std::string_view f
   header.type = parse_type(required(fields, "ElementType", file), file);
   const bool big = is_true(find_any(fields, {"ElementByteOrderMSB", "BinaryDataByteOrderMSB"}));
   header.order = big ? ByteOrder::kBig : ByteOrder::kLittle;
-  parse_data_place(fields, header, file);
+  parse_data_offset(fields, header, file);
   header.space = parse_space(fields, rank, file);
   return header;
 }

@@ -60,14 +60,14 @@ std::unique_ptr<ByteSource> many_files(const MetaImageHeader& header, std::strin
 
 void inflate(Placed& data, const MetaImageHeader& header, std::uint64_t needed) {
   // Deflate adds a few bytes to what it cannot pack; the file itself may be packed once more.
-  const std::uint64_t most = saturating_sum(saturating_product(needed, 2), 1 << 20);
+  const std::uint64_t max = saturating_sum(saturating_product(needed, 2), 1 << 20);
   const std::uint64_t end =
-      data.source->size_within(saturating_sum(data.offset, header.packed_bytes.value_or(most)));
-  const DeflatedBytes place{.offset = std::min(data.offset, end),
-                            .end = end,
-                            .framing = DeflateFraming::kZlibOrGzip,
-                            .field = "compressed voxel data"};
-  data = {inflate_to_scratch(*data.source, place, needed), 0};
+      data.source->size_within(saturating_sum(data.offset, header.packed_bytes.value_or(max)));
+  const DeflatedBytes position{.offset = std::min(data.offset, end),
+                               .end = end,
+                               .framing = DeflateFraming::kZlibOrGzip,
+                               .field = "compressed voxel data"};
+  data = {inflate_to_scratch(*data.source, position, needed), 0};
 }
 
 }  // namespace
@@ -89,8 +89,9 @@ std::unique_ptr<LabelVolume> open_metaimage(std::unique_ptr<ByteSource> source,
     if (header.compressed) inflate(data, header, needed);
   }
   check_payload(*data.source, info, data.offset);
-  return std::make_unique<RawArrayVolume>(std::move(data.source), std::move(info),
-                                          ArrayPlace{.offset = data.offset, .order = header.order});
+  return std::make_unique<RawArrayVolume>(
+      std::move(data.source), std::move(info),
+      ArrayLayout{.offset = data.offset, .order = header.order});
 }
 
 }  // namespace mw::io

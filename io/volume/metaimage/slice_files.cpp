@@ -12,7 +12,7 @@ namespace mw::io {
 namespace {
 
 constexpr const char* kField = "MetaImage field 'ElementDataFile'";
-constexpr std::int64_t kMostWidth = 32;
+constexpr std::int64_t kMaxWidth = 32;
 
 /// "img" "%03d" ".raw".
 struct Pattern {
@@ -36,7 +36,7 @@ Pattern parse_pattern(std::string_view word, std::string_view file) {
                   .behind = word.substr(end + 1)};
   if (!width.empty()) {
     const auto number = parse_integer(width);
-    if (!number || *number < 0 || *number > kMostWidth) fail();
+    if (!number || *number < 0 || *number > kMaxWidth) fail();
     pattern.width = *number;
   }
   if (pattern.behind.find('%') != std::string_view::npos) fail();
@@ -58,8 +58,8 @@ std::vector<std::string> names_of_pattern(const std::vector<std::string_view>& w
   std::vector<std::int64_t> numbers{1, 0, 1};  // first, last, step
   for (std::size_t i = 1; i < words.size() && i < 4; ++i) {
     const auto number = parse_integer(words[i]);
-    constexpr std::int64_t kMost = 1'000'000'000;
-    if (!number || *number < 0 || *number > kMost) {
+    constexpr std::int64_t kMax = 1'000'000'000;
+    if (!number || *number < 0 || *number > kMax) {
       fail_input(file, kField, text("'", words[i], "' is no number of a slice"));
     }
     numbers[i - 1] = *number;

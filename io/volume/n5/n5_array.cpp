@@ -14,7 +14,7 @@ namespace mw::io {
 namespace {
 
 /// No array that is read here has more.
-constexpr std::size_t kMostAxes = 16;
+constexpr std::size_t kMaxAxes = 16;
 
 VoxelType type_of(const JsonFields& attributes) {
   const std::string type = attributes.text("dataType");
@@ -81,15 +81,15 @@ void check_block_size(const JsonFields& attributes, const N5Array& array) {
         text("has ", array.block_size.size(), " numbers, and dimensions ", array.dimensions.size()),
         "the file is damaged");
   }
-  std::uint64_t most = kMostChunkBytes / static_cast<std::uint64_t>(byte_size(array.type));
+  std::uint64_t max = kMaxChunkBytes / static_cast<std::uint64_t>(byte_size(array.type));
   for (const std::int64_t extent : array.block_size) {
     if (extent < 1) {
       attributes.fail("blockSize", text("extent ", extent, " is not positive"),
                       "the file is damaged");
     }
-    most /= static_cast<std::uint64_t>(extent);
+    max /= static_cast<std::uint64_t>(extent);
   }
-  if (most > 0) return;
+  if (max > 0) return;
   attributes.fail("blockSize", text("blocks of ", name(array.type), " are larger than 2 GiB"),
                   "write the volume in smaller blocks");
 }
@@ -110,7 +110,7 @@ N5Array parse_n5_array(const JsonFields& attributes) {
                 .dimensions = attributes.integers("dimensions"),
                 .block_size = attributes.integers("blockSize")};
   const std::size_t count = array.dimensions.size();
-  if (count < 2 || count > kMostAxes) {
+  if (count < 2 || count > kMaxAxes) {
     attributes.fail("dimensions",
                     text("the array has ", count, " axes, and a volume 3 (a slice 2)"),
                     "give another array with --dataset");

@@ -51,10 +51,10 @@ BlockHeader read_header(const ByteSource& file, const N5Array& array) {
   }
   BlockHeader out;
   std::uint64_t values = 1;
-  for (const std::int64_t most : array.block_size) {
+  for (const std::int64_t max : array.block_size) {
     const auto extent = numbers.next<std::uint32_t>();
-    if (extent == 0 || extent > most) {
-      fail_header(file, text("extent ", extent, ", and the array's blocks have 1 to ", most));
+    if (extent == 0 || extent > max) {
+      fail_header(file, text("extent ", extent, ", and the array's blocks have 1 to ", max));
     }
     out.extents.push_back(extent);
     values *= extent;
@@ -80,12 +80,12 @@ Index3 strides_of(const N5Array& array, const std::vector<std::int64_t>& extents
 /// Blocks at the end of the array may be as large as the others, or end with it, but not before.
 void check_reaches(const ByteSource& file, const N5Array& array,
                    const std::vector<std::int64_t>& extents, Index3 wanted) {
-  const std::array<std::int64_t, 3> least{wanted.x, wanted.y, wanted.z};
+  const std::array<std::int64_t, 3> min{wanted.x, wanted.y, wanted.z};
   for (std::size_t i = 0; i < 3; ++i) {
     if (array.axes[i] < 0) continue;
     const std::int64_t extent = extents[static_cast<std::size_t>(array.axes[i])];
-    if (extent >= least[i]) continue;
-    fail_header(file, text("extent ", extent, ", and the array has ", least[i],
+    if (extent >= min[i]) continue;
+    fail_header(file, text("extent ", extent, ", and the array has ", min[i],
                            " voxels there along ", std::string_view("xyz").substr(i, 1)));
   }
 }
@@ -100,10 +100,10 @@ std::uint64_t product(const std::vector<std::int64_t>& extents) {
 
 /// "x/y/z", and 0 for axes that are left out.
 std::filesystem::path N5Blocks::path_of(Index3 chunk) const {
-  const std::array<std::int64_t, 3> place{chunk.x, chunk.y, chunk.z};
+  const std::array<std::int64_t, 3> index{chunk.x, chunk.y, chunk.z};
   std::vector<std::int64_t> numbers(array_.dimensions.size(), 0);
   for (std::size_t i = 0; i < 3; ++i) {
-    if (array_.axes[i] >= 0) numbers[static_cast<std::size_t>(array_.axes[i])] = place[i];
+    if (array_.axes[i] >= 0) numbers[static_cast<std::size_t>(array_.axes[i])] = index[i];
   }
   std::filesystem::path path = folder_;
   for (const std::int64_t number : numbers) path /= std::to_string(number);
@@ -117,7 +117,7 @@ std::optional<Chunk> N5Blocks::load(Index3 chunk, const Box3& box) const {
   check_reaches(*file, array_, header.extents, box.shape());
   const std::uint64_t wanted =
       product(header.extents) * static_cast<std::uint64_t>(byte_size(array_.type));
-  std::vector<std::byte> bytes = read_rest(*file, header.bytes, most_packed_bytes(wanted));
+  std::vector<std::byte> bytes = read_rest(*file, header.bytes, max_packed_bytes(wanted));
   if (array_.codec != Codec::kNone) bytes = unpack(array_.codec, bytes, wanted, file->name());
   if (bytes.size() != wanted) {
     fail_input(file->name(), {},
@@ -132,7 +132,7 @@ std::optional<Chunk> N5Blocks::load(Index3 chunk, const Box3& box) const {
 std::uint64_t N5Blocks::scratch_bytes() const {
   const std::uint64_t block =
       product(array_.block_size) * static_cast<std::uint64_t>(byte_size(array_.type));
-  return block + most_packed_bytes(block) + most_scratch(array_.codec, block);
+  return block + max_packed_bytes(block) + max_scratch(array_.codec, block);
 }
 
 }  // namespace mw::io

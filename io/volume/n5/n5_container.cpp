@@ -48,27 +48,27 @@ class Search {
 
   [[nodiscard]] const std::vector<std::string>& found() const { return found_; }
   /// Whether there was more than is looked through.
-  [[nodiscard]] bool gave_up() const { return folders_ >= kMostFolders; }
+  [[nodiscard]] bool gave_up() const { return folders_ >= kMaxFolders; }
   [[nodiscard]] std::string names() const {
-    constexpr std::size_t kMost = 30;
+    constexpr std::size_t kMax = 30;
     std::string out;
-    for (std::size_t i = 0; i < std::min(kMost, found_.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMax, found_.size()); ++i) {
       out += (i == 0 ? "" : ", ") + found_[i];
     }
-    return found_.size() > kMost || gave_up() ? out + ", ..." : out;
+    return found_.size() > kMax || gave_up() ? out + ", ..." : out;
   }
 
  private:
-  static constexpr int kMostDepth = 8;
-  static constexpr int kMostFolders = 5000;
+  static constexpr int kMaxDepth = 8;
+  static constexpr int kMaxFolders = 5000;
 
   void look(const fs::path& folder, const std::string& prefix, int depth) {
     for (const fs::path& child : folders_in(folder)) {
-      if (++folders_ >= kMostFolders) return;
+      if (++folders_ >= kMaxFolders) return;
       const std::string name = prefix + child.filename().string();
       if (kind_of(child) != Kind::kGroup) {
         found_.push_back(name);
-      } else if (depth < kMostDepth) {
+      } else if (depth < kMaxDepth) {
         look(child, name + "/", depth + 1);
       }
     }

@@ -146,9 +146,9 @@ VoxelScaling parse_scaling(const View& view, std::string_view file) {
 
 std::uint64_t parse_vox_offset(const View& view, std::string_view file) {
   const double offset = view.vox_offset();
-  const double least = view.fields().version == 1 ? 352 : 544;
-  if (!(offset >= least && offset < 0x1p53) || offset != std::floor(offset)) {
-    fail_input(file, "vox_offset", text(offset, " is not a whole number of at least ", least),
+  const double min = view.fields().version == 1 ? 352 : 544;
+  if (!(offset >= min && offset < 0x1p53) || offset != std::floor(offset)) {
+    fail_input(file, "vox_offset", text(offset, " is not a whole number of at least ", min),
                "the header is damaged");
   }
   return static_cast<std::uint64_t>(offset);

@@ -22,7 +22,7 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
   check_payload(*source, info, header.data_offset);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
-      ArrayPlace{.offset = header.data_offset, .order = header.order, .scaling = header.scaling});
+      ArrayLayout{.offset = header.data_offset, .order = header.order, .scaling = header.scaling});
 }
 
 }  // namespace mw::io

@@ -29,7 +29,7 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
   info.space = placed(source->name(), {}, options);
   check_payload(*source, info, offset);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
-                                          ArrayPlace{.offset = offset, .order = header.order});
+                                          ArrayLayout{.offset = offset, .order = header.order});
 }
 
 }  // namespace mw::io

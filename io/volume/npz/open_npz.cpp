@@ -18,13 +18,13 @@ constexpr std::string_view kSuffix = ".npy";
 
 /// "a, b, c" for error messages, cut where it gets long.
 std::string listed(const std::vector<ZipMember>& arrays) {
-  constexpr std::size_t kMostNames = 20;
+  constexpr std::size_t kMaxNames = 20;
   std::string names;
-  for (std::size_t i = 0; i < arrays.size() && i < kMostNames; ++i) {
+  for (std::size_t i = 0; i < arrays.size() && i < kMaxNames; ++i) {
     const std::string_view name = arrays[i].name;
     names += text(i == 0 ? "" : ", ", name.substr(0, name.size() - kSuffix.size()));
   }
-  return arrays.size() > kMostNames ? names + ", ..." : names;
+  return arrays.size() > kMaxNames ? names + ", ..." : names;
 }
 
 ZipMember choose(std::vector<ZipMember> members, const std::string& dataset,
@@ -68,11 +68,11 @@ std::uint64_t npy_file_bytes(Read read, const std::string& name) {
 std::unique_ptr<ByteSource> inflated(const ByteSource& zip, const ZipMember& member,
                                      const std::string& name) {
   const std::uint64_t offset = zip_data_offset(zip, member);
-  const DeflatedBytes place{.offset = offset,
+  const DeflatedBytes index{.offset = offset,
                             .end = offset + member.packed_bytes,
                             .framing = DeflateFraming::kBare,
                             .field = text("npz array '", member.name, "'")};
-  Inflater inflater(zip, place);
+  Inflater inflater(zip, index);
   const auto read = [&](std::span<std::byte> out) {
     if (inflater.read(out) < out.size()) fail_input(name, "npy header", "truncated");
   };
@@ -82,7 +82,7 @@ std::unique_ptr<ByteSource> inflated(const ByteSource& zip, const ZipMember& mem
                text("shape and type need ", needed, " bytes, the member has ", member.bytes),
                "the file is truncated or damaged");
   }
-  return inflate_to_scratch(zip, place, needed);
+  return inflate_to_scratch(zip, index, needed);
 }
 
 }  // namespace

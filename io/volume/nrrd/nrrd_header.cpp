@@ -232,8 +232,8 @@ void parse_skips(const FieldMap& fields, NrrdHeader& header, std::string_view fi
     if (found == fields.end()) continue;
     const auto skip = parse_numbers<std::int64_t>(found->second, key, file);
     const bool is_line = found->first == "lineskip";
-    const std::int64_t least = is_line || header.gzip ? 0 : -1;
-    if (skip.size() != 1 || skip[0] < least || (is_line && skip[0] != 0)) {
+    const std::int64_t min = is_line || header.gzip ? 0 : -1;
+    if (skip.size() != 1 || skip[0] < min || (is_line && skip[0] != 0)) {
       fail_input(file, text("NRRD field '", is_line ? "line skip" : "byte skip", "'"),
                  text(found->second, " is not supported"), "save the file without skips");
     }

@@ -62,7 +62,7 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   }
   check_payload(*data, info, offset);
   return std::make_unique<RawArrayVolume>(std::move(data), std::move(info),
-                                          ArrayPlace{.offset = offset, .order = header.order});
+                                          ArrayLayout{.offset = offset, .order = header.order});
 }
 
 }  // namespace mw::io

@@ -9,7 +9,7 @@
 
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::io {
 namespace {
@@ -45,7 +45,7 @@ class Unpacker {
     const Index3 grid = grid_of(layout_);
     const auto voxel = static_cast<std::size_t>(byte_size(layout_.type));
     std::vector<std::byte> out(static_cast<std::size_t>(layout_.shape.product()) * voxel);
-    each_index(grid, [&](Index3 number) {
+    for_each_index(grid, [&](Index3 number) {
       const Block block = read_header(number, grid);
       if (layout_.type == VoxelType::kU32) return unpack<4>(block, out.data());
       unpack<8>(block, out.data());
@@ -142,7 +142,7 @@ class Unpacker {
 
 }  // namespace
 
-std::uint64_t most_segmentation_bytes(const SegmentationLayout& layout) {
+std::uint64_t max_segmentation_bytes(const SegmentationLayout& layout) {
   const auto blocks = static_cast<std::uint64_t>(grid_of(layout).product());
   const auto padded = static_cast<std::uint64_t>(layout.block.product());
   const auto voxels = static_cast<std::uint64_t>(layout.shape.product());

@@ -21,11 +21,11 @@ struct SegmentationLayout {
 };
 
 /// The most that a block may have: tables are found by 24 bits.
-inline constexpr std::int64_t kMostBlockVoxels = 1 << 24;
+inline constexpr std::int64_t kMaxBlockVoxels = 1 << 24;
 
 /// The most bytes that a chunk needs: all blocks in 32 bits a voxel, each with a table of its own.
-/// REQUIRES: the product of the block at most kMostBlockVoxels.
-[[nodiscard]] std::uint64_t most_segmentation_bytes(const SegmentationLayout& layout);
+/// REQUIRES: the product of the block at most kMaxBlockVoxels.
+[[nodiscard]] std::uint64_t max_segmentation_bytes(const SegmentationLayout& layout);
 
 /// The voxels of a chunk of one channel, x fastest, least significant byte first.
 /// name: what errors call the chunk.

@@ -59,24 +59,24 @@ SegmentationLayout PrecomputedChunks::layout_of(Index3 shape) const {
 }
 
 /// The most bytes of a chunk before its encoding is undone; raw ones have just as many.
-std::uint64_t PrecomputedChunks::most_encoded(Index3 shape) const {
-  if (scale_.block) return most_segmentation_bytes(layout_of(shape));
+std::uint64_t PrecomputedChunks::max_encoded(Index3 shape) const {
+  if (scale_.block) return max_segmentation_bytes(layout_of(shape));
   return static_cast<std::uint64_t>(shape.product()) *
          static_cast<std::uint64_t>(byte_size(scale_.type));
 }
 
 PrecomputedChunks::Bytes PrecomputedChunks::inflated(Bytes packed, Index3 chunk,
                                                      Index3 shape) const {
-  return unpack(Codec::kGzip, packed, most_encoded(shape), name_of(chunk));
+  return unpack(Codec::kGzip, packed, max_encoded(shape), name_of(chunk));
 }
 
 /// Servers give gzipped files under the chunk's name, tools write them with .gz behind it.
 std::optional<PrecomputedChunks::Bytes> PrecomputedChunks::read_file(Index3 chunk,
                                                                      Index3 shape) const {
   const std::filesystem::path path = path_of(chunk);
-  const std::uint64_t wanted = most_encoded(shape);
+  const std::uint64_t wanted = max_encoded(shape);
   if (const auto file = open_if_there(path)) {
-    Bytes bytes = read_rest(*file, 0, most_packed_bytes(wanted));
+    Bytes bytes = read_rest(*file, 0, max_packed_bytes(wanted));
     if (!begins_as_gzip(bytes)) return bytes;
     if (scale_.block || bytes.size() != wanted) return inflated(std::move(bytes), chunk, shape);
     // Raw voxels of the right size may begin like gzip: its checksum tells.
@@ -87,7 +87,7 @@ std::optional<PrecomputedChunks::Bytes> PrecomputedChunks::read_file(Index3 chun
     }
   }
   if (const auto file = open_if_there(path.string() + ".gz")) {
-    return inflated(read_rest(*file, 0, most_packed_bytes(wanted)), chunk, shape);
+    return inflated(read_rest(*file, 0, max_packed_bytes(wanted)), chunk, shape);
   }
   refuse_packed_otherwise(path);
   return std::nullopt;
@@ -95,10 +95,9 @@ std::optional<PrecomputedChunks::Bytes> PrecomputedChunks::read_file(Index3 chun
 
 std::optional<PrecomputedChunks::Bytes> PrecomputedChunks::read_shard(Index3 chunk,
                                                                       Index3 shape) const {
-  const std::uint64_t wanted = most_encoded(shape);
+  const std::uint64_t wanted = max_encoded(shape);
   const bool packed = scale_.sharding->packed_data;
-  auto bytes =
-      shards_->read(morton_code(chunk, grid_), packed ? most_packed_bytes(wanted) : wanted);
+  auto bytes = shards_->read(morton_code(chunk, grid_), packed ? max_packed_bytes(wanted) : wanted);
   if (bytes && packed) return inflated(std::move(*bytes), chunk, shape);
   return bytes;
 }
@@ -109,18 +108,18 @@ std::optional<Chunk> PrecomputedChunks::load(Index3 chunk, const Box3& box) cons
   if (!bytes) return std::nullopt;
   if (scale_.block) {
     bytes = unpack_segmentation(*bytes, layout_of(shape), name_of(chunk));
-  } else if (bytes->size() != most_encoded(shape)) {
+  } else if (bytes->size() != max_encoded(shape)) {
     fail_input(name_of(chunk), {},
                text(bytes->size(), " bytes, and its ", shape.x, " x ", shape.y, " x ", shape.z,
-                    " voxels of ", mw::io::name(scale_.type), " are ", most_encoded(shape)),
+                    " voxels of ", mw::io::name(scale_.type), " are ", max_encoded(shape)),
                kWayOut);
   }
   return Chunk{.bytes = std::move(*bytes), .strides = {1, shape.x, shape.x * shape.y}};
 }
 
 std::uint64_t PrecomputedChunks::scratch_bytes() const {
-  const std::uint64_t encoded = most_encoded(scale_.chunk);
-  const std::uint64_t unpacking = most_packed_bytes(encoded) + most_scratch(Codec::kGzip, encoded);
+  const std::uint64_t encoded = max_encoded(scale_.chunk);
+  const std::uint64_t unpacking = max_packed_bytes(encoded) + max_scratch(Codec::kGzip, encoded);
   return unpacking + (scale_.block ? encoded : 0) + (shards_ ? shards_->scratch_bytes() : 0);
 }
 

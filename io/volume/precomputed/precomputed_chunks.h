@@ -29,7 +29,7 @@ class PrecomputedChunks : public ChunkSource {
 
   [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;
   [[nodiscard]] SegmentationLayout layout_of(Index3 shape) const;
-  [[nodiscard]] std::uint64_t most_encoded(Index3 shape) const;
+  [[nodiscard]] std::uint64_t max_encoded(Index3 shape) const;
   [[nodiscard]] std::optional<Bytes> read_file(Index3 chunk, Index3 shape) const;
   [[nodiscard]] std::optional<Bytes> read_shard(Index3 chunk, Index3 shape) const;
   [[nodiscard]] Bytes inflated(Bytes packed, Index3 chunk, Index3 shape) const;

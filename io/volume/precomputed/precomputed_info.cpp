@@ -18,9 +18,9 @@ namespace mw::io {
 namespace {
 
 /// Far beyond any volume, and still exact in a double.
-constexpr std::int64_t kMostOffset = std::int64_t{1} << 48;
+constexpr std::int64_t kMaxOffset = std::int64_t{1} << 48;
 /// The largest index of a minishard that is kept in memory.
-constexpr std::uint64_t kMostIndexBytes = 256ULL << 20U;
+constexpr std::uint64_t kMaxIndexBytes = 256ULL << 20U;
 
 std::string in_small_letters(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -29,13 +29,13 @@ std::string in_small_letters(std::string text) {
 }
 
 std::string keys_of(const JsonFields& info) {
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMax = 20;
   const std::size_t count = info.count("scales");
   std::string out;
-  for (std::size_t i = 0; i < std::min(count, kMost); ++i) {
+  for (std::size_t i = 0; i < std::min(count, kMax); ++i) {
     out += (i == 0 ? "" : ", ") + info.element("scales", i).text("key");
   }
-  return count > kMost ? out + ", ..." : out;
+  return count > kMax ? out + ", ..." : out;
 }
 
 JsonFields scale_of_key(const JsonFields& info, const std::string& key) {
@@ -81,7 +81,7 @@ Index3 offset_of(const JsonFields& fields) {
   if (!fields.has("voxel_offset")) return {0, 0, 0};
   const auto offset = fields.integers3("voxel_offset");
   for (const std::int64_t x : offset) {
-    if (x > -kMostOffset && x < kMostOffset) continue;
+    if (x > -kMaxOffset && x < kMaxOffset) continue;
     fields.fail("voxel_offset", text("offset ", x, " is beyond 2^48"), "the file is damaged");
   }
   return {offset[0], offset[1], offset[2]};
@@ -105,15 +105,15 @@ void check_block(const JsonFields& fields, const SegmentationLayout& layout) {
   constexpr std::string_view kField = "compressed_segmentation_block_size";
   std::int64_t voxels = 1;
   for (const std::int64_t extent : {layout.block.x, layout.block.y, layout.block.z}) {
-    if (extent < 1 || extent > kMostBlockVoxels / voxels) {
+    if (extent < 1 || extent > kMaxBlockVoxels / voxels) {
       fields.fail(kField,
                   text("blocks of ", layout.block.x, " x ", layout.block.y, " x ", layout.block.z,
-                       " voxels are not 1 to ", kMostBlockVoxels),
+                       " voxels are not 1 to ", kMaxBlockVoxels),
                   "the file is damaged");
     }
     voxels *= extent;
   }
-  if (most_segmentation_bytes(layout) <= 2 * kMostChunkBytes) return;
+  if (max_segmentation_bytes(layout) <= 2 * kMaxChunkBytes) return;
   fields.fail(kField,
               "the blocks are so much larger than the chunks that these may need over 4 GiB",
               "write the volume with blocks of 8 x 8 x 8");
@@ -138,10 +138,10 @@ std::optional<Index3> block_of(const JsonFields& fields, Index3 chunk, VoxelType
   return block;
 }
 
-int bits_of(const JsonFields& fields, std::string_view key, int most) {
+int bits_of(const JsonFields& fields, std::string_view key, int max) {
   const std::int64_t bits = fields.integer(key);
-  if (bits >= 0 && bits <= most) return static_cast<int>(bits);
-  fields.fail(key, text(bits, " bits are not 0 to ", most), "the file is damaged");
+  if (bits >= 0 && bits <= max) return static_cast<int>(bits);
+  fields.fail(key, text(bits, " bits are not 0 to ", max), "the file is damaged");
 }
 
 bool is_gzipped(const JsonFields& fields, std::string_view key) {
@@ -175,11 +175,11 @@ std::optional<Sharding> sharding_of(const JsonFields& scale, Index3 grid) {
                .packed_index = is_gzipped(fields, "minishard_index_encoding"),
                .packed_data = is_gzipped(fields, "data_encoding")};
   out.shard_bits = bits_of(fields, "shard_bits", 64 - out.minishard_bits);
-  const std::uint64_t most = most_in_minishard(out, grid);
-  if (most * sizeof(ShardEntry) > kMostIndexBytes) {
+  const std::uint64_t max = max_in_minishard(out, grid);
+  if (max * sizeof(ShardEntry) > kMaxIndexBytes) {
     fields.fail("minishard_bits",
-                text("one minishard may list ", most, " chunks, and at most ",
-                     kMostIndexBytes / sizeof(ShardEntry), " are read"),
+                text("one minishard may list ", max, " chunks, and at most ",
+                     kMaxIndexBytes / sizeof(ShardEntry), " are read"),
                 "write the volume with more minishards");
   }
   return out;

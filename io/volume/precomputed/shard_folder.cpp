@@ -46,26 +46,26 @@ std::vector<std::byte> read_part(const ByteSource& file, std::uint64_t offset, s
 ShardFolder::ShardFolder(std::filesystem::path folder, const Sharding& sharding, Index3 grid)
     : folder_(std::move(folder)),
       sharding_(sharding),
-      most_index_bytes_(sizeof(ShardEntry) * most_in_minishard(sharding, grid)),
+      max_index_bytes_(sizeof(ShardEntry) * max_in_minishard(sharding, grid)),
       indices_(kKeptIndexBytes) {}
 
 std::filesystem::path ShardFolder::path_of(std::uint64_t chunk) const {
-  return folder_ / shard_file_name(sharding_, place_of(sharding_, chunk).shard);
+  return folder_ / shard_file_name(sharding_, position_of(sharding_, chunk).shard);
 }
 
 std::optional<std::vector<std::byte>> ShardFolder::read(std::uint64_t chunk,
-                                                        std::uint64_t most) const {
-  const ShardPlace place = place_of(sharding_, chunk);
+                                                        std::uint64_t max) const {
+  const ShardPosition position = position_of(sharding_, chunk);
   const std::filesystem::path path = path_of(chunk);
   const std::uint64_t number =
-      place.shard << static_cast<unsigned>(sharding_.minishard_bits) | place.minishard;
-  const auto index = indices_.get(number, [&] { return load_index(path, place.minishard); });
+      position.shard << static_cast<unsigned>(sharding_.minishard_bits) | position.minishard;
+  const auto index = indices_.get(number, [&] { return load_index(path, position.minishard); });
   if (!index) return std::nullopt;
   const auto entry = entry_of(*index, chunk);
   if (!entry) return std::nullopt;
-  if (entry->size > most) {
+  if (entry->size > max) {
     fail_input(path.string(), text("chunk ", chunk),
-               text("the chunk has ", entry->size, " bytes, and its voxels need at most ", most),
+               text("the chunk has ", entry->size, " bytes, and its voxels need at most ", max),
                "get a whole copy of the store");
   }
   return read_part(FileSource(path), shard_index_bytes(sharding_) + entry->offset, entry->size);
@@ -79,10 +79,10 @@ std::optional<Chunk> ShardFolder::load_index(const std::filesystem::path& path,
     return std::nullopt;
   }
   const std::uint64_t start = shard_index_bytes(sharding_);
-  std::array<std::byte, 16> place{};
-  file->read_at(place.size() * minishard, place);
-  const auto begin = load<std::uint64_t>(place.data(), ByteOrder::kLittle);
-  const auto end = load<std::uint64_t>(place.data() + 8, ByteOrder::kLittle);
+  std::array<std::byte, 16> entry{};
+  file->read_at(entry.size() * minishard, entry);
+  const auto begin = load<std::uint64_t>(entry.data(), ByteOrder::kLittle);
+  const auto end = load<std::uint64_t>(entry.data() + 8, ByteOrder::kLittle);
   if (begin == end) return std::nullopt;
   const std::string name = text(path.string(), ": minishard ", minishard);
   const std::uint64_t data_bytes = file->size() > start ? file->size() - start : 0;
@@ -91,23 +91,23 @@ std::optional<Chunk> ShardFolder::load_index(const std::filesystem::path& path,
                text("bytes ", begin, " to ", end, " are not in the ", data_bytes, " of the shard"),
                "get a whole copy of the store");
   }
-  const std::uint64_t most =
-      sharding_.packed_index ? most_packed_bytes(most_index_bytes_) : most_index_bytes_;
-  if (end - begin > most) {
+  const std::uint64_t max =
+      sharding_.packed_index ? max_packed_bytes(max_index_bytes_) : max_index_bytes_;
+  if (end - begin > max) {
     fail_input(name, "shard index",
-               text("an index of ", end - begin, " bytes, and all its chunks need at most ", most),
+               text("an index of ", end - begin, " bytes, and all its chunks need at most ", max),
                "get a whole copy of the store");
   }
   std::vector<std::byte> bytes = read_part(*file, start + begin, end - begin);
-  if (sharding_.packed_index) bytes = unpack(Codec::kGzip, bytes, most_index_bytes_, name);
+  if (sharding_.packed_index) bytes = unpack(Codec::kGzip, bytes, max_index_bytes_, name);
   const auto entries = parse_minishard_index(bytes, data_bytes, name);
   const auto raw = std::as_bytes(std::span(entries));
   return Chunk{.bytes = {raw.begin(), raw.end()}};
 }
 
 std::uint64_t ShardFolder::scratch_bytes() const {
-  return kKeptIndexBytes + most_packed_bytes(most_index_bytes_) + 3 * most_index_bytes_ +
-         most_scratch(Codec::kGzip, most_index_bytes_);
+  return kKeptIndexBytes + max_packed_bytes(max_index_bytes_) + 3 * max_index_bytes_ +
+         max_scratch(Codec::kGzip, max_index_bytes_);
 }
 
 }  // namespace mw::io

@@ -21,7 +21,7 @@ class ShardFolder {
   /// most: the most bytes that they may be.
   /// ERRORS: mw::Error(kInput) naming the shard when it is damaged, or the chunk is larger.
   [[nodiscard]] std::optional<std::vector<std::byte>> read(std::uint64_t chunk,
-                                                           std::uint64_t most) const;
+                                                           std::uint64_t max) const;
   /// The shard that a chunk is in, if it is there.
   [[nodiscard]] std::filesystem::path path_of(std::uint64_t chunk) const;
   /// The most that read() takes in memory beside what it returns, indices that are kept included.
@@ -33,8 +33,8 @@ class ShardFolder {
 
   std::filesystem::path folder_;
   Sharding sharding_;
-  std::uint64_t most_index_bytes_;  ///< of one minishard, unpacked
-  mutable ChunkCache indices_;      ///< as arrays of ShardEntry, by shard and minishard
+  std::uint64_t max_index_bytes_;  ///< of one minishard, unpacked
+  mutable ChunkCache indices_;     ///< as arrays of ShardEntry, by shard and minishard
 };
 
 }  // namespace mw::io

@@ -36,21 +36,21 @@ std::uint64_t power_of_two(int bits) {
 }  // namespace
 
 std::uint64_t morton_code(Index3 cell, Index3 grid) {
-  const std::array<std::int64_t, 3> place{cell.x, cell.y, cell.z};
+  const std::array<std::int64_t, 3> index{cell.x, cell.y, cell.z};
   const std::array<int, 3> bits{bits_of(grid.x), bits_of(grid.y), bits_of(grid.z)};
   std::uint64_t code = 0;
   unsigned next = 0;
   for (int bit = 0; bit < *std::max_element(bits.begin(), bits.end()); ++bit) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (bit >= bits[axis]) continue;
-      code |= (static_cast<std::uint64_t>(place[axis]) >> static_cast<unsigned>(bit) & 1U) << next;
+      code |= (static_cast<std::uint64_t>(index[axis]) >> static_cast<unsigned>(bit) & 1U) << next;
       ++next;
     }
   }
   return code;
 }
 
-ShardPlace place_of(const Sharding& sharding, std::uint64_t chunk) {
+ShardPosition position_of(const Sharding& sharding, std::uint64_t chunk) {
   const std::uint64_t group = shifted(chunk, sharding.preshift_bits);
   const std::uint64_t hash = sharding.hashed ? murmur_hash(group) : group;
   return {.shard = low_bits(shifted(hash, sharding.minishard_bits), sharding.shard_bits),
@@ -71,7 +71,7 @@ std::uint64_t shard_index_bytes(const Sharding& sharding) {
   return kEntryBytes << static_cast<unsigned>(sharding.minishard_bits);
 }
 
-std::uint64_t most_in_minishard(const Sharding& sharding, Index3 grid) {
+std::uint64_t max_in_minishard(const Sharding& sharding, Index3 grid) {
   const int bits = bits_of(grid.x) + bits_of(grid.y) + bits_of(grid.z);
   const int within = std::min(bits, sharding.preshift_bits);
   const int left = std::max(0, bits - within - sharding.minishard_bits - sharding.shard_bits);

@@ -29,11 +29,11 @@ struct Sharding {
 /// REQUIRES: cell inside the grid; grid extents at most 2^20.
 [[nodiscard]] std::uint64_t morton_code(Index3 cell, Index3 grid);
 
-struct ShardPlace {
+struct ShardPosition {
   std::uint64_t shard = 0;
   std::uint64_t minishard = 0;
 };
-[[nodiscard]] ShardPlace place_of(const Sharding& sharding, std::uint64_t chunk);
+[[nodiscard]] ShardPosition position_of(const Sharding& sharding, std::uint64_t chunk);
 
 /// "0a.shard"
 [[nodiscard]] std::string shard_file_name(const Sharding& sharding, std::uint64_t shard);
@@ -43,7 +43,7 @@ struct ShardPlace {
 
 /// The most chunks of the grid that one minishard can hold.  By murmurhash3: eight times as many as
 /// there are on average and 64 groups, which is more than chance will ever bring.
-[[nodiscard]] std::uint64_t most_in_minishard(const Sharding& sharding, Index3 grid);
+[[nodiscard]] std::uint64_t max_in_minishard(const Sharding& sharding, Index3 grid);
 
 /// A chunk in a shard.
 struct ShardEntry {

@@ -18,7 +18,7 @@ std::unique_ptr<LabelVolume> open_raw(std::unique_ptr<ByteSource> source,
   info.space = placed(source->name(), {}, options);
   check_payload(*source, info, 0, BytesBehind::kRefused);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
-                                          ArrayPlace{.offset = 0, .order = layout.order});
+                                          ArrayLayout{.offset = 0, .order = layout.order});
 }
 
 }  // namespace mw::io

@@ -71,7 +71,7 @@ std::unique_ptr<LabelVolume> open_one_page(std::unique_ptr<ByteSource> source,
   const bool big = TIFFIsBigEndian((*lease).get()) != 0;
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
-      ArrayPlace{.offset = offset, .order = big ? ByteOrder::kBig : ByteOrder::kLittle});
+      ArrayLayout{.offset = offset, .order = big ? ByteOrder::kBig : ByteOrder::kLittle});
 }
 
 /// A ByteSource that others own too.

@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::int64_t kLeastChunkBytes = 64 << 10;
+constexpr std::int64_t kMinChunkBytes = 64 << 10;
 
 /// A run of rows in memory, and the pixels of the page that it holds.
 struct Pixels {
@@ -55,7 +55,7 @@ Index3 TiffChunks::chunk_shape() const {
   const TiffPage& page = stack_->first();
   if (page.tiled) return {page.block_width, page.block_height, 1};
   const auto strip = static_cast<std::int64_t>(page.block_bytes());
-  const std::int64_t strips = std::max<std::int64_t>(1, (kLeastChunkBytes + strip - 1) / strip);
+  const std::int64_t strips = std::max<std::int64_t>(1, (kMinChunkBytes + strip - 1) / strip);
   return {page.width, std::min(page.height, strips * page.block_height), 1};
 }
 

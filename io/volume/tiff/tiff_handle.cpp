@@ -73,10 +73,10 @@ struct FreeOptions {
 };
 
 /// Tables of a page and packed strips are at most as large as the file.
-tmsize_t most_memory(std::uint64_t file_bytes) {
-  constexpr std::uint64_t kLeast = 64 << 20;
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
-  return static_cast<tmsize_t>(kLeast + 2 * std::min(file_bytes, kMost));
+tmsize_t max_memory(std::uint64_t file_bytes) {
+  constexpr std::uint64_t kMin = 64 << 20;
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 40;
+  return static_cast<tmsize_t>(kMin + 2 * std::min(file_bytes, kMax));
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ TiffHandle::TiffHandle(std::shared_ptr<const ByteSource> source)
     : stream_{.source = std::move(source), .complaint = {}} {
   const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
   if (!options) throw Error(ErrorKind::kResource, file() + ": no memory to open it");
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), most_memory(stream_.source->size()));
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), max_memory(stream_.source->size()));
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_complaint, &stream_);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), keep_silent, nullptr);
   tiff_ = TIFFClientOpenExt(file().c_str(), "rm", &stream_, read_bytes, write_nothing, seek,

@@ -23,25 +23,25 @@ T tag(const TiffHandle& handle, std::uint32_t number, T otherwise) {
   return TIFFGetFieldDefaulted(handle.get(), number, &value) == 1 ? value : otherwise;
 }
 
-void refuse_no_labels(const TiffHandle& handle, const std::string& place) {
+void refuse_no_labels(const TiffHandle& handle, const std::string& where) {
   const auto samples = tag<std::uint16_t>(handle, TIFFTAG_SAMPLESPERPIXEL, 1);
   if (samples != 1) {
-    fail_input(handle.file(), place,
+    fail_input(handle.file(), where,
                text("pixels of ", samples, " samples (a colour picture?), labels are single ones"),
                "save one channel, or the indices of a palette");
   }
   if (const auto depth = tag<std::uint32_t>(handle, TIFFTAG_IMAGEDEPTH, 1); depth > 1) {
-    fail_input(handle.file(), place, text("has a depth of ", depth, " slices"),
+    fail_input(handle.file(), where, text("has a depth of ", depth, " slices"),
                "save one page a slice");
   }
   const auto packing = tag<std::uint16_t>(handle, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   if (TIFFIsCODECConfigured(packing) != 1) {
-    fail_input(handle.file(), place, text("compression ", packing, " is not supported"),
+    fail_input(handle.file(), where, text("compression ", packing, " is not supported"),
                "save uncompressed or with deflate");
   }
 }
 
-VoxelType type_of(const TiffHandle& handle, const std::string& place) {
+VoxelType type_of(const TiffHandle& handle, const std::string& where) {
   const int bits = tag<std::uint16_t>(handle, TIFFTAG_BITSPERSAMPLE, 1);
   const auto format = tag<std::uint16_t>(handle, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
   const bool sized = bits == 8 || bits == 16 || bits == 32 || bits == 64;
@@ -49,7 +49,7 @@ VoxelType type_of(const TiffHandle& handle, const std::string& place) {
   const bool integer =
       format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT || format == SAMPLEFORMAT_VOID;
   if (!sized || (!floating && !integer)) {
-    fail_input(handle.file(), place, text("samples of ", bits, " bits, format ", format),
+    fail_input(handle.file(), where, text("samples of ", bits, " bits, format ", format),
                "use integers of 8 to 64 bits, or whole numbers in floats of 32 or 64");
   }
   return floating ? float_type(bits / 8) : integer_type(bits / 8, format == SAMPLEFORMAT_INT);
@@ -67,17 +67,17 @@ void find_blocks(const TiffHandle& handle, TiffPage& page) {
       page.height, tag<std::uint32_t>(handle, TIFFTAG_ROWSPERSTRIP, 0xffffffff));
 }
 
-void check_blocks(const TiffHandle& handle, const TiffPage& page, const std::string& place) {
+void check_blocks(const TiffHandle& handle, const TiffPage& page, const std::string& where) {
   if (page.block_width < 1 || page.block_height < 1 || page.block_width > kMaxAxisVoxels ||
       page.block_height > kMaxAxisVoxels) {
-    fail_input(handle.file(), place,
+    fail_input(handle.file(), where,
                text("strips or tiles of ", page.block_width, " x ", page.block_height, " pixels"),
                "the file is damaged");
   }
   const auto file_bytes =
       static_cast<std::uint64_t>(TIFFGetSizeProc(handle.get())(TIFFClientdata(handle.get())));
   if (page.block_bytes() > kMaxBlockBytes || page.block_bytes() / kMaxRatio > file_bytes) {
-    fail_input(handle.file(), place,
+    fail_input(handle.file(), where,
                text("one strip or tile unpacks to ", page.block_bytes(), " bytes, the file has ",
                     file_bytes),
                "the file is damaged; else save in smaller strips or tiles");
@@ -95,20 +95,20 @@ std::string TiffPage::words() const {
   return text(width, " x ", height, " pixels of ", name(type));
 }
 
-TiffPage read_tiff_page(const TiffHandle& handle, const std::string& place) {
+TiffPage read_tiff_page(const TiffHandle& handle, const std::string& where) {
   TiffPage page;
   const auto kind = tag<std::uint32_t>(handle, TIFFTAG_SUBFILETYPE, 0);
   page.smaller_copy = (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
   if (page.smaller_copy) return page;
-  const Index3 shape = checked_shape(handle.file(), text(place, ": size"),
+  const Index3 shape = checked_shape(handle.file(), text(where, ": size"),
                                      {tag<std::uint32_t>(handle, TIFFTAG_IMAGEWIDTH, 0),
                                       tag<std::uint32_t>(handle, TIFFTAG_IMAGELENGTH, 0), 1});
   page.width = shape.x;
   page.height = shape.y;
-  refuse_no_labels(handle, place);
-  page.type = type_of(handle, place);
+  refuse_no_labels(handle, where);
+  page.type = type_of(handle, where);
   find_blocks(handle, page);
-  check_blocks(handle, page, place);
+  check_blocks(handle, page, where);
   return page;
 }
 

@@ -34,6 +34,6 @@ struct TiffPage {
 /// ENSURES: extents within kMaxAxisVoxels; blocks that the file can hold, below 512 MiB.
 /// ERRORS: mw::Error(kInput) naming file and page for pixels that are no labels: of several
 /// samples, of a type or compression that is not read, or of a depth.
-[[nodiscard]] TiffPage read_tiff_page(const TiffHandle& handle, const std::string& place);
+[[nodiscard]] TiffPage read_tiff_page(const TiffHandle& handle, const std::string& where);
 
 }  // namespace mw::io

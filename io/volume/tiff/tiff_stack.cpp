@@ -14,7 +14,7 @@ namespace mw::io {
 namespace {
 
 /// Handles kept open between reads: about as many as threads work at once.
-constexpr std::size_t kMostIdle = 16;
+constexpr std::size_t kMaxIdle = 16;
 
 std::shared_ptr<const ByteSource> open_file(const std::filesystem::path& path) {
   auto file = std::make_shared<FileSource>(path);
@@ -49,7 +49,7 @@ TiffStack::TiffStack(std::shared_ptr<const ByteSource> file)
       handle.fail(text("page ", pages + 1), "cannot be read");
     }
   }
-  if (places_.empty()) {
+  if (positions_.empty()) {
     fail_input(name_, "pages", "there are only smaller copies of others", "save whole pages");
   }
 }
@@ -59,28 +59,28 @@ TiffStack::TiffStack(std::vector<std::filesystem::path> files)
   for (const std::filesystem::path& path : files_) {
     const TiffHandle handle(open_file(path));
     add_page(handle, "page 1");
-    if (TIFFLastDirectory(handle.get()) == 0 || places_.empty()) {
+    if (TIFFLastDirectory(handle.get()) == 0 || positions_.empty()) {
       fail_input(path.string(), "pages", "it has several, or none that is a slice",
                  "a folder's files are one slice each: give a file of many pages by its name");
     }
   }
 }
 
-void TiffStack::add_page(const TiffHandle& handle, const std::string& place) {
-  const TiffPage page = read_tiff_page(handle, place);
+void TiffStack::add_page(const TiffHandle& handle, const std::string& position) {
+  const TiffPage page = read_tiff_page(handle, position);
   if (page.smaller_copy) return;
-  if (places_.empty()) {
+  if (positions_.empty()) {
     first_ = page;
     description_ = description_of(handle);
     resolution_ = {resolution_of(handle, TIFFTAG_XRESOLUTION),
                    resolution_of(handle, TIFFTAG_YRESOLUTION)};
   }
   if (!page.is_like(first_)) {
-    fail_input(handle.file(), place, text(page.words(), ", the first slice is ", first_.words()),
+    fail_input(handle.file(), position, text(page.words(), ", the first slice is ", first_.words()),
                "save all slices of one size and type");
   }
   largest_block_ = std::max(largest_block_, page.block_bytes());
-  places_.push_back(TIFFCurrentDirOffset(handle.get()));
+  positions_.push_back(TIFFCurrentDirOffset(handle.get()));
 }
 
 std::string TiffStack::name_of(std::int64_t slice) const {
@@ -107,13 +107,13 @@ std::unique_ptr<TiffHandle> TiffStack::take(std::int64_t slice) const {
 
 void TiffStack::give_back(std::int64_t slice, std::unique_ptr<TiffHandle> handle) const {
   const std::lock_guard lock(mutex_);
-  if (idle_.size() == kMostIdle) idle_.erase(idle_.begin());
+  if (idle_.size() == kMaxIdle) idle_.erase(idle_.begin());
   idle_.push_back({slice, std::move(handle)});
 }
 
 TiffStack::Lease::Lease(const TiffStack& stack, std::int64_t slice)
     : stack_(stack), slice_(slice), handle_(stack.take(slice)) {
-  handle_->go_to(stack.places_[static_cast<std::size_t>(slice)]);
+  handle_->go_to(stack.positions_[static_cast<std::size_t>(slice)]);
 }
 
 TiffStack::Lease::~Lease() {

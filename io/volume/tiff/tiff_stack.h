@@ -26,7 +26,7 @@ class TiffStack {
   /// ERRORS: the same, also for a file of several pages.
   explicit TiffStack(std::vector<std::filesystem::path> files);
 
-  [[nodiscard]] std::int64_t slices() const { return static_cast<std::int64_t>(places_.size()); }
+  [[nodiscard]] std::int64_t slices() const { return static_cast<std::int64_t>(positions_.size()); }
   /// All are like the first, but for their blocks.
   [[nodiscard]] const TiffPage& first() const { return first_; }
   /// Most bytes of a block of any slice.
@@ -62,13 +62,13 @@ class TiffStack {
     std::unique_ptr<TiffHandle> handle;
   };
 
-  void add_page(const TiffHandle& handle, const std::string& place);
+  void add_page(const TiffHandle& handle, const std::string& position);
   [[nodiscard]] std::unique_ptr<TiffHandle> take(std::int64_t slice) const;
   void give_back(std::int64_t slice, std::unique_ptr<TiffHandle> handle) const;
 
   std::shared_ptr<const ByteSource> file_;    ///< empty for many files
   std::vector<std::filesystem::path> files_;  ///< empty for one
-  std::vector<std::uint64_t> places_;         ///< of each slice's directory in its file
+  std::vector<std::uint64_t> positions_;      ///< of each slice's directory in its file
   std::string name_;
   TiffPage first_;
   std::uint64_t largest_block_ = 0;

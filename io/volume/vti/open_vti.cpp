@@ -80,19 +80,19 @@ std::unique_ptr<LabelVolume> open_vti(std::unique_ptr<ByteSource> source,
   info.type = type_of(array.node);
   info.format = "vti";
   info.space = placed(file, vti_space(grid, array.of_points), options);
-  ArrayPlace place{.order = document.order()};
+  ArrayLayout position{.order = document.order()};
   std::unique_ptr<ByteSource> data;
   if (is_text(array.node)) {
     data = unpacked_text(document, array.node, info);
-    place.order = ByteOrder::kLittle;
+    position.order = ByteOrder::kLittle;
   } else if (const auto offset = document.plain_bytes(array.node, payload_bytes(info))) {
-    place.offset = *offset;
+    position.offset = *offset;
     data = std::move(source);
   } else {
     data = unpacked_bytes(document, array.node, info);
   }
-  check_payload(*data, info, place.offset);
-  return std::make_unique<RawArrayVolume>(std::move(data), std::move(info), place);
+  check_payload(*data, info, position.offset);
+  return std::make_unique<RawArrayVolume>(std::move(data), std::move(info), position);
 }
 
 }  // namespace mw::io

@@ -36,8 +36,8 @@ std::array<std::int64_t, 6> extent_of(pugi::xml_node node, const char* attribute
   std::array<std::int64_t, 6> extent{};
   std::copy_n(numbers->begin(), 6, extent.begin());
   for (const std::int64_t x : extent) {
-    constexpr std::int64_t kMost = std::int64_t{1} << 40;
-    if (x < -kMost || x > kMost) fail_input(file, attribute, text(x, " is not credible"));
+    constexpr std::int64_t kMax = std::int64_t{1} << 40;
+    if (x < -kMax || x > kMax) fail_input(file, attribute, text(x, " is not credible"));
   }
   return extent;
 }

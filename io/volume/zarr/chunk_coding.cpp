@@ -43,7 +43,7 @@ Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes, std::vector<std:
     if (steps[i].is_crc32c) {
       strip_crc32c(packed, name);
     } else {
-      packed = unpack(steps[i].codec, packed, i == 0 ? size : most_packed_bytes(size), name);
+      packed = unpack(steps[i].codec, packed, i == 0 ? size : max_packed_bytes(size), name);
     }
   }
   if (packed.size() != size) {
@@ -54,8 +54,8 @@ Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes, std::vector<std:
   return {.bytes = std::move(packed), .strides = axes.pick(strides_of(array.chunk), 0)};
 }
 
-std::uint64_t most_packed(const ZarrArray& array) {
-  return most_packed_bytes(chunk_bytes(array));
+std::uint64_t max_packed(const ZarrArray& array) {
+  return max_packed_bytes(chunk_bytes(array));
 }
 
 std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes) {
@@ -64,10 +64,10 @@ std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes) {
                              static_cast<std::uint64_t>(byte_size(array.type));
   std::uint64_t library = 0;
   for (const PackStep& step : array.chunk.steps) {
-    if (!step.is_crc32c) library = std::max(library, most_scratch(step.codec, size));
+    if (!step.is_crc32c) library = std::max(library, max_scratch(step.codec, size));
   }
   // What goes into a step, and what comes out of it when another follows.
-  return most_packed(array) * std::clamp<std::uint64_t>(array.chunk.steps.size(), 1, 2) + library +
+  return max_packed(array) * std::clamp<std::uint64_t>(array.chunk.steps.size(), 1, 2) + library +
          (size - used);
 }
 

@@ -22,7 +22,7 @@ namespace mw::io {
 void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
 
 /// The most that a packed chunk may have.
-[[nodiscard]] std::uint64_t most_packed(const ZarrArray& array);
+[[nodiscard]] std::uint64_t max_packed(const ZarrArray& array);
 /// The most that reading and unpacking a chunk takes beside its voxels that are in the volume: axes
 /// of one entry may have chunks of more.
 [[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes);

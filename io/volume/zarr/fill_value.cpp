@@ -51,8 +51,8 @@ std::optional<RawLabel> parse_float(const nlohmann::json& value, VoxelType type,
 }
 
 bool holds_signed(VoxelType type, std::int64_t number) {
-  const std::int64_t most = INT64_MAX >> (64 - 8 * byte_size(type));
-  return number >= -most - 1 && number <= most;
+  const std::int64_t max = INT64_MAX >> (64 - 8 * byte_size(type));
+  return number >= -max - 1 && number <= max;
 }
 
 bool holds_unsigned(VoxelType type, std::uint64_t number) {

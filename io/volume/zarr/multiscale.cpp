@@ -96,7 +96,7 @@ void match_length(std::vector<double>& numbers, std::size_t count, double start,
 }
 
 /// Applies one transformation to what the ones before it make of an index.
-void add_transform(const JsonFields& step, LevelTransform& all, bool& has_place) {
+void add_transform(const JsonFields& step, LevelTransform& all, bool& has_position) {
   const std::string type = step.text("type");
   if (type == "identity") return;
   if (type != "scale" && type != "translation") {
@@ -110,7 +110,7 @@ void add_transform(const JsonFields& step, LevelTransform& all, bool& has_place)
   const std::vector<double> numbers = step.numbers(type);
   match_length(all.scale, numbers.size(), 1, step, type.c_str());
   match_length(all.translation, numbers.size(), 0, step, type.c_str());
-  has_place = has_place || type == "translation";
+  has_position = has_position || type == "translation";
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (type == "scale") {
       all.scale[i] *= numbers[i];
@@ -121,11 +121,11 @@ void add_transform(const JsonFields& step, LevelTransform& all, bool& has_place)
   }
 }
 
-void add_transforms(const JsonFields& holder, LevelTransform& all, bool& has_place) {
+void add_transforms(const JsonFields& holder, LevelTransform& all, bool& has_position) {
   constexpr const char* kKey = "coordinateTransformations";
   if (!holder.has(kKey)) return;
   for (std::size_t i = 0; i < holder.count(kKey); ++i) {
-    add_transform(holder.element(kKey, i), all, has_place);
+    add_transform(holder.element(kKey, i), all, has_position);
   }
 }
 
@@ -161,8 +161,8 @@ Multiscale parse_multiscale(const nlohmann::json& attributes, const std::string&
   for (std::size_t i = 0; i < multiscale.count("datasets"); ++i) {
     const JsonFields dataset = multiscale.element("datasets", i);
     MultiscaleLevel level{.path = dataset.text("path")};
-    add_transforms(dataset, level.transform, out.has_place);
-    add_transforms(multiscale, level.transform, out.has_place);
+    add_transforms(dataset, level.transform, out.has_position);
+    add_transforms(multiscale, level.transform, out.has_position);
     out.levels.push_back(std::move(level));
   }
   if (out.levels.empty()) multiscale.fail("datasets", "there is none", "the file is damaged");
@@ -188,7 +188,7 @@ FileSpace space_of(const Multiscale& multiscale, const MultiscaleLevel& level, c
     return out;
   };
   space.steps = steps_of(along(level.transform.scale, 1));
-  if (multiscale.has_place) space.first = along(level.transform.translation, 0);
+  if (multiscale.has_position) space.first = along(level.transform.translation, 0);
   space.unit = common_unit(multiscale, axes, file);
   return space;
 }

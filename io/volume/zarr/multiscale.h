@@ -29,7 +29,7 @@ struct Multiscale {
   std::vector<std::string> axis_units;  ///< in short, "nm"; as many as names
   std::vector<MultiscaleLevel> levels;  ///< the finest first
   /// Whether any transform moves: then they place centres of voxels, and without, nothing.
-  bool has_place = false;
+  bool has_position = false;
 };
 
 /// Whether the attributes of a group have multiscales, of OME-NGFF 0.1 to 0.5.

@@ -42,17 +42,17 @@ std::uint64_t ShardIndices::index_bytes() const {
   return product(coding_.chunks) * kEntryBytes + (coding_.has_checksum ? 4 : 0);
 }
 
-std::uint64_t ShardIndices::most_bytes() const {
+std::uint64_t ShardIndices::max_bytes() const {
   return kept_bytes(index_bytes());
 }
 
-std::uint64_t ShardIndices::place_of(const std::vector<std::int64_t>& chunk) const {
-  std::uint64_t place = 0;
+std::uint64_t ShardIndices::offset_of(const std::vector<std::int64_t>& chunk) const {
+  std::uint64_t index = 0;
   for (const std::size_t axis : coding_.order) {
-    place = place * static_cast<std::uint64_t>(coding_.chunks[axis]) +
+    index = index * static_cast<std::uint64_t>(coding_.chunks[axis]) +
             static_cast<std::uint64_t>(chunk[axis]);
   }
-  return place * kEntryBytes;
+  return index * kEntryBytes;
 }
 
 std::optional<Chunk> ShardIndices::read(const std::filesystem::path& path) const {
@@ -75,7 +75,7 @@ std::optional<ShardRange> ShardIndices::find(Index3 shard, const std::filesystem
                                              const std::vector<std::int64_t>& chunk) const {
   const ChunkCache::Loaded index = kept_.get(number_of(shard), [&] { return read(path); });
   if (!index) return std::nullopt;
-  const std::byte* entry = index->bytes.data() + place_of(chunk);
+  const std::byte* entry = index->bytes.data() + offset_of(chunk);
   const ShardRange range{.offset = load<std::uint64_t>(entry, coding_.byte_order),
                          .bytes = load<std::uint64_t>(entry + 8, coding_.byte_order)};
   if (range.offset == kNone && range.bytes == kNone) return std::nullopt;

@@ -29,12 +29,12 @@ class ShardIndices {
   [[nodiscard]] std::optional<ShardRange> find(Index3 shard, const std::filesystem::path& path,
                                                const std::vector<std::int64_t>& chunk) const;
   /// The most that is kept.
-  [[nodiscard]] std::uint64_t most_bytes() const;
+  [[nodiscard]] std::uint64_t max_bytes() const;
 
  private:
   [[nodiscard]] std::uint64_t index_bytes() const;  ///< with the checksum
   [[nodiscard]] std::optional<Chunk> read(const std::filesystem::path& path) const;
-  [[nodiscard]] std::uint64_t place_of(const std::vector<std::int64_t>& chunk) const;
+  [[nodiscard]] std::uint64_t offset_of(const std::vector<std::int64_t>& chunk) const;
 
   ShardCoding coding_;
   mutable ChunkCache kept_;

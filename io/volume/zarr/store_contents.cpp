@@ -11,8 +11,8 @@
 namespace mw::io {
 namespace {
 
-constexpr std::size_t kMostVolumes = 100;
-constexpr int kMostDepth = 5;
+constexpr std::size_t kMaxVolumes = 100;
+constexpr int kMaxDepth = 5;
 
 /// Folders below, sorted.
 std::vector<std::string> folders_in(const std::filesystem::path& folder) {
@@ -32,7 +32,7 @@ void search(const std::filesystem::path& group, const std::string& prefix, int d
             std::vector<std::string>& found) {
   if (depth == 0) return;
   for (const std::string& name : folders_in(group)) {
-    if (found.size() >= kMostVolumes) return;
+    if (found.size() >= kMaxVolumes) return;
     const std::filesystem::path folder = group / name;
     const auto node = read_zarr_node(folder);
     if (!node) continue;
@@ -48,7 +48,7 @@ void search(const std::filesystem::path& group, const std::string& prefix, int d
 
 std::vector<std::string> volumes_below(const std::filesystem::path& group) {
   std::vector<std::string> found;
-  search(group, "", kMostDepth, found);
+  search(group, "", kMaxDepth, found);
   return found;
 }
 
@@ -65,12 +65,12 @@ std::vector<std::string> labels_of_image(const std::filesystem::path& group) {
 }
 
 std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMax = 20;
   std::string out;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+  for (std::size_t i = 0; i < std::min(names.size(), kMax); ++i) {
     out += (i == 0 ? "" : ", ") + names[i].substr(0, 100);
   }
-  return names.size() > kMost ? out + ", ..." : out;
+  return names.size() > kMax ? out + ", ..." : out;
 }
 
 }  // namespace mw::io

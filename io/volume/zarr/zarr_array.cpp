@@ -15,8 +15,8 @@ std::uint64_t chunk_bytes(const ZarrArray& array) {
 }
 
 void check_axes(std::string_view file, std::string_view field, std::size_t axes) {
-  if (axes <= kMostZarrAxes) return;
-  fail_input(file, field, text(axes, " axes; at most ", kMostZarrAxes, " are read"),
+  if (axes <= kMaxZarrAxes) return;
+  fail_input(file, field, text(axes, " axes; at most ", kMaxZarrAxes, " are read"),
              "the file is damaged");
 }
 
@@ -39,7 +39,7 @@ void check_chunk(std::string_view file, std::string_view field,
   check_grid(file, field, chunk, axes);
   auto bytes = static_cast<std::uint64_t>(byte_size(type));
   for (const std::int64_t extent : chunk) {
-    if (static_cast<std::uint64_t>(extent) > kMostChunkBytes / bytes) {
+    if (static_cast<std::uint64_t>(extent) > kMaxChunkBytes / bytes) {
       fail_input(file, field, text("chunks of ", name(type), " are larger than 2 GiB"),
                  "write the array in smaller chunks");
     }

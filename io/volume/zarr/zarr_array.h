@@ -16,7 +16,7 @@
 namespace mw::io {
 
 /// The most axes that an array may have.
-inline constexpr std::size_t kMostZarrAxes = 32;
+inline constexpr std::size_t kMaxZarrAxes = 32;
 
 /// A step in which bytes are packed: by a codec, or CRC-32C is put behind them.
 struct PackStep {
@@ -61,14 +61,14 @@ struct ZarrArray {
 /// Bytes of the voxels of a chunk.  REQUIRES: checked (check_chunk).
 [[nodiscard]] std::uint64_t chunk_bytes(const ZarrArray& array);
 
-/// ERRORS: mw::Error(kInput) naming file and field when there are more than kMostZarrAxes.
+/// ERRORS: mw::Error(kInput) naming file and field when there are more than kMaxZarrAxes.
 void check_axes(std::string_view file, std::string_view field, std::size_t axes);
 
 /// ERRORS: mw::Error(kInput) naming file and field unless there is one positive extent an axis.
 void check_grid(std::string_view file, std::string_view field,
                 const std::vector<std::int64_t>& extents, std::size_t axes);
 
-/// The same, and when the voxels are more than kMostChunkBytes.
+/// The same, and when the voxels are more than kMaxChunkBytes.
 void check_chunk(std::string_view file, std::string_view field,
                  const std::vector<std::int64_t>& chunk, std::size_t axes, VoxelType type);
 

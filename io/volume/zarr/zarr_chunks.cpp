@@ -57,7 +57,7 @@ class ChunkFiles : public ZarrChunks {
   [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/) const override {
     const auto file = open_if_there(path_of(chunk));
     if (!file) return fill_of(chunk);
-    return unpack_chunk(array(), axes(), read_rest(*file, 0, most_packed(array())), file->name());
+    return unpack_chunk(array(), axes(), read_rest(*file, 0, max_packed(array())), file->name());
   }
   [[nodiscard]] std::uint64_t scratch_bytes() const override {
     return unpack_scratch(array(), axes());
@@ -85,7 +85,7 @@ class ShardFiles : public ZarrChunks {
     return unpack_chunk(array(), axes(), read_range(path, *range, chunk), name_of(chunk));
   }
   [[nodiscard]] std::uint64_t scratch_bytes() const override {
-    return unpack_scratch(array(), axes()) + indices_.most_bytes();
+    return unpack_scratch(array(), axes()) + indices_.max_bytes();
   }
 
  private:
@@ -99,10 +99,10 @@ class ShardFiles : public ZarrChunks {
                                                   const ShardRange& range, Index3 chunk) const {
     const FileSource file(path);
     const bool is_inside = range.offset <= file.size() && range.bytes <= file.size() - range.offset;
-    if (!is_inside || range.bytes > most_packed(array())) {
+    if (!is_inside || range.bytes > max_packed(array())) {
       fail_input(name_of(chunk), "shard index",
                  text("places it at ", range.offset, " with ", range.bytes, " bytes; the file has ",
-                      file.size(), " and a chunk at most ", most_packed(array())),
+                      file.size(), " and a chunk at most ", max_packed(array())),
                  "get a whole copy of the store");
     }
     std::vector<std::byte> packed(range.bytes);

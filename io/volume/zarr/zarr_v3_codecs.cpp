@@ -17,7 +17,7 @@ namespace mw::io {
 namespace {
 
 /// The index of a shard is read at once.
-constexpr std::uint64_t kMostIndexBytes = 64ULL << 20U;
+constexpr std::uint64_t kMaxIndexBytes = 64ULL << 20U;
 
 /// A chain while it is read.
 struct Chain {
@@ -128,12 +128,12 @@ void parse_index(const Extension& shards, const std::string& file, ShardCoding& 
   shard.byte_order = *index.bytes;
   shard.has_checksum = !index.steps.empty();
   if (!fields.has("index_location")) return;
-  const std::string place = fields.text("index_location");
-  if (place != "start" && place != "end") {
-    fields.fail("index_location", "'" + place + "' is neither 'start' nor 'end'",
+  const std::string location = fields.text("index_location");
+  if (location != "start" && location != "end") {
+    fields.fail("index_location", "'" + location + "' is neither 'start' nor 'end'",
                 "the file is damaged");
   }
-  shard.index_at_end = place == "end";
+  shard.index_at_end = location == "end";
 }
 
 /// How many chunks a shard has along each axis; array.chunk.shape becomes the chunks'.
@@ -156,7 +156,7 @@ void parse_chunks_of_shard(const Extension& shards, const std::string& file,
     shard.chunks[order[i]] = extent / chunk[i];
     extent = chunk[i];
     const auto more = static_cast<std::uint64_t>(shard.chunks[order[i]]);
-    if (more > kMostIndexBytes / 16 / count) {
+    if (more > kMaxIndexBytes / 16 / count) {
       fail_input(file, where, "shards have more than 4194304 chunks, too many to be read here",
                  "write the array in larger chunks or smaller shards");
     }

@@ -15,14 +15,14 @@ namespace {
 std::size_t tried_distance(std::string_view a, std::string_view b) {
   if (a.empty() || b.empty()) return a.size() + b.size();
   const std::string_view c = a.substr(0, a.size() - 1), d = b.substr(0, b.size() - 1);
-  std::size_t least = std::min({tried_distance(c, b) + 1, tried_distance(a, d) + 1,
-                                tried_distance(c, d) + (a.back() == b.back() ? 0U : 1U)});
+  std::size_t min = std::min({tried_distance(c, b) + 1, tried_distance(a, d) + 1,
+                              tried_distance(c, d) + (a.back() == b.back() ? 0U : 1U)});
   if (!c.empty() && !d.empty() && a.back() == d.back() && c.back() == b.back()) {
     const std::size_t swapped =
         tried_distance(c.substr(0, c.size() - 1), d.substr(0, d.size() - 1)) + 1;
-    least = std::min(least, swapped);
+    min = std::min(min, swapped);
   }
-  return least;
+  return min;
 }
 
 std::string random_word(std::mt19937& random, std::size_t longest) {

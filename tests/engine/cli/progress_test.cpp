@@ -14,11 +14,11 @@ namespace {
 using engine::RunProgress;
 
 /// What a run that is at these places in turn leaves on stderr, its end included.
-std::string shown(ProgressKind kind, const std::vector<RunProgress>& places) {
+std::string shown(ProgressKind kind, const std::vector<RunProgress>& positions) {
   testing::internal::CaptureStderr();
   {
     Progress progress(kind);
-    for (const RunProgress& at : places) progress.show(at);
+    for (const RunProgress& at : positions) progress.show(at);
   }
   return testing::internal::GetCapturedStderr();
 }
@@ -44,10 +44,10 @@ TEST(ProgressBar, TellsTheTimeLeftRoughly) {
 
 // A terminal is slower than windows are.
 TEST(ProgressBar, LeavesOutWhatComesAtOnce) {
-  std::vector<RunProgress> places;
+  std::vector<RunProgress> positions;
   for (std::uint64_t done = 0; done <= 1000; ++done)
-    places.push_back({.done = done, .total = 1000});
-  const std::string text = shown(ProgressKind::kBar, places);
+    positions.push_back({.done = done, .total = 1000});
+  const std::string text = shown(ProgressKind::kBar, positions);
   EXPECT_NE(text.find(" 1/1000 "), std::string::npos) << text;
   EXPECT_EQ(text.find(" 2/1000 "), std::string::npos) << text;
   EXPECT_NE(text.find(" 1000/1000 "), std::string::npos) << text;

@@ -122,9 +122,9 @@ TEST_F(ResumeProgramTest, StaysWithinTheBudgetThatItAsksFor) {
   EXPECT_EQ(refused.code, 4);
   const std::size_t at = refused.err.find("--memory ");
   ASSERT_NE(at, std::string::npos) << refused.err;
-  const std::string least = refused.err.substr(at, refused.err.find('\n', at) - at);
+  const std::string min = refused.err.substr(at, refused.err.find('\n', at) - at);
   EXPECT_EQ(files(), (std::set<std::string>{"n.npy"}));
-  ProgramRun done = run(mesh + least + " --report r.json");
+  ProgramRun done = run(mesh + min + " --report r.json");
   if (done.code == 4) {  // a window of the second march needs more than the first of the first
     const std::size_t next = done.err.find("--memory ");
     ASSERT_NE(next, std::string::npos) << done.err;

@@ -132,11 +132,11 @@ TEST_F(UsageTest, CoordinatesThatCannotBeToldApart) {
   expect_failure(3, "mesh v.npy -o v.vtu --spacing 5e-324,1,1 --surface voxel --quality-floor 0",
                  "1e-30");
   expect_failure(3, "mesh v.npy -o v.vtu --spacing 4e-9,4e-9,4e-9 --origin=100,0,0", "can reach");
-  for (const std::string place :
+  for (const std::string position :
        {"--origin=1.7e10,-1.7e10,1.7e10", "--spacing 4e-9,4e-9,4e-9 --origin=0.5,-50,0.5",
         "--spacing 1e-30,1e-30,1e-30", "--spacing 1e28,1e28,1e28"}) {
-    expect_done("mesh v.npy -o v.vtu " + place);
-    expect_done("verify v.npy v.vtu " + place);
+    expect_done("mesh v.npy -o v.vtu " + position);
+    expect_done("verify v.npy v.vtu " + position);
   }
 }
 

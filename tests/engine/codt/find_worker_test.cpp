@@ -21,8 +21,8 @@ using Path = std::filesystem::path;
 
 const std::string kPrograms = MW_INSTALLED_PROGRAMS;
 
-std::vector<Path> places_of(const Path& object) {
-  return worker_places({.program = "/usr/bin/python3.11", .object = object});
+std::vector<Path> junctions_of(const Path& object) {
+  return worker_paths({.program = "/usr/bin/python3.11", .object = object});
 }
 
 /// The variable as it was, when the test is over.
@@ -46,36 +46,36 @@ class HeldVariable {
 };
 
 TEST(FindWorker, LooksBesideTheProgramFirst) {
-  EXPECT_EQ(places_of("/opt/x/libmwmesh.so").front(), "/usr/bin/mwmesh-codt");
+  EXPECT_EQ(junctions_of("/opt/x/libmwmesh.so").front(), "/usr/bin/mwmesh-codt");
 }
 
 TEST(FindWorker, LooksBesideTheLibrary) {
-  EXPECT_THAT(places_of("/opt/x/libmwmesh.so"), Contains(Path("/opt/x/mwmesh-codt")));
+  EXPECT_THAT(junctions_of("/opt/x/libmwmesh.so"), Contains(Path("/opt/x/mwmesh-codt")));
 }
 
 TEST(FindWorker, LooksInThePrefixOfALibraryWhereverItWasMoved) {
   const Path library = Path("/moved/here") / MW_INSTALLED_LIBRARY / "libmwmesh.so.0.1";
-  EXPECT_THAT(places_of(library), Contains(Path("/moved/here") / kPrograms / "mwmesh-codt"));
+  EXPECT_THAT(junctions_of(library), Contains(Path("/moved/here") / kPrograms / "mwmesh-codt"));
 }
 
 TEST(FindWorker, LooksInThePrefixOfAPythonModule) {
   const Path module = Path("/moved/here") / MW_INSTALLED_PYTHON / "_core.so";
-  EXPECT_THAT(places_of(module), Contains(Path("/moved/here") / kPrograms / "mwmesh-codt"));
+  EXPECT_THAT(junctions_of(module), Contains(Path("/moved/here") / kPrograms / "mwmesh-codt"));
 }
 
 TEST(FindWorker, LooksWhereTheBuildIsInstalled) {
-  EXPECT_EQ(places_of({}).back(), Path(MW_INSTALL_PREFIX) / kPrograms / "mwmesh-codt");
+  EXPECT_EQ(junctions_of({}).back(), Path(MW_INSTALL_PREFIX) / kPrograms / "mwmesh-codt");
 }
 
 // As in a chroot without /proc.
 TEST(FindWorker, LooksWhereTheBuildIsInstalledWhenNothingIsKnown) {
-  EXPECT_EQ(worker_places({}).size(), 1U);
+  EXPECT_EQ(worker_paths({}).size(), 1U);
 }
 
 // Whoever may write to /tmp must not decide what a library in /tmp/x starts.
 TEST(FindWorker, LooksNowhereAboveAFolderThatIsNoPrefix) {
-  EXPECT_EQ(places_of("/tmp/x/libmwmesh.so").size(), 3U);
-  EXPECT_EQ(places_of(Path("/tmp/x" + std::string(MW_INSTALLED_LIBRARY)) / "l.so").size(), 3U);
+  EXPECT_EQ(junctions_of("/tmp/x/libmwmesh.so").size(), 3U);
+  EXPECT_EQ(junctions_of(Path("/tmp/x" + std::string(MW_INSTALLED_LIBRARY)) / "l.so").size(), 3U);
 }
 
 TEST(FindWorker, TheHostIsThisProgram) {

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 LabelBox random_labels(std::mt19937& random, Index3 shape, Label labels) {
   LabelBox out{{{0, 0, 0}, shape}, {}};
   const auto run = 1 + random() % 40;
-  each_index(shape, [&](Index3 v) {
+  for_each_index(shape, [&](Index3 v) {
     out.labels.push_back(static_cast<Label>(
         (static_cast<std::uint64_t>(v.x + v.y + v.z) / run + (random() % 8 == 0 ? 1U : 0U)) %
         labels));
@@ -27,7 +27,7 @@ LabelBox random_labels(std::mt19937& random, Index3 shape, Label labels) {
 
 std::uint64_t counted(const LabelBox& labels, const Box3& box) {
   std::uint64_t faces = 0;
-  each_index(box, [&](Index3 v) {
+  for_each_index(box, [&](Index3 v) {
     for (const Index3 step : {Index3{1, 0, 0}, Index3{0, 1, 0}, Index3{0, 0, 1}}) {
       const Index3 other = v + step;
       if (labels.box.contains(other) && labels.at(v) != labels.at(other)) ++faces;
@@ -45,11 +45,11 @@ BoundaryFaces faces_of(const LabelBox& labels) {
   const Index3 shape = labels.box.shape();
   BoundaryFaces out(shape);
   const Index3 bricks{(shape.x + 15) / 16, (shape.y + 15) / 16, (shape.z + 15) / 16};
-  each_index(bricks, [&](Index3 brick) {
+  for_each_index(bricks, [&](Index3 brick) {
     const Index3 lo{16 * brick.x, 16 * brick.y, 16 * brick.z};
     std::set<Label> found;
-    each_index(intersection({lo, lo + Index3{16, 16, 16}}, labels.box),
-               [&](Index3 v) { found.insert(labels.at(v)); });
+    for_each_index(intersection({lo, lo + Index3{16, 16, 16}}, labels.box),
+                   [&](Index3 v) { found.insert(labels.at(v)); });
     out.count(labels, brick, found.size() == 1);
   });
   return out;
@@ -70,7 +70,7 @@ TEST(BoundaryFaces, AreThoseOfEveryVoxel) {
 /// Uniform bricks have faces between them.
 TEST(BoundaryFaces, SeesBricksOfOneLabelEach) {
   LabelBox labels{{{0, 0, 0}, {48, 32, 32}}, {}};
-  each_index(labels.box, [&](Index3 v) {
+  for_each_index(labels.box, [&](Index3 v) {
     labels.labels.push_back(static_cast<Label>((v.x / 16 + v.y / 16 + v.z / 16) % 2));
   });
   EXPECT_EQ(faces_of(labels).in(labels.box), (2 * 4 + 3 * 2 + 3 * 2) * 256);
@@ -91,7 +91,7 @@ TEST(BoundaryFaces, PartsOfABoxAddUp) {
 TEST(MarchWork, FollowsTheInterfaces) {
   LabelBox labels{{{0, 0, 0}, {48, 48, 96}}, {}};
   std::mt19937 random(376);
-  each_index(labels.box, [&](Index3 v) {
+  for_each_index(labels.box, [&](Index3 v) {
     labels.labels.push_back(v.z < 48 ? 0U : static_cast<Label>(random() % 3));
   });
   const BoundaryFaces faces = faces_of(labels);
@@ -99,7 +99,7 @@ TEST(MarchWork, FollowsTheInterfaces) {
     const WindowOrder windows(WindowGrid(labels.box.shape(), 16), order);
     const MarchWork work(faces, windows, {}, {});
     double lower = 0, upper = 0;
-    each_index(windows.grid().windows(), [&](Index3 w) {
+    for_each_index(windows.grid().windows(), [&](Index3 w) {
       EXPECT_GT(work.of(w), 0);
       (windows.grid().window_box(w).hi.z <= 48 ? lower : upper) += work.of(w);
     });

@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
@@ -29,7 +29,7 @@ TEST(LabelContacts, AreThoseOfAPlainLoop) {
     const auto at = [&](Index3 v) {
       return test::raw_label(small.labels[static_cast<std::size_t>(all.offset(v))]);
     };
-    each_index(small.shape, [&](Index3 v) {
+    for_each_index(small.shape, [&](Index3 v) {
       for (std::size_t k = 0; k < 3; ++k) {
         if (!all.contains(v + steps[k])) continue;
         const std::pair<RawLabel, RawLabel> pair = std::minmax({at(v), at(v + steps[k])});

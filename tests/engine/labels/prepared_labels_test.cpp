@@ -45,7 +45,7 @@ PreparedLabels prepared(const SmallVolume& volume, const MeshSettings& settings,
 }
 
 void expect_levels(const LevelMap& actual, const LevelMap& expected, Index3 shape) {
-  each_index(shape, [&](Index3 v) {
+  for_each_index(shape, [&](Index3 v) {
     if (((v.x | v.y | v.z) & 7) != 0) return;
     for (int level : {3, 4}) {
       ASSERT_EQ(actual.is_allowed(v, level), expected.is_allowed(v, level));
@@ -99,7 +99,7 @@ TEST(PreparedLabels, CoarsenAlsoWithoutABound) {
   const PreparedLabels labels =
       prepared(volume, {.start = StartMesh::kCoarse, .max_distance = std::nullopt});
   const Box3 all{{0, 0, 0}, volume.shape};
-  EXPECT_EQ(labels.shape(all).labels, mw::test::coarsened(volume, kMostCoarseDistance).labels);
+  EXPECT_EQ(labels.shape(all).labels, mw::test::coarsened(volume, kMaxCoarseDistance).labels);
   EXPECT_NE(labels.shape(all).labels, volume.labels);
 }
 

@@ -11,7 +11,7 @@
 #include "engine/labels/label_scan.h"
 #include "io/labels/brick_volume.h"
 #include "io/volume/volume_view.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
@@ -29,10 +29,10 @@ TEST(ReadingTiles, CoverTheVolumeOnceAlongBricks) {
     const ReadingTiles tiles(info);
     std::int64_t covered = 0;
     Index3 next{0, 0, 0};
-    each_index(tiles.count(), [&](Index3 tile) {
+    for_each_index(tiles.count(), [&](Index3 tile) {
       const Box3 box = tiles.box(tile);
       covered += box.voxels();
-      EXPECT_LE(box.voxels(), ReadingTiles::kMostVoxels);
+      EXPECT_LE(box.voxels(), ReadingTiles::kMaxVoxels);
       EXPECT_TRUE(box.lo.x % kBrick == 0 && box.lo.y % kBrick == 0 && box.lo.z % kBrick == 0);
       EXPECT_TRUE(box.hi.x % kBrick == 0 || box.hi.x == info.shape.x);
       EXPECT_TRUE(box.hi.y % kBrick == 0 || box.hi.y == info.shape.y);

@@ -29,7 +29,7 @@ TEST(March, VisitsEveryWindowOnceAfterItsPredecessors) {
       };
       march(order, visit, {.threads = threads});
       EXPECT_EQ(watch.finished(), order.size());
-      EXPECT_LE(watch.most(), static_cast<std::size_t>(threads));
+      EXPECT_LE(watch.max(), static_cast<std::size_t>(threads));
     }
   });
 }
@@ -110,7 +110,7 @@ TEST(March, PassesOverWhatWasFinishedBefore) {
 /// A purse of places that windows hold while they run.
 class Purse {
  public:
-  explicit Purse(int places) : left_(std::make_shared<std::atomic<int>>(places)) {}
+  explicit Purse(int indices) : left_(std::make_shared<std::atomic<int>>(indices)) {}
 
   Admission take() {
     if (*left_ <= 0) {
@@ -131,9 +131,9 @@ class Purse {
 TEST(March, StartsOnlyWhatIsAdmitted) {
   for_orders_and_threads([](const WindowOrder& order, int threads) {
     RandomDelay delay(423, 200);
-    for (int places : {0, 1, 2, 5}) {
+    for (int indices : {0, 1, 2, 5}) {
       Watch watch(order);
-      Purse purse(places);
+      Purse purse(indices);
       const VisitWindow visit = [&](Index3 w) {
         watch.begin(w);
         delay();
@@ -141,9 +141,9 @@ TEST(March, StartsOnlyWhatIsAdmitted) {
       };
       march(order, visit, {.threads = threads, .admit = [&](Index3) { return purse.take(); }});
       EXPECT_EQ(watch.finished(), order.size());
-      EXPECT_LE(watch.most(), static_cast<std::size_t>(std::max(places, 1)));
-      EXPECT_EQ(purse.left(), places);
-      if (threads == 8 && places == 0) {
+      EXPECT_LE(watch.max(), static_cast<std::size_t>(std::max(indices, 1)));
+      EXPECT_EQ(purse.left(), indices);
+      if (threads == 8 && indices == 0) {
         EXPECT_GT(purse.refused, 0);
       }
     }

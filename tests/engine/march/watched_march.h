@@ -62,7 +62,7 @@ class Watch {
     for (Index3 p : order_.predecessors(window)) {
       EXPECT_EQ(finished_.count(order_.rank(p)), 1U) << "before its predecessor";
     }
-    most_ = std::max(most_, started_.size() - finished_.size());
+    max_ = std::max(max_, started_.size() - finished_.size());
   }
   void end(Index3 window) {
     const std::lock_guard lock(mutex_);
@@ -72,13 +72,13 @@ class Watch {
   [[nodiscard]] std::size_t started() const { return started_.size(); }
   [[nodiscard]] std::size_t finished() const { return finished_.size(); }
   /// Visits at the same time, at most.
-  [[nodiscard]] std::size_t most() const { return most_; }
+  [[nodiscard]] std::size_t max() const { return max_; }
 
  private:
   const WindowOrder& order_;
   std::mutex mutex_;
   std::set<std::uint64_t> started_, finished_;
-  std::size_t most_ = 0;
+  std::size_t max_ = 0;
 };
 
 /// Visits that wait for one another, so that they must run at the same time.  Thread-safe.

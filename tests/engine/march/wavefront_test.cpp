@@ -164,7 +164,7 @@ TEST(Wavefront, MemoryDoesNotGrowWithTheVolume) {
 /// Layers of blocks between first and last use, at most, when 8 threads march.
 std::size_t layers_in_use(const WindowOrder& order, std::uint64_t look_ahead) {
   std::map<std::int64_t, std::int64_t> left;  // windows still to finish, by layer of blocks begun
-  std::size_t most = 0;
+  std::size_t max = 0;
   const std::int64_t in_a_layer = order.grid().windows().x * order.grid().windows().y;
   const auto windows_on = [&](std::int64_t z) {
     return (z > 0 && z + 1 < order.grid().blocks().z ? 2 : 1) * in_a_layer;
@@ -178,7 +178,7 @@ std::size_t layers_in_use(const WindowOrder& order, std::uint64_t look_ahead) {
       order, wavefront, 8,
       [&](std::uint64_t rank) {
         for (std::int64_t z : layers_of(rank)) left.try_emplace(z, windows_on(z));
-        most = std::max(most, left.size());
+        max = std::max(max, left.size());
       },
       [&](std::uint64_t rank) {
         for (std::int64_t z : layers_of(rank)) {
@@ -186,7 +186,7 @@ std::size_t layers_in_use(const WindowOrder& order, std::uint64_t look_ahead) {
         }
       });
   EXPECT_TRUE(left.empty());
-  return most;
+  return max;
 }
 
 /// In sequence a march uses two or three layers; looking ahead by one adds one.

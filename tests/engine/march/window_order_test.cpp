@@ -23,7 +23,7 @@ using test::transitive_closure;
 /// Both orders of every grid of up to 5 x 5 x 4 windows.
 template <typename Check>
 void for_small_orders(Check check) {
-  each_index(Index3{5, 5, 4}, [&](Index3 i) {
+  for_each_index(Index3{5, 5, 4}, [&](Index3 i) {
     const Index3 windows = i + Index3{1, 1, 1};
     for (Order order : kOrders) {
       SCOPED_TRACE(::testing::Message() << windows.x << " x " << windows.y << " x " << windows.z
@@ -71,7 +71,7 @@ TEST(WindowOrder, SequenceVisitsEveryWindowOnce) {
 TEST(WindowOrder, RasterSequenceIsThePapers) {
   const WindowOrder order(grid_of({4, 3, 2}), Order::kRaster);
   std::uint64_t rank = 0;
-  each_index(Index3{4, 3, 2}, [&](Index3 w) { EXPECT_EQ(order.rank(w), rank++); });
+  for_each_index(Index3{4, 3, 2}, [&](Index3 w) { EXPECT_EQ(order.rank(w), rank++); });
 }
 
 /// Edges follow the sequence, hence have no circle.
@@ -155,13 +155,13 @@ std::size_t layers_in_use(const WindowOrder& order) {
       last[b.z] = w;
     }
   }
-  std::size_t most = 0;
+  std::size_t max = 0;
   for (std::uint64_t w = 0; w < order.size(); ++w) {
     std::size_t open = 0;
     for (const auto& [z, begin] : first) open += begin <= w && w <= last[z] ? 1U : 0U;
-    most = std::max(most, open);
+    max = std::max(max, open);
   }
-  return most;
+  return max;
 }
 
 TEST(ColourOrder, KeepsThreeLayersOfBlocksInUse) {

@@ -21,8 +21,8 @@ std::uint64_t size_of(void* piece) {
 void* counted(void* piece) {
   if (piece == nullptr) throw std::bad_alloc();
   const std::uint64_t now = allocated += size_of(piece);
-  std::uint64_t most = peak;
-  while (most < now && !peak.compare_exchange_weak(most, now)) {
+  std::uint64_t max = peak;
+  while (max < now && !peak.compare_exchange_weak(max, now)) {
   }
   return piece;
 }

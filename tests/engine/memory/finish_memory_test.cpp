@@ -46,8 +46,8 @@ class MarchedStore : public FinalBlocks {
   [[nodiscard]] const WindowGrid& grid() const { return layout_.grid(0); }
   [[nodiscard]] std::uint64_t largest() {
     std::uint64_t out = 0;
-    each_index(grid().blocks(),
-               [&](Index3 b) { out = std::max(out, store_.march(0).loaded_bytes(b)); });
+    for_each_index(grid().blocks(),
+                   [&](Index3 b) { out = std::max(out, store_.march(0).loaded_bytes(b)); });
     return out;
   }
 
@@ -78,7 +78,7 @@ void expect_held(const Trial& trial, bool measured) {
   const FinishedMesh finished = finish(blocks, blocks.grid(), volume, sink, options);
   const std::uint64_t taken = mw::test::peak_allocated_bytes() - before;
   const std::uint64_t remembered =
-      kBytesPerRemembered * finished.most_remembered + finished.most_shape_bytes;
+      kBytesPerRemembered * finished.max_remembered + finished.max_shape_bytes;
   EXPECT_LE(remembered, held);
   EXPECT_LE(taken, aside + remembered);
   EXPECT_EQ(finished.shape.has_value(), measured);

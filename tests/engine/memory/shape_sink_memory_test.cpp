@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "engine/cli/shape_sink.h"
-#include "io/file/nameless_file.h"
+#include "io/file/unlinked_file.h"
 #include "tests/engine/memory/counted_memory.h"
 
 namespace mw::cli {
 namespace {
 
 /// As ShapeSink says.
-constexpr std::uint64_t kMostBytes = 40 << 20;
+constexpr std::uint64_t kMaxBytes = 40 << 20;
 
 /// A bar of cubes, every second one another label, five tets each.
 void stream_bar(std::uint64_t cubes, ShapeSink& sink) {
@@ -49,7 +49,7 @@ TEST(Promise6BoundedMemory, OfMeasuringAMeshThatStreamsBy) {
   ShapeSink sink(io::scratch_folder());
   stream_bar(kCubes, sink);
   const audit::ShapeReport shape = sink.shape();
-  EXPECT_LE(mw::test::peak_allocated_bytes() - before, kMostBytes);
+  EXPECT_LE(mw::test::peak_allocated_bytes() - before, kMaxBytes);
   EXPECT_EQ(shape.triangles, 2 * (kCubes - 1));
   EXPECT_NEAR(shape.area, kCubes - 1, 1e-6);
   EXPECT_NEAR(sink.volumes().at(1).value(), kCubes / 2.0, 1e-6);

@@ -174,16 +174,16 @@ TEST(WindowMemory, KnowsTheSizeOfStartMeshesBeforeTheyAreMade) {
     MemoryBudget budget;
     RunStore store(layout, budget, nullptr);
     const WindowVisitor visitor(labels, Metric({1, 1, 1}), trial.settings, grid, store.march(0));
-    each_index(grid.blocks(), [&](Index3 b) {
+    for_each_index(grid.blocks(), [&](Index3 b) {
       const StartSize size = visitor.start_size(b);
       const BlockMesh mesh = visitor.start(b);
       EXPECT_EQ(size.vertices, mesh.vertices.size());
       EXPECT_EQ(size.tets, mesh.tets.size());
       EXPECT_GE(size.samples, mesh.samples.size());
-      const StartSize most = most_start_size(grid, b);
-      EXPECT_GE(most.vertices, size.vertices);
-      EXPECT_GE(most.tets, size.tets);
-      EXPECT_GE(most.samples, size.samples);
+      const StartSize max = max_start_size(grid, b);
+      EXPECT_GE(max.vertices, size.vertices);
+      EXPECT_GE(max.tets, size.tets);
+      EXPECT_GE(max.samples, size.samples);
     });
   }
 }

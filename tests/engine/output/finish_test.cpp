@@ -54,7 +54,7 @@ io::MeshData list_of_everything(FinalBlocks& blocks, const WindowGrid& grid,
                                 const io::DenseVolume& volume, const WantedLabel& wanted) {
   std::map<VertexId, Point> used;
   std::vector<std::pair<std::array<VertexId, 4>, RawLabel>> tets;
-  each_index(grid.blocks(), [&](Index3 b) {
+  for_each_index(grid.blocks(), [&](Index3 b) {
     const BlockMesh block = blocks.load(b);
     for (const BlockTet& t : block.tets) {
       const RawLabel label = volume.table().raw(t.label);
@@ -183,8 +183,8 @@ class Bar : public FinalBlocks {
 
 /// P6: what is remembered does not grow with the number of planes of blocks.
 TEST(Promise6BoundedMemory, OfTheFinalMerge) {
-  std::vector<std::size_t> most;
-  std::vector<std::uint64_t> most_shape;
+  std::vector<std::size_t> max;
+  std::vector<std::uint64_t> max_shape;
   for (const std::int64_t length : {12, 60, 240}) {
     Bar bar(length);
     const MemoryVolume file(bar.volume(), {});
@@ -193,14 +193,14 @@ TEST(Promise6BoundedMemory, OfTheFinalMerge) {
     const FinishedMesh finished =
         finish(bar, bar.grid(), io::DenseVolume(file, table), sink, {.measure_shape = true});
     EXPECT_EQ(finished.vertices, static_cast<std::uint64_t>(9 * 9 * (length + 1)));
-    most.push_back(finished.most_remembered);
-    most_shape.push_back(finished.most_shape_bytes);
+    max.push_back(finished.max_remembered);
+    max_shape.push_back(finished.max_shape_bytes);
   }
   // Two planes of blocks and a line, two voxels thick each, and the far side.
-  EXPECT_LE(most[0], 9U * 9U * 7U);
-  EXPECT_EQ(most[1], most[2]);
-  EXPECT_GT(most_shape[1], 0U);
-  EXPECT_EQ(most_shape[1], most_shape[2]);
+  EXPECT_LE(max[0], 9U * 9U * 7U);
+  EXPECT_EQ(max[1], max[2]);
+  EXPECT_GT(max_shape[1], 0U);
+  EXPECT_EQ(max_shape[1], max_shape[2]);
 }
 
 /// The same, and nothing is left when the last block has come.
@@ -211,7 +211,7 @@ TEST(InterfaceShape, RemembersTheFrontOnly) {
   const LabelSelection all({}, table);
   std::uint64_t held = 0;
   InterfaceShape shape(bar.grid(), file.info(), all, [&](std::uint64_t bytes) { held = bytes; });
-  each_index(bar.grid().blocks(), [&](Index3 b) {
+  for_each_index(bar.grid().blocks(), [&](Index3 b) {
     shape.add(bar.load(b));
     EXPECT_LE(shape.remembered(), held);
   });
@@ -219,7 +219,7 @@ TEST(InterfaceShape, RemembersTheFrontOnly) {
   // A plane of blocks has 8 x 8 voxel faces of two triangles on one side, the row of blocks that
   // is under way 4 x 8 and 2 x 4 more; three edges a triangle at most.
   constexpr std::uint64_t kTriangles = 2 * (64 + 32 + 16);
-  EXPECT_LE(shape.most_remembered(), kTriangles * (32 + 3 * 56) + 64 * 160);
+  EXPECT_LE(shape.max_remembered(), kTriangles * (32 + 3 * 56) + 64 * 160);
 }
 
 }  // namespace

@@ -36,9 +36,9 @@ Scattered scatter_vertices(std::mt19937& random, Index3 shape, std::uint32_t rea
   const Index3 blocks = out.grid.blocks();
   out.blocks.resize(static_cast<std::size_t>(blocks.product()));
   const VertexUses homes(out.grid);
-  const auto near = [&](std::int64_t home, std::int64_t most) {
+  const auto near = [&](std::int64_t home, std::int64_t max) {
     const std::int64_t offset = std::int64_t{below(random, 2 * reach + 1)} - reach;
-    return std::clamp<std::int64_t>(home + offset, 0, most - 1);
+    return std::clamp<std::int64_t>(home + offset, 0, max - 1);
   };
   for (std::size_t i = 0; i < count; ++i) {
     const Point p{random_coordinate(random, shape.x), random_coordinate(random, shape.y),
@@ -62,7 +62,7 @@ Scattered scatter_vertices(std::mt19937& random, Index3 shape, std::uint32_t rea
 
 VertexUses uses_of(const Scattered& scattered) {
   VertexUses uses(scattered.grid);
-  each_index(scattered.grid.blocks(), [&](Index3 b) { uses.add(b, scattered.at(b)); });
+  for_each_index(scattered.grid.blocks(), [&](Index3 b) { uses.add(b, scattered.at(b)); });
   return uses;
 }
 
@@ -78,7 +78,7 @@ TEST(VertexRows, AreThoseOfAMapOfAllVertices) {
     const Scattered scattered = scatter_vertices(random, random_shape(random), i % 5, 1 + i * 5);
     VertexRows rows(uses_of(scattered));
     std::map<VertexId, std::uint64_t> all;
-    each_index(scattered.grid.blocks(), [&](Index3 b) {
+    for_each_index(scattered.grid.blocks(), [&](Index3 b) {
       std::vector<std::uint64_t> expected;
       for (const BlockVertex& v : scattered.at(b)) {
         expected.push_back(all.try_emplace(v.id, all.size()).first->second);
@@ -107,18 +107,18 @@ TEST(VertexRows, RememberNoMoreThanThePlanesInReach) {
     }
     const std::size_t reach = i % 4;
     const std::size_t lines = 2 * reach * (static_cast<std::size_t>(blocks.y) + 1) + 1;
-    std::size_t most = 0;
+    std::size_t max = 0;
     for (std::size_t first = 0; first < of_line.size(); ++first) {
       std::size_t sum = 0;
       for (std::size_t l = first; l < std::min(first + lines, of_line.size()); ++l) {
         sum += of_line[l];
       }
-      most = std::max(most, sum);
+      max = std::max(max, sum);
     }
     VertexRows rows(uses);
-    each_index(blocks, [&](Index3 b) { static_cast<void>(rows.assign(b, scattered.at(b))); });
-    EXPECT_LE(rows.most_remembered(), most);
-    EXPECT_GT(rows.most_remembered(), 0U);
+    for_each_index(blocks, [&](Index3 b) { static_cast<void>(rows.assign(b, scattered.at(b))); });
+    EXPECT_LE(rows.max_remembered(), max);
+    EXPECT_GT(rows.max_remembered(), 0U);
   }
 }
 
@@ -126,7 +126,7 @@ TEST(VertexRows, HomeIsTheBlockAroundAPosition) {
   for (const Index3 shape : {Index3{7, 4, 9}, Index3{1, 2, 3}, Index3{12, 1, 5}}) {
     const WindowGrid grid(shape, 6);
     const VertexUses uses(grid);
-    each_index(shape, [&](Index3 voxel) {
+    for_each_index(shape, [&](Index3 voxel) {
       const auto middle = [](std::int64_t v) {
         return static_cast<std::int32_t>(v * kUnitsPerVoxel + kUnitsPerVoxel / 2);
       };

@@ -55,8 +55,8 @@ TEST_F(BlockTableTest, EvictsWhatIsNeededLast) {
     ASSERT_EQ(after.size() + 1, before.size());
     std::uint64_t latest_kept = 0, evicted = 0;
     for (std::uint64_t slot : before) {
-      std::uint64_t& place = after.contains(slot) ? latest_kept : evicted;
-      place = std::max(place, next_use(slot));
+      std::uint64_t& index = after.contains(slot) ? latest_kept : evicted;
+      index = std::max(index, next_use(slot));
     }
     ASSERT_GE(evicted, latest_kept);
     before = after;

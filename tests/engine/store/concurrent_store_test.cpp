@@ -23,7 +23,7 @@ class Workers {
  public:
   Workers(const RunLayout& layout, RunStore& store, std::uint32_t march)
       : layout_(layout), blocks_(store.march(march)), march_(march) {
-    each_index(layout.grid(march).windows(), [&](Index3 w) { left_.push_back(w); });
+    for_each_index(layout.grid(march).windows(), [&](Index3 w) { left_.push_back(w); });
   }
 
   void run(int threads) {

@@ -64,7 +64,7 @@ using FinalBytes = std::vector<std::vector<std::byte>>;
 [[nodiscard]] inline FinalBytes final_bytes(const RunLayout& layout, RunStore& store) {
   FinalBytes out;
   const std::uint32_t last = layout.marches() - 1;
-  each_index(layout.grid(last).blocks(), [&](Index3 b) {
+  for_each_index(layout.grid(last).blocks(), [&](Index3 b) {
     out.push_back(encode_block({last, b}, store.march(last).load(b)));
   });
   return out;
@@ -79,13 +79,13 @@ using FinalBytes = std::vector<std::vector<std::byte>>;
   };
   for (std::uint32_t m = 0; m < layout.marches(); ++m) {
     if (m > 0) {
-      each_index(layout.grid(m).blocks(), [&](Index3 b) {
+      for_each_index(layout.grid(m).blocks(), [&](Index3 b) {
         std::vector<BlockMesh> parts;
         for (const BlockKey& part : layout.parts({m, b})) parts.push_back(find(part).value());
         blocks[layout.slot({m, b})] = merge_blocks(parts);
       });
     }
-    each_index(layout.grid(m).windows(), [&](Index3 w) {
+    for_each_index(layout.grid(m).windows(), [&](Index3 w) {
       std::vector<std::optional<BlockMesh>> taken;
       const auto keys = layout.grid(m).blocks_of(w);
       for (Index3 b : keys) taken.push_back(find({m, b}));
@@ -95,7 +95,7 @@ using FinalBytes = std::vector<std::vector<std::byte>>;
   }
   FinalBytes out;
   const std::uint32_t last = layout.marches() - 1;
-  each_index(layout.grid(last).blocks(), [&](Index3 b) {
+  for_each_index(layout.grid(last).blocks(), [&](Index3 b) {
     out.push_back(encode_block({last, b}, find({last, b}).value()));
   });
   return out;
@@ -107,7 +107,7 @@ inline void expect_closed(const RunLayout& layout, RunStore& store) {
   for (std::uint32_t m = 0; m < layout.marches(); ++m) {
     const BlockStore& blocks = store.march(m);
     bool all = true;
-    each_index(layout.grid(m).windows(), [&](Index3 w) {
+    for_each_index(layout.grid(m).windows(), [&](Index3 w) {
       all = all && blocks.is_done(w);
       if (!blocks.is_done(w)) return;
       EXPECT_TRUE(all_before);

@@ -70,7 +70,7 @@ TEST(MemoryBudget, SaysTheLeastThatWorks) {
   MemoryBudget budget(10 * kMebibyte);
   const Reservation index = budget.reserve(Purpose::kIndex, 3 * kMebibyte);
   const Reservation blocks = budget.reserve(Purpose::kBlocks, 5 * kMebibyte);
-  EXPECT_EQ(budget.least_with(8 * kMebibyte), 11 * kMebibyte);
+  EXPECT_EQ(budget.min_with(8 * kMebibyte), 11 * kMebibyte);
   try {
     (void)budget.reserve(Purpose::kWindows, 8 * kMebibyte - 1);
     ADD_FAILURE() << "more than the limit";

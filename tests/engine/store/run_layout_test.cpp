@@ -26,12 +26,12 @@ TEST(RunLayout, NumbersEachBlockAndWindowOnce) {
     const RunLayout layout(grids_of(volume, 3));
     std::set<std::uint64_t> slots, windows;
     for (std::uint32_t m = 0; m < layout.marches(); ++m) {
-      each_index(layout.grid(m).blocks(), [&](Index3 b) {
+      for_each_index(layout.grid(m).blocks(), [&](Index3 b) {
         const std::uint64_t slot = layout.slot({m, b});
         EXPECT_EQ(layout.key(slot), (BlockKey{m, b}));
         EXPECT_TRUE(slots.insert(slot).second);
       });
-      each_index(layout.grid(m).windows(), [&](Index3 w) {
+      for_each_index(layout.grid(m).windows(), [&](Index3 w) {
         EXPECT_TRUE(windows.insert(layout.window({m, w})).second);
       });
     }
@@ -47,7 +47,7 @@ TEST(RunLayout, PartsFillTheirBlock) {
     const RunLayout layout(grids_of(volume, 3));
     for (std::uint32_t m = 1; m < layout.marches(); ++m) {
       std::size_t parts = 0;
-      each_index(layout.grid(m).blocks(), [&](Index3 b) {
+      for_each_index(layout.grid(m).blocks(), [&](Index3 b) {
         const Box3 box = layout.grid(m).block_box(b);
         std::int64_t voxels = 0;
         for (const BlockKey& part : layout.parts({m, b})) {
@@ -71,7 +71,7 @@ TEST(RunLayout, NextUseIsTheFirstWindowLeftThatTouchesTheBlock) {
     DoneWindows done(layout.windows());
     std::vector<WindowKey> all;
     for (std::uint32_t m = 0; m < layout.marches(); ++m) {
-      each_index(layout.grid(m).windows(), [&](Index3 w) { all.push_back({m, w}); });
+      for_each_index(layout.grid(m).windows(), [&](Index3 w) { all.push_back({m, w}); });
     }
     const auto uses = [&](const WindowKey& w, const BlockKey& key) {
       const Index3 corner = layout.grid(key.march).block_box(key.block).lo;

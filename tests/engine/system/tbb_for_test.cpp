@@ -19,9 +19,9 @@ namespace {
 /// Lets TBB have more threads than the machine has cores.
 class TbbFor : public ::testing::TestWithParam<int> {
  protected:
-  static constexpr std::size_t kMostThreads = 8;
+  static constexpr std::size_t kMaxThreads = 8;
 
-  tbb::global_control allow_{tbb::global_control::max_allowed_parallelism, kMostThreads};
+  tbb::global_control allow_{tbb::global_control::max_allowed_parallelism, kMaxThreads};
   tbb::task_arena arena_{GetParam()};
 };
 
@@ -41,7 +41,7 @@ TEST_P(TbbFor, CoversEveryIndexOnce) {
 TEST_P(TbbFor, CoversEveryIndexOfAnArrayOnce) {
   for (const Index3 shape : {Index3{3, 5, 7}, Index3{1, 1, 40}, Index3{6, 1, 1}, Index3{4, 0, 4}}) {
     std::vector<std::atomic<int>> times(static_cast<std::size_t>(shape.product()));
-    engine::tbb_each_index(GetParam(), shape, [&](Index3 i) {
+    engine::tbb_for_each_index(GetParam(), shape, [&](Index3 i) {
       ++times.at(static_cast<std::size_t>((i.z * shape.y + i.y) * shape.x + i.x));
     });
     for (const auto& t : times) ASSERT_EQ(t, 1);
@@ -52,7 +52,7 @@ TEST_P(TbbFor, PassesOnWhatAVisitThrows) {
   const auto fail = [](Index3 i) {
     if (i == Index3{1, 2, 3}) throw std::runtime_error("in the middle");
   };
-  EXPECT_THROW(engine::tbb_each_index(GetParam(), {4, 4, 4}, fail), std::runtime_error);
+  EXPECT_THROW(engine::tbb_for_each_index(GetParam(), {4, 4, 4}, fail), std::runtime_error);
 }
 
 TEST_P(TbbFor, PassesOnWhatABodyThrows) {

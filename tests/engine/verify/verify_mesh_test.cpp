@@ -89,8 +89,8 @@ Case random_case(std::mt19937& random) {
   damage(random, out.mesh, out.frame);
   if (below(random, 2) == 0) out.options.layers = layers_of(out.frame.spacing);
   if (below(random, 2) == 0) out.options.max_distance = 0.3 * below(random, 5);
-  out.options.count_places = below(random, 4) == 0;
-  if (!out.options.count_places && below(random, 4) == 0) {
+  out.options.count_junctions = below(random, 4) == 0;
+  if (!out.options.count_junctions && below(random, 4) == 0) {
     for (Label l = 0; l < out.volume.label_count; ++l) out.options.kept.push_back(l % 2 == 0);
     SmallMesh rest{out.mesh.vertices, {}, {}};
     for (std::size_t t = 0; t < out.mesh.tets.size(); ++t) {
@@ -140,8 +140,8 @@ void expect_same_distance(const audit::DistanceReport& tiled, const audit::Dista
   }
 }
 
-void expect_same_changes(const std::vector<audit::PlaceChange>& tiled,
-                         const std::vector<audit::PlaceChange>& whole) {
+void expect_same_changes(const std::vector<audit::JunctionChange>& tiled,
+                         const std::vector<audit::JunctionChange>& whole) {
   ASSERT_EQ(tiled.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
     EXPECT_EQ(tiled[i].labels, whole[i].labels);
@@ -180,12 +180,12 @@ void expect_same(const AuditReport& tiled, const AuditReport& whole) {
   }
   ASSERT_EQ(tiled.distance.has_value(), whole.distance.has_value());
   if (whole.distance) expect_same_distance(*tiled.distance, *whole.distance);
-  ASSERT_EQ(tiled.places.has_value(), whole.places.has_value());
-  if (whole.places) {
-    EXPECT_EQ(tiled.places->interfaces, whole.places->interfaces);
-    EXPECT_EQ(tiled.places->meetings, whole.places->meetings);
-    expect_same_changes(tiled.places->interfaces_changed, whole.places->interfaces_changed);
-    expect_same_changes(tiled.places->meetings_changed, whole.places->meetings_changed);
+  ASSERT_EQ(tiled.junctions.has_value(), whole.junctions.has_value());
+  if (whole.junctions) {
+    EXPECT_EQ(tiled.junctions->interfaces, whole.junctions->interfaces);
+    EXPECT_EQ(tiled.junctions->meetings, whole.junctions->meetings);
+    expect_same_changes(tiled.junctions->interfaces_changed, whole.junctions->interfaces_changed);
+    expect_same_changes(tiled.junctions->meetings_changed, whole.junctions->meetings_changed);
   }
 }
 

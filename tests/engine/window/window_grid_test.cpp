@@ -26,7 +26,7 @@ bool are_neighbours(Index3 a, Index3 b) {
 Relation by_predecessors(const WindowGrid& grid) {
   const auto count = static_cast<std::size_t>(grid.windows().product());
   Relation out(count, std::vector<bool>(count, false));
-  each_index(grid.windows(), [&](Index3 w) {
+  for_each_index(grid.windows(), [&](Index3 w) {
     for (Index3 p : grid.predecessors(w)) {
       EXPECT_LT(raster(p, grid.windows()), raster(w, grid.windows()));
       EXPECT_TRUE((Box3{{0, 0, 0}, grid.windows()}.contains(p)));
@@ -40,8 +40,8 @@ Relation by_predecessors(const WindowGrid& grid) {
 Relation by_neighbours(const WindowGrid& grid) {
   const auto count = static_cast<std::size_t>(grid.windows().product());
   Relation out(count, std::vector<bool>(count, false));
-  each_index(grid.windows(), [&](Index3 w) {
-    each_index(grid.windows(), [&](Index3 v) {
+  for_each_index(grid.windows(), [&](Index3 w) {
+    for_each_index(grid.windows(), [&](Index3 v) {
       const std::size_t a = raster(w, grid.windows()), b = raster(v, grid.windows());
       if (b < a && are_neighbours(v, w)) out[a][b] = true;
     });
@@ -50,7 +50,7 @@ Relation by_neighbours(const WindowGrid& grid) {
 }
 
 TEST(Sec41MarchOrder, PredecessorsAreTheThirteenEarlierNeighboursClosedTransitively) {
-  each_index(Index3{5, 5, 4}, [](Index3 i) {
+  for_each_index(Index3{5, 5, 4}, [](Index3 i) {
     const WindowGrid grid = grid_of(i + Index3{1, 1, 1});
     ASSERT_EQ(grid.windows(), (i + Index3{1, 1, 1}));
     EXPECT_TRUE(transitive_closure(by_predecessors(grid)) ==
@@ -71,10 +71,10 @@ std::vector<WindowGrid> assorted_grids() {
 TEST(WindowGrid, BlocksTileTheVolume) {
   for (const WindowGrid& grid : assorted_grids()) {
     std::vector<int> covered(static_cast<std::size_t>(grid.volume().product()), 0);
-    each_index(grid.blocks(), [&](Index3 b) {
+    for_each_index(grid.blocks(), [&](Index3 b) {
       const Box3 box = grid.block_box(b);
       EXPECT_GT(box.voxels(), 0);
-      each_index(box.shape(), [&](Index3 v) { ++covered[raster(box.lo + v, grid.volume())]; });
+      for_each_index(box.shape(), [&](Index3 v) { ++covered[raster(box.lo + v, grid.volume())]; });
     });
     EXPECT_EQ(covered, std::vector<int>(covered.size(), 1));
   }
@@ -84,7 +84,7 @@ TEST(WindowGrid, BlocksTileTheVolume) {
 TEST(WindowGrid, WindowsCoverTheBlocks) {
   for (const WindowGrid& grid : assorted_grids()) {
     std::set<std::size_t> covered;
-    each_index(grid.windows(), [&](Index3 w) {
+    for_each_index(grid.windows(), [&](Index3 w) {
       std::size_t last = 0;
       const auto blocks = grid.blocks_of(w);
       const auto along = [](std::int64_t count) { return std::min<std::int64_t>(count, 2); };
@@ -127,7 +127,7 @@ TEST(Sec42Owner, IsTheBlockOfTheBarycentreOrTheNearestOfTheWindow) {
   std::mt19937 random(851);
   int inside = 0, outside = 0;
   for (const WindowGrid& grid : assorted_grids()) {
-    each_index(grid.windows(), [&](Index3 w) {
+    for_each_index(grid.windows(), [&](Index3 w) {
       const auto blocks = grid.blocks_of(w);
       for (int i = 0; i < 40; ++i) {
         // Inside the volume, every second time exactly on a voxel plane.

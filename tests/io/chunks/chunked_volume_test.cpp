@@ -240,8 +240,8 @@ std::optional<Chunk> chunk_of(std::size_t bytes) {
 // What nobody uses is gone when the bound is passed, and what was used last is there.
 TEST(ChunkCache, KeepsWhatWasUsedLastWithinItsBound) {
   Random random(9);
-  constexpr std::uint64_t kMost = 20000;
-  ChunkCache cache(kMost);
+  constexpr std::uint64_t kMax = 20000;
+  ChunkCache cache(kMax);
   std::map<std::uint64_t, std::weak_ptr<const Chunk>> made;
   std::vector<std::uint64_t> used;  // the last one last
   for (int round = 0; round < 5000; ++round) {
@@ -258,7 +258,7 @@ TEST(ChunkCache, KeepsWhatWasUsedLastWithinItsBound) {
     EXPECT_FALSE(is_loaded && was_used);
     std::uint64_t kept = 0;
     for (const auto& [key, chunk] : made) kept += chunk.expired() ? 0 : 100 + 37 * key;
-    EXPECT_LE(kept, kMost);
+    EXPECT_LE(kept, kMax);
     used.push_back(number);
   }
 }

@@ -19,8 +19,8 @@ std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
-std::string unpacked(Codec codec, const std::string& packed, std::size_t most) {
-  const auto bytes = unpack(codec, bytes_of(packed), most, "chunk 7");
+std::string unpacked(Codec codec, const std::string& packed, std::size_t max) {
+  const auto bytes = unpack(codec, bytes_of(packed), max, "chunk 7");
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
@@ -107,9 +107,9 @@ TEST(Codec, MoreThanTheMostIsRefused) {
   for (const Packer& packer : kPackers) {
     for (const std::size_t size : {200U, 300000U}) {
       const std::string packed = packer.pack(some_bytes(random, size));
-      for (const std::size_t most : {std::size_t{0}, std::size_t{10}, size - 1}) {
-        expect_error(ErrorKind::kInput, {"chunk 7", name(packer.codec), std::to_string(most)},
-                     [&] { static_cast<void>(unpacked(packer.codec, packed, most)); });
+      for (const std::size_t max : {std::size_t{0}, std::size_t{10}, size - 1}) {
+        expect_error(ErrorKind::kInput, {"chunk 7", name(packer.codec), std::to_string(max)},
+                     [&] { static_cast<void>(unpacked(packer.codec, packed, max)); });
       }
     }
   }
@@ -197,17 +197,17 @@ TEST(Codec, BombsTakeNoMemory) {
 // A few bytes that claim as much as there may be.
 TEST(Codec, ClaimsTakeNoMemory) {
   if (!test::kResidentMemoryIsOurs) GTEST_SKIP() << "resident memory is a sanitizer's";
-  const std::size_t most = std::size_t{2} << 30U;
+  const std::size_t max = std::size_t{2} << 30U;
   const std::string size = number_bytes(0x7e000000, 4, false);
   const std::string block = "LZ4Block" + std::string("\x26") + number_bytes(5, 4, false) + size;
   const long growth = test::growth_of([&] {
     expect_error(ErrorKind::kInput, {"lz4", "too short"},
-                 [&] { static_cast<void>(unpacked(Codec::kLz4, size + "abcdef", most)); });
+                 [&] { static_cast<void>(unpacked(Codec::kLz4, size + "abcdef", max)); });
     expect_error(ErrorKind::kInput, {"lz4", "too short"}, [&] {
-      static_cast<void>(unpacked(Codec::kLz4Java, block + "sum." + "abcde" + kJavaEnd, most));
+      static_cast<void>(unpacked(Codec::kLz4Java, block + "sum." + "abcde" + kJavaEnd, max));
     });
     for (const Packer& packer : kPackers) {
-      EXPECT_EQ(unpacked(packer.codec, packer.pack("123456789"), most), "123456789");
+      EXPECT_EQ(unpacked(packer.codec, packer.pack("123456789"), max), "123456789");
     }
   });
   EXPECT_GE(growth, 0);

@@ -12,14 +12,14 @@ namespace {
 using Unpack = std::vector<std::byte> (*)(std::span<const std::byte>, std::size_t,
                                           std::string_view);
 
-std::string run(Unpack unpack, const std::string& packed, std::size_t most = 1000) {
-  const auto out = unpack(std::as_bytes(std::span(packed)), most, "f");
+std::string run(Unpack unpack, const std::string& packed, std::size_t max = 1000) {
+  const auto out = unpack(std::as_bytes(std::span(packed)), max, "f");
   return {reinterpret_cast<const char*>(out.data()), out.size()};
 }
 
-void refuse(Unpack unpack, const std::string& packed, const char* piece, std::size_t most = 1000) {
+void refuse(Unpack unpack, const std::string& packed, const char* piece, std::size_t max = 1000) {
   expect_error(ErrorKind::kInput, {"f: ", piece},
-               [&] { static_cast<void>(run(unpack, packed, most)); });
+               [&] { static_cast<void>(run(unpack, packed, max)); });
 }
 
 TEST(Lzf, RunsAndCopies) {

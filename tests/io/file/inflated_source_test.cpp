@@ -94,14 +94,14 @@ TEST(InflatedSource, DoesNotGoBeyondWhatIsAskedFor) {
 /// A few bytes that would be many on the disk.
 TEST(InflatedSource, UnpacksNoMoreThanItMay) {
   const TempDir dir;
-  constexpr std::size_t kMost = 3 << 20;
-  const std::string fits = random_text(kMost).substr(0, kMost);
+  constexpr std::size_t kMax = 3 << 20;
+  const std::string fits = random_text(kMax).substr(0, kMax);
   for (const std::size_t more : {std::size_t{0}, std::size_t{1}, std::size_t{60} << 20}) {
     const auto path = dir.file("a.gz", gzip(fits + std::string(more, 'x')));
-    const InflatedSource source(std::make_unique<FileSource>(path), 0, kMost);
+    const InflatedSource source(std::make_unique<FileSource>(path), 0, kMax);
     EXPECT_EQ(read_text(source, 1'000'000, 500), fits.substr(1'000'000, 500));
     if (more == 0) {
-      EXPECT_EQ(source.size(), kMost);
+      EXPECT_EQ(source.size(), kMax);
       continue;
     }
     for (int again = 0; again < 2; ++again) {

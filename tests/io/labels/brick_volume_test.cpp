@@ -6,9 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <random>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/core/label_box.h"
 #include "tests/oracle/small_volumes.h"
 
@@ -23,7 +24,7 @@ constexpr std::int64_t kEdge = BrickVolume::kEdge;
 LabelBox random_labels(std::mt19937& random, Index3 shape, std::uint32_t labels) {
   LabelBox out{{{0, 0, 0}, shape}, std::vector<Label>(static_cast<std::size_t>(shape.product()))};
   const std::uint32_t salt = below(random, 1000);
-  each_index(shape, [&](Index3 v) {
+  for_each_index(shape, [&](Index3 v) {
     const Index3 brick{v.x / kEdge, v.y / kEdge, v.z / kEdge};
     const auto number = static_cast<std::uint32_t>(brick.x + 3 * brick.y + 7 * brick.z) + salt;
     out.labels[static_cast<std::size_t>(out.box.offset(v))] =
@@ -35,14 +36,15 @@ LabelBox random_labels(std::mt19937& random, Index3 shape, std::uint32_t labels)
 
 std::vector<Label> part_of(const LabelBox& all, const Box3& box) {
   std::vector<Label> out;
-  each_index(box, [&](Index3 v) { out.push_back(all.box.contains(v) ? all.at(v) : kExterior); });
+  for_each_index(box,
+                 [&](Index3 v) { out.push_back(all.box.contains(v) ? all.at(v) : kExterior); });
   return out;
 }
 
 /// Bricks in random order.
 void write_all(std::mt19937& random, const LabelBox& labels, BrickVolume& volume) {
   std::vector<Index3> bricks;
-  each_index(volume.bricks(), [&](Index3 b) { bricks.push_back(b); });
+  for_each_index(volume.bricks(), [&](Index3 b) { bricks.push_back(b); });
   for (std::size_t i = bricks.size(); i > 1; --i) {
     std::swap(bricks[i - 1], bricks[below(random, static_cast<std::uint32_t>(i))]);
   }
@@ -66,10 +68,10 @@ void expect_reads(std::mt19937& random, const LabelBox& labels, const BrickVolum
 }
 
 void expect_uniform_labels(const LabelBox& labels, const BrickVolume& volume, int& uniform) {
-  each_index(volume.bricks(), [&](Index3 b) {
+  for_each_index(volume.bricks(), [&](Index3 b) {
     const std::vector<Label> voxels = part_of(labels, volume.box_of(b));
     const bool same = std::count(voxels.begin(), voxels.end(), voxels[0]) == std::ssize(voxels);
-    EXPECT_EQ(volume.uniform_label(b), same ? voxels[0] : kExterior);
+    EXPECT_EQ(volume.uniform_label(b), same ? std::optional(voxels[0]) : std::nullopt);
     uniform += same ? 1 : 0;
   });
 }

@@ -48,7 +48,7 @@ class Oracle {
   void find_components() {
     component_.assign(labels_.size(), -1);
     voxels_.clear();
-    each_index(all_, [&](Index3 v) {
+    for_each_index(all_, [&](Index3 v) {
       if (component_[at(v)] < 0) flood(v, static_cast<int>(voxels_.size()));
     });
   }
@@ -61,7 +61,7 @@ class Oracle {
       const Index3 v = todo.back();
       todo.pop_back();
       ++voxels_.back();
-      each_index(Box3{v - Index3{1, 1, 1}, v + Index3{2, 2, 2}}, [&](Index3 w) {
+      for_each_index(Box3{v - Index3{1, 1, 1}, v + Index3{2, 2, 2}}, [&](Index3 w) {
         const auto steps = std::abs(w.x - v.x) + std::abs(w.y - v.y) + std::abs(w.z - v.z);
         if (!all_.contains(w) || steps > (rule_.diagonal ? 3 : 1)) return;
         if (component_[at(w)] >= 0 || labels_[at(w)] != labels_[at(v)]) return;
@@ -72,13 +72,13 @@ class Oracle {
   }
 
   [[nodiscard]] bool is_speck(std::size_t i) const {
-    return voxels_[static_cast<std::size_t>(component_[i])] < rule_.least;
+    return voxels_[static_cast<std::size_t>(component_[i])] < rule_.min;
   }
 
   /// By component: the label that it takes.
   [[nodiscard]] std::map<int, RawLabel> choices() const {
     std::map<int, std::map<RawLabel, int>> faces;
-    each_index(all_, [&](Index3 v) {
+    for_each_index(all_, [&](Index3 v) {
       if (!is_speck(at(v))) return;
       for (const Index3 step : {Index3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
         for (const Index3 w : {v + step, v - step}) {
@@ -134,7 +134,7 @@ TEST_P(DespeckledVolumeTest, IsWhatTheRuleSays) {
     const VoxelType type = i % 2 == 0 ? VoxelType::kI64 : VoxelType::kU64;
     const MemoryVolume volume = volume_of(small, type, kRaw);
     const SpeckRule rule{1 + audit::test::below(random, i % 3 == 0 ? 30 : 6), GetParam()};
-    SCOPED_TRACE(small.text() + " least " + std::to_string(rule.least));
+    SCOPED_TRACE(small.text() + " least " + std::to_string(rule.min));
     const SpeckLimits limits{.slab_voxels = 1 + audit::test::below(random, 60)};
     expect_as_oracle(volume, rule, limits);
     const DespeckledVolume despeckled(volume, rule, limits);
@@ -153,9 +153,9 @@ TEST_P(DespeckledVolumeTest, IsWhatTheRuleSaysOfLargerVolumes) {
     const auto which = static_cast<audit::test::VolumeKind>(kind % audit::test::kVolumeKinds);
     const SmallVolume small = audit::test::random_volume_of(random, which, {17, 13, 11}, 5);
     const MemoryVolume volume = volume_of(small, VoxelType::kI64, kRaw);
-    for (const std::uint64_t least : {2U, 5U, 40U, 700U}) {
-      SCOPED_TRACE(std::to_string(kind) + " least " + std::to_string(least));
-      expect_as_oracle(volume, {least, GetParam()}, {.slab_voxels = 300});
+    for (const std::uint64_t min : {2U, 5U, 40U, 700U}) {
+      SCOPED_TRACE(std::to_string(kind) + " least " + std::to_string(min));
+      expect_as_oracle(volume, {min, GetParam()}, {.slab_voxels = 300});
     }
   }
 }
@@ -231,7 +231,7 @@ std::uint64_t asked_in(const std::string& message) {
 }
 
 /// The least that works, by trial.
-std::uint64_t least_of(const MemoryVolume& volume, const SpeckRule& rule, std::uint64_t works) {
+std::uint64_t min_of(const MemoryVolume& volume, const SpeckRule& rule, std::uint64_t works) {
   std::uint64_t fails = 0;
   while (works - fails > 1) {
     const std::uint64_t memory = fails + (works - fails) / 2;
@@ -242,7 +242,7 @@ std::uint64_t least_of(const MemoryVolume& volume, const SpeckRule& rule, std::u
 
 /// From next to nothing by the advice of errors; how many times the least it ends in.  Slices are
 /// told of one by one, specks at once.
-double advice_to_least(const MemoryVolume& volume, const SpeckRule& rule) {
+double advice_to_min(const MemoryVolume& volume, const SpeckRule& rule) {
   std::uint64_t memory = 1;
   bool is_last = false;
   for (;;) {
@@ -253,7 +253,7 @@ double advice_to_least(const MemoryVolume& volume, const SpeckRule& rule) {
     EXPECT_GT(asked_in(error), memory) << error;
     memory = std::max(asked_in(error), memory + 1);
   }
-  return static_cast<double>(memory) / static_cast<double>(least_of(volume, rule, memory));
+  return static_cast<double>(memory) / static_cast<double>(min_of(volume, rule, memory));
 }
 
 TEST(DespeckledVolume, WhatAnErrorAsksForWorks) {
@@ -264,15 +264,15 @@ TEST(DespeckledVolume, WhatAnErrorAsksForWorks) {
     const SmallVolume small = audit::test::random_volume_of(random, kind, {23, 17, 19}, 6);
     const MemoryVolume volume = volume_of(small, VoxelType::kI64, kRaw);
     for (const SpeckRule rule : {SpeckRule{2, false}, {9, false}, {3, true}, {1000, true}}) {
-      SCOPED_TRACE(std::to_string(i) + " least " + std::to_string(rule.least));
-      worst = std::max(worst, advice_to_least(volume, rule));
+      SCOPED_TRACE(std::to_string(i) + " least " + std::to_string(rule.min));
+      worst = std::max(worst, advice_to_min(volume, rule));
     }
   }
   EXPECT_LE(worst, 2.5) << "it is far from the least";
 }
 
 TEST(DespeckledVolume, OfDustTheErrorAsksForTheLeast) {
-  EXPECT_LE(advice_to_least(dusty(), {2, false}), 1.4);
+  EXPECT_LE(advice_to_min(dusty(), {2, false}), 1.4);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/core/layers.h"
 
 namespace mw::io {
@@ -27,7 +27,7 @@ class CountingVolume : public LabelVolume {
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   void read(const Box3& box, std::span<RawLabel> out) const override {
     std::size_t next = 0;
-    each_index(box, [&](Index3 v) { out[next++] = at(v); });
+    for_each_index(box, [&](Index3 v) { out[next++] = at(v); });
     EXPECT_EQ(next, out.size());
     voxels_read += box.voxels();
   }
@@ -44,8 +44,8 @@ class CountingVolume : public LabelVolume {
   std::vector<RawLabel> labels_;
 };
 
-std::int64_t one_to(std::mt19937& random, std::int64_t most) {
-  return 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(most));
+std::int64_t one_to(std::mt19937& random, std::int64_t max) {
+  return 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(max));
 }
 
 Box3 random_box(std::mt19937& random, Index3 shape) {
@@ -68,7 +68,7 @@ TEST(LayeredVolume, RepeatsEachVoxelInEveryBox) {
     std::vector<RawLabel> got(static_cast<std::size_t>(box.voxels()));
     layered.read(box, got);
     std::size_t next = 0;
-    each_index(box, [&](Index3 v) {
+    for_each_index(box, [&](Index3 v) {
       EXPECT_EQ(got[next++], volume.at({v.x / layers.x, v.y / layers.y, v.z / layers.z}));
     });
     EXPECT_LE(volume.voxels_read, volume.info().shape.product()) << "a voxel was read twice";

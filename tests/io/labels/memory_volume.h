@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/volume/label_volume.h"
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::io {
@@ -32,7 +32,7 @@ class MemoryVolume : public LabelVolume {
   }
   void read(const Box3& box, std::span<RawLabel> out) const override {
     std::size_t next = 0;
-    each_index(box, [&](Index3 v) { out[next++] = at(v); });
+    for_each_index(box, [&](Index3 v) { out[next++] = at(v); });
     EXPECT_EQ(next, out.size());
   }
 
@@ -65,8 +65,8 @@ inline void expect_box(const LabelVolume& volume, const std::vector<RawLabel>& a
   const Box3 whole{{0, 0, 0}, volume.info().shape};
   const Box3 box = random_box(random, whole.hi);
   std::vector<RawLabel> wanted, found(static_cast<std::size_t>(box.voxels()));
-  each_index(box,
-             [&](Index3 v) { wanted.push_back(all[static_cast<std::size_t>(whole.offset(v))]); });
+  for_each_index(
+      box, [&](Index3 v) { wanted.push_back(all[static_cast<std::size_t>(whole.offset(v))]); });
   volume.read(box, found);
   EXPECT_EQ(found, wanted);
 }

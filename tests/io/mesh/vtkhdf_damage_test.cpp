@@ -9,12 +9,12 @@ namespace mw::io {
 namespace {
 
 /// Reads the mesh or throws the error of bad input; anything else fails the test.
-void try_mesh(const std::filesystem::path& path, std::size_t place, int& refused) {
+void try_mesh(const std::filesystem::path& path, std::size_t position, int& refused) {
   try {
     const MeshData mesh = read_mesh(path);
-    ASSERT_LE(mesh.tets.size(), 1000U) << place;
+    ASSERT_LE(mesh.tets.size(), 1000U) << position;
   } catch (const Error& error) {
-    ASSERT_EQ(error.kind(), ErrorKind::kInput) << place << ": " << error.what();
+    ASSERT_EQ(error.kind(), ErrorKind::kInput) << position << ": " << error.what();
     ++refused;
   }
 }
@@ -56,7 +56,7 @@ TEST(ApartMesh, NoRowIsTakenOnTrust) {
   EXPECT_NE(pass(read(points)), "");
   const std::vector<Position> enough(5, Position{0, 0, 0});
   EXPECT_EQ(pass(read(enough)), "");
-  const std::vector<Position> too_many(kMostApartRows + 1, Position{0, 0, 0});
+  const std::vector<Position> too_many(kMaxApartRows + 1, Position{0, 0, 0});
   EXPECT_NE(pass(read(too_many)), "");
 }
 

@@ -40,16 +40,16 @@ inline void save(const MeshData& mesh, const std::filesystem::path& path,
 }
 
 /// Reads it or throws the error of bad input; anything else fails the test.
-inline void try_mesh(const std::filesystem::path& path, std::size_t place, int& refused) {
+inline void try_mesh(const std::filesystem::path& path, std::size_t position, int& refused) {
   try {
     const MeshData mesh = read_mesh(path);
-    EXPECT_LE(mesh.tets.size(), 100'000U) << place;
+    EXPECT_LE(mesh.tets.size(), 100'000U) << position;
     EXPECT_EQ(mesh.labels.size(), mesh.tets.size());
     for (const TetRows& tet : mesh.tets) {
-      for (const std::uint64_t row : tet) EXPECT_LT(row, mesh.vertices.size()) << place;
+      for (const std::uint64_t row : tet) EXPECT_LT(row, mesh.vertices.size()) << position;
     }
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kInput) << place << ": " << error.what();
+    EXPECT_EQ(error.kind(), ErrorKind::kInput) << position << ": " << error.what();
     EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
     ++refused;
   }

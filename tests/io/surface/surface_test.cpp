@@ -24,7 +24,7 @@ Corners corners_of(const CollectSurface& surface, const Triangle& triangle) {
   return out;
 }
 
-std::multiset<Corners> places_of(const CollectSurface& surface) {
+std::multiset<Corners> junctions_of(const CollectSurface& surface) {
   std::multiset<Corners> out;
   for (const Triangle& triangle : surface.triangles) out.insert(corners_of(surface, triangle));
   return out;
@@ -86,11 +86,11 @@ std::map<std::set<Position>, std::vector<RawLabel>> triangles_of(const MeshData&
   std::map<std::set<Position>, std::vector<RawLabel>> out;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-      std::set<Position> places;
+      std::set<Position> positions;
       for (std::size_t i = 0; i < 4; ++i) {
-        if (i != left_out) places.insert(mesh.vertices[mesh.tets[t][i]]);
+        if (i != left_out) positions.insert(mesh.vertices[mesh.tets[t][i]]);
       }
-      out[places].push_back(mesh.labels[t]);
+      out[positions].push_back(mesh.labels[t]);
     }
   }
   return out;
@@ -216,7 +216,7 @@ TEST_P(Surfaces, OpenLeavesTheBoxOutAndNothingElse) {
   const ShellPlans open(mesh_.mesh(), false);
   const Position extent{4, 3, 3};
   for (Label rank = 0; rank < labels(); ++rank) {
-    std::multiset<Corners> expected = places_of(mesh_.collect({closed.of_label(rank)}, false));
+    std::multiset<Corners> expected = junctions_of(mesh_.collect({closed.of_label(rank)}, false));
     std::erase_if(expected, [&](const Corners& corners) {
       for (std::size_t k = 0; k < 3; ++k) {
         for (const double plane : {0.0, extent[k]}) {
@@ -228,9 +228,9 @@ TEST_P(Surfaces, OpenLeavesTheBoxOutAndNothingElse) {
       }
       return false;
     });
-    EXPECT_EQ(places_of(mesh_.collect({open.of_label(rank)}, false)), expected);
+    EXPECT_EQ(junctions_of(mesh_.collect({open.of_label(rank)}, false)), expected);
     const CollectSurface manifold = mesh_.collect({open.of_label(rank)}, true);
-    EXPECT_EQ(places_of(manifold), expected);
+    EXPECT_EQ(junctions_of(manifold), expected);
     expect_manifold(manifold);
   }
 }
@@ -238,9 +238,9 @@ TEST_P(Surfaces, OpenLeavesTheBoxOutAndNothingElse) {
 TEST_P(Surfaces, OfPairsAreTheTrianglesBetweenThem) {
   const ShellPlans plans(mesh_.mesh(), true);
   std::map<std::set<RawLabel>, std::set<std::set<Position>>> expected;
-  for (const auto& [places, sides] : triangles_of(data_)) {
+  for (const auto& [positions, sides] : triangles_of(data_)) {
     if (sides.size() == 2 && sides[0] != sides[1]) {
-      expected[{sides.begin(), sides.end()}].insert(places);
+      expected[{sides.begin(), sides.end()}].insert(positions);
     }
   }
   for (Label one = 0; one < labels(); ++one) {
@@ -254,8 +254,8 @@ TEST_P(Surfaces, OfPairsAreTheTrianglesBetweenThem) {
         EXPECT_EQ(run.outside, other);
       }
       // Turned as they are in the surface of the lower label.
-      const std::multiset<Corners> all = places_of(mesh_.collect({plans.of_label(one)}, false));
-      const std::multiset<Corners> some = places_of(surface);
+      const std::multiset<Corners> all = junctions_of(mesh_.collect({plans.of_label(one)}, false));
+      const std::multiset<Corners> some = junctions_of(surface);
       EXPECT_TRUE(std::includes(all.begin(), all.end(), some.begin(), some.end()));
     }
   }
@@ -266,7 +266,7 @@ TEST_P(Surfaces, OfInterfacesAreAllOfPairsAndWhereMeshEnds) {
   std::multiset<Corners> expected;
   for (Label one = 0; one < labels(); ++one) {
     for (Label other = one + 1; other < labels(); ++other) {
-      expected.merge(places_of(mesh_.collect({plans.of_pair(one, other)}, false)));
+      expected.merge(junctions_of(mesh_.collect({plans.of_pair(one, other)}, false)));
     }
     const CollectSurface whole = mesh_.collect({plans.of_label(one)}, false);
     for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
@@ -275,10 +275,10 @@ TEST_P(Surfaces, OfInterfacesAreAllOfPairsAndWhereMeshEnds) {
       }
     }
   }
-  EXPECT_EQ(places_of(mesh_.collect({plans.of_interfaces()}, false)), expected);
-  EXPECT_EQ(places_of(mesh_.collect(plans.of_each_interface(), false)), expected);
+  EXPECT_EQ(junctions_of(mesh_.collect({plans.of_interfaces()}, false)), expected);
+  EXPECT_EQ(junctions_of(mesh_.collect(plans.of_each_interface(), false)), expected);
   const CollectSurface manifold = mesh_.collect(plans.of_each_interface(), true);
-  EXPECT_EQ(places_of(manifold), expected);
+  EXPECT_EQ(junctions_of(manifold), expected);
   expect_manifold(manifold);
 }
 
@@ -353,7 +353,7 @@ TEST(ManifoldSurface, PartsAnEdgeWhoseFansMeetAtBothEnds) {
       edges[{surface.vertices[edge[0]], surface.vertices[edge[1]]}].insert(
           {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
     }
-    for (const auto& [places, same] : edges) found = found || same.size() > 1;
+    for (const auto& [positions, same] : edges) found = found || same.size() > 1;
   }
   EXPECT_TRUE(found);
 }

@@ -14,9 +14,9 @@ namespace mw::io {
 /// Reads a volume that may claim any size: all of it when that is little, else its last voxels.
 inline void read_some(const LabelVolume& volume) {
   const Index3 shape = volume.info().shape;
-  constexpr std::int64_t kMostVoxels = 1 << 20;
+  constexpr std::int64_t kMaxVoxels = 1 << 20;
   Box3 box{{0, 0, 0}, shape};
-  if (shape.product() > kMostVoxels) box.lo = shape - Index3{1, 1, 1};
+  if (shape.product() > kMaxVoxels) box.lo = shape - Index3{1, 1, 1};
   std::vector<RawLabel> labels(static_cast<std::size_t>(box.voxels()));
   volume.read(box, labels);
 }

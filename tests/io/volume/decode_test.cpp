@@ -44,14 +44,14 @@ TEST(Floats, TheFirstThatIsNoLabelIsNamed) {
   const TempDir dir;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {1.5, nan, std::numeric_limits<double>::infinity(), 0x1p63, 1e300}) {
-    for (std::size_t place = 0; place < 12; ++place) {
+    for (std::size_t position = 0; position < 12; ++position) {
       std::vector<double> values(12, 4);
-      values[place] = bad;
+      values[position] = bad;
       const auto path =
           dir.file("a.npy", npy_file("<f8", false, "(2, 2, 3)", real_bytes<double>(values, false)));
-      const std::string where = "voxel (" + std::to_string(place % 3) + ", " +
-                                std::to_string(place / 3 % 2) + ", " + std::to_string(place / 6) +
-                                ")";
+      const std::string where = "voxel (" + std::to_string(position % 3) + ", " +
+                                std::to_string(position / 3 % 2) + ", " +
+                                std::to_string(position / 6) + ")";
       const std::string why = bad > 2 && std::isfinite(bad) ? "64 bits" : "not a whole number";
       expect_error(ErrorKind::kInput, {"a.npy", where, why},
                    [&] { static_cast<void>(read_all(*open_volume(path))); });

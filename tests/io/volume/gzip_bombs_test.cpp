@@ -22,7 +22,7 @@ struct Bomb {
 /// Each begins as its format does, and goes on with 200 MB of nothing.
 TEST(GzipBombs, AreGivenUpWhenTheyHaveFilledTheirRoom) {
   const TempDir dir;
-  constexpr std::uint64_t kMost = 8 << 20;
+  constexpr std::uint64_t kMax = 8 << 20;
   const std::vector<Bomb> bombs{{"a.npz.gz", "PK\x03\x04", open_npz},
                                 {"a.tif.gz", std::string("II*\0\x08\0\0\0", 8), open_tiff},
                                 {"a.h5.gz", "\x89HDF\r\n\x1a\n", open_hdf5}};
@@ -31,7 +31,7 @@ TEST(GzipBombs, AreGivenUpWhenTheyHaveFilledTheirRoom) {
     ASSERT_LE(std::filesystem::file_size(path), 1U << 20);
     expect_error(ErrorKind::kResource, {bomb.name, "more than 8388608 bytes", "TMPDIR"}, [&] {
       static_cast<void>(bomb.open(
-          std::make_unique<InflatedSource>(std::make_unique<FileSource>(path), 0, kMost), {}));
+          std::make_unique<InflatedSource>(std::make_unique<FileSource>(path), 0, kMax), {}));
     });
   }
 }

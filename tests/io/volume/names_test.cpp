@@ -55,10 +55,10 @@ std::string extension(const std::string& text, int code, bool big) {
 
 std::string nifti_with(const std::string& extensions, int version, bool big) {
   NiftiSample sample{.version = version, .big = big, .dim = {3, 2, 2, 2, 1, 1, 1, 1}, .magic = {}};
-  const std::size_t least = version == 1 ? 352 : 544;
-  sample.vox_offset = static_cast<double>(least + extensions.size());
+  const std::size_t min = version == 1 ? 352 : 544;
+  sample.vox_offset = static_cast<double>(min + extensions.size());
   std::string header = sample.header();
-  header[least - 4] = 1;
+  header[min - 4] = 1;
   return header + extensions + kEight;
 }
 

@@ -18,8 +18,8 @@ inline std::int64_t pick(Random& random, std::int64_t lo, std::int64_t hi) {
   return lo + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(hi - lo + 1));
 }
 
-inline Index3 pick_shape(Random& random, std::int64_t most) {
-  return {pick(random, 1, most), pick(random, 1, most), pick(random, 1, most)};
+inline Index3 pick_shape(Random& random, std::int64_t max) {
+  return {pick(random, 1, max), pick(random, 1, max), pick(random, 1, max)};
 }
 
 /// Makes the folders above the file, too.  A file that is there is removed first: what is cut and
@@ -39,8 +39,9 @@ inline std::vector<RawLabel> random_labels(Random& random, Index3 shape, VoxelTy
   for (std::int64_t z = 0; z < shape.z; ++z) {
     for (std::int64_t y = 0; y < shape.y; ++y) {
       for (std::int64_t x = 0; x < shape.x; ++x) {
-        const auto place = static_cast<std::uint64_t>((z / cell * 31 + y / cell) * 31 + x / cell);
-        const std::uint64_t mixed = (place + seed) * 6364136223846793005U;
+        const auto position =
+            static_cast<std::uint64_t>((z / cell * 31 + y / cell) * 31 + x / cell);
+        const std::uint64_t mixed = (position + seed) * 6364136223846793005U;
         labels.push_back(random() % 20 == 0 ? colours[random() % 40] : colours[(mixed >> 40) % 40]);
       }
     }

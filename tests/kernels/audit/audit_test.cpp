@@ -109,19 +109,19 @@ TEST(Audit, ChangeOfAnInterfaceAloneFailsOnlyWhenAskedFor) {
   const SmallVolume volume = row({0, 1, 2, 2}), other = row({1, 0, 2, 2});
   const SmallMesh mesh = five_tet_mesh(other);
   const AuditOptions labels{.measure_distance = false};
-  const AuditOptions places{.count_places = true, .measure_distance = false};
+  const AuditOptions junctions{.count_junctions = true, .measure_distance = false};
   EXPECT_EQ(failures(audit(volume.view(), 3, mesh.view(), {}, labels)), Names{});
-  const AuditReport report = audit(volume.view(), 3, mesh.view(), {}, places);
+  const AuditReport report = audit(volume.view(), 3, mesh.view(), {}, junctions);
   EXPECT_EQ(failures(report), (Names{"P1 interfaces", "P1 meetings"}));
-  EXPECT_EQ(report.places->interfaces, 5U);
-  EXPECT_EQ(report.places->interfaces_changed.size(), 4U);
+  EXPECT_EQ(report.junctions->interfaces, 5U);
+  EXPECT_EQ(report.junctions->interfaces_changed.size(), 4U);
   const std::string& detail = check(report, "P1 interfaces").detail;
   for (const char* change :
        {"dense 0, dense 2: (0,0,0) -> (1,0,0)", "dense 1, dense 2: (1,0,0) -> (0,0,0)",
         "dense 0, exterior: (1,0,0) -> (1,1,0)"}) {
     EXPECT_NE(detail.find(change), std::string::npos) << detail;
   }
-  EXPECT_TRUE(audit(other.view(), 3, mesh.view(), {}, places).passed());
+  EXPECT_TRUE(audit(other.view(), 3, mesh.view(), {}, junctions).passed());
 }
 
 TEST_F(BrokenMesh, IsSoundBeforeItIsBroken) {

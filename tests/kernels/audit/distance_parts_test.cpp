@@ -33,7 +33,7 @@ double distance(const Point& a, const Point& b) {
 
 /// Smallest value of a convex function on [0, 1].
 template <class Function>
-double least(Function&& f) {
+double min(Function&& f) {
   double lo = 0;
   double hi = 1;
   for (int step = 0; step < 60; ++step) {
@@ -47,10 +47,10 @@ double least(Function&& f) {
 /// By search along the triangle, without any case: the distance to points linear in (u, u v) is
 /// convex, and so is its least value over v.
 double searched_distance(const Point& p, const std::array<Point, 3>& t) {
-  return least([&](double u) {
+  return min([&](double u) {
     const Point side = along(t[0], t[1], u);
     const Point other = along(t[0], t[2], u);
-    return least([&](double v) { return distance(p, along(side, other, v)); });
+    return min([&](double v) { return distance(p, along(side, other, v)); });
   });
 }
 
@@ -112,7 +112,7 @@ TEST(DistanceParts, PiecesAreTheTriangle) {
     const VoxelTriangle t{point(), point(), point()};
     double sum = 0;
     int pieces = 0;
-    visit_pieces(t, kPieceRadius, [&](const VoxelTriangle& piece) {
+    for_each_piece(t, kPieceRadius, [&](const VoxelTriangle& piece) {
       sum += area(piece);
       ++pieces;
       EXPECT_LE(radius(piece), kPieceRadius);
@@ -128,11 +128,11 @@ TEST(DistanceParts, PiecesAreTheTriangle) {
 TEST(DistanceParts, PiecesAreBoundedInNumber) {
   const std::vector<InterfaceTriangle> triangles(
       3, {{VoxelPoint{0, 0, 0}, VoxelPoint{1e5, 0, 0}, VoxelPoint{0, 1e5, 0}}, {0, 1}});
-  const double most = piece_radius(total_estimates(triangles));
-  EXPECT_GT(most, kPieceRadius);
+  const double max = piece_radius(total_estimates(triangles));
+  EXPECT_GT(max, kPieceRadius);
   std::uint64_t pieces = 0;
   for (const InterfaceTriangle& t : triangles) {
-    visit_pieces(t.corners, most, [&](const VoxelTriangle&) { ++pieces; });
+    for_each_piece(t.corners, max, [&](const VoxelTriangle&) { ++pieces; });
   }
   EXPECT_LE(pieces, 40'000'000U);
   EXPECT_EQ(piece_radius(total_estimates({triangles.data(), 0})), kPieceRadius);

@@ -109,7 +109,7 @@ TEST(KeptOrientation, TilesCountEachTetOnce) {
   }
 }
 
-TEST(KeptOrientation, LeavesPlacesThatAreNoNumbersToOtherChecks) {
+TEST(KeptOrientation, LeavesPositionsThatAreNoNumbersToOtherChecks) {
   std::mt19937 random(2303);
   const SmallMesh mesh = shaken_mesh(random);
   std::vector<Position> written(mesh.vertices.size(), Position{0, 0, 0});

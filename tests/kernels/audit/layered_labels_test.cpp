@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "kernels/audit/audit.h"
-#include "kernels/core/each_index.h"
 #include "kernels/core/error.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/core/layers.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/oracle/whole_audit.h"
@@ -30,7 +30,7 @@ TEST(LayeredLabels, RepeatEachVoxel) {
     EXPECT_EQ(layered.shape, layered_shape(volume.shape, layers));
     const Box3 all{{0, 0, 0}, volume.shape};
     std::size_t next = 0;
-    each_index(layered.shape, [&](Index3 v) {
+    for_each_index(layered.shape, [&](Index3 v) {
       const Index3 voxel{v.x / layers.x, v.y / layers.y, v.z / layers.z};
       ASSERT_EQ(layered.labels[next++], volume.labels[static_cast<std::size_t>(all.offset(voxel))]);
     });

@@ -35,16 +35,16 @@ Graph random_graph(std::mt19937& random, std::uint32_t classes) {
 /// Components of the parts for which keep(part), by repeated spreading of the least number.
 template <class Keep>
 std::int64_t flood(const Graph& graph, Keep&& keep) {
-  std::vector<std::uint32_t> least;
-  for (std::uint32_t p = 0; p < graph.part_class.size(); ++p) least.push_back(p);
-  for (std::size_t round = 0; round < least.size(); ++round) {
+  std::vector<std::uint32_t> min;
+  for (std::uint32_t p = 0; p < graph.part_class.size(); ++p) min.push_back(p);
+  for (std::size_t round = 0; round < min.size(); ++round) {
     for (const PartPair& e : graph.pairs) {
-      if (keep(e.a) && keep(e.b)) least[e.a] = least[e.b] = std::min(least[e.a], least[e.b]);
+      if (keep(e.a) && keep(e.b)) min[e.a] = min[e.b] = std::min(min[e.a], min[e.b]);
     }
   }
   std::set<std::uint32_t> found;
-  for (std::uint32_t p = 0; p < least.size(); ++p) {
-    if (keep(p)) found.insert(least[p]);
+  for (std::uint32_t p = 0; p < min.size(); ++p) {
+    if (keep(p)) found.insert(min[p]);
   }
   return static_cast<std::int64_t>(found.size());
 }

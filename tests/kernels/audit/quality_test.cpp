@@ -69,8 +69,8 @@ TEST(Quality, DihedralHistogramIsThatOfTheAngles) {
   for (int round = 0; round < 500; ++round) {
     std::array<Eigen::Vector3d, 4> p;
     for (Eigen::Vector3d& corner : p) corner = {number(random), number(random), number(random)};
-    const auto place = [&](std::size_t i) { return Position{p[i][0], p[i][1], p[i][2]}; };
-    meter.add(place(0), place(1), place(2), place(3));
+    const auto position = [&](std::size_t i) { return Position{p[i][0], p[i][1], p[i][2]}; };
+    meter.add(position(0), position(1), position(2), position(3));
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = i + 1; k < 4; ++k) {
         // Along the edge i k the other two corners are seen under the dihedral angle.

@@ -129,9 +129,9 @@ TEST(Promise8Volumes, OfLabelsThatTheVolumeDoesNotHaveAreNobodys) {
 TEST(VolumeMeter, JudgesLargeLabelsOnly) {
   VolumeMeter meter;
   EXPECT_FALSE(meter.summary().worst.has_value());
-  meter.add({1, kLeastJudgedVoxels - 1, 0, 0.9});
+  meter.add({1, kMinJudgedVoxels - 1, 0, 0.9});
   EXPECT_EQ(meter.summary().labels_measured, 0U);
-  meter.add({2, kLeastJudgedVoxels, 0, 0.1});
+  meter.add({2, kMinJudgedVoxels, 0, 0.1});
   meter.add({3, 5000, 0, -0.3});
   meter.add({4, 5000, 0, 0.3});
   const VolumeSummary summary = meter.summary();

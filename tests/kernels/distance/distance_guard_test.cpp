@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/kernels/surface/interface_triangles.h"
@@ -25,7 +25,7 @@ struct Sample {
   Label lower = 0;
   Label upper = 0;
 
-  [[nodiscard]] Vec3 place() const {
+  [[nodiscard]] Vec3 position() const {
     unsigned bit = 0;
     while (quarters_of(quarter) != 1U << bit) ++bit;
     return in_voxels(sample_position(quarter, bit));
@@ -43,7 +43,7 @@ std::vector<Sample> samples_of(const SmallVolume& volume) {
   const auto label = [&](Index3 v) {
     return volume.labels[static_cast<std::size_t>(all.offset(v))];
   };
-  each_index(all, [&](Index3 v) {
+  for_each_index(all, [&](Index3 v) {
     for (unsigned axis = 0; axis < 3; ++axis) {
       const Index3 w = v + Index3{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
       if (!all.contains(w) || label(v) == label(w)) continue;
@@ -78,7 +78,7 @@ DistanceTriangle shape(const TetMesh& mesh, const InterfaceTriangle& t) {
 }
 
 double distance(const TetMesh& mesh, const InterfaceTriangle& t, const Sample& s) {
-  return std::sqrt(shape(mesh, t).squared_distance(s.place()));
+  return std::sqrt(shape(mesh, t).squared_distance(s.position()));
 }
 
 bool looks_its_way(const TetMesh& mesh, const InterfaceTriangle& t, const Sample& s) {
@@ -180,12 +180,12 @@ struct Nearest {
   double any = 1e9;
   double looking = 1e9;  ///< its way
 
-  Nearest(const TetMesh& mesh, const Sample& s, const Vec3& place, LocalVertex v,
+  Nearest(const TetMesh& mesh, const Sample& s, const Vec3& position, LocalVertex v,
           const std::set<InterfaceTriangle>& triangles) {
     const auto [low, high] = std::minmax(s.lower, s.upper);
     for (const InterfaceTriangle& t : triangles) {
       if (!t.has(v) || t.low != low || t.high != high) continue;
-      const double d = std::sqrt(shape(mesh, t).squared_distance(place));
+      const double d = std::sqrt(shape(mesh, t).squared_distance(position));
       any = std::min(any, d);
       if (looks_its_way(mesh, t, s)) looking = std::min(looking, d);
     }
@@ -220,7 +220,7 @@ TEST(DistanceGuard, PrefersChangedTrianglesThatLookTheSamplesWay) {
           continue;
         }
         ++carried;
-        const Nearest to_sample(mesh, s, s.place(), v, triangles);
+        const Nearest to_sample(mesh, s, s.position(), v, triangles);
         const Nearest to_face(mesh, s, in_voxels(face_centre(s.quarter)), v, triangles);
         const bool together = to_face.any <= reach - kSampleCoveringRadius;
         if (!to.has(v)) {
@@ -322,12 +322,12 @@ TEST(DistanceGuard, ListsPieces) {
       const InterfaceTriangle& t = carriers.at(s.quarter);
       const unsigned axis = axis_of(s.quarter);
       const double sign = s.way()[static_cast<int>(axis)];
-      expected.try_emplace({t, axis, sign}, Vec3::Zero()).first->second += s.place();
+      expected.try_emplace({t, axis, sign}, Vec3::Zero()).first->second += s.position();
       quarters[t] += 1.0;
     }
     for (const InterfaceTriangle& t : interface_triangles(guarded.mesh)) {
       double sum = 0.0;
-      guarded.guard.each_piece(t.key(), t.low, [&](const DistanceGuard::Piece& piece) {
+      guarded.guard.for_each_piece(t.key(), t.low, [&](const DistanceGuard::Piece& piece) {
         listed.try_emplace({t, piece.axis, piece.sign}, Vec3::Zero()).first->second +=
             piece.quarters * piece.middle;
         sum += piece.quarters;

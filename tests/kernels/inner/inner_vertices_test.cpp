@@ -95,7 +95,7 @@ std::uint64_t add_inner(Case& c, TetMesh& mesh) {
   CarriedSamples none;
   return add_inner_vertices(
       mesh, none, far_corner(c.volume.shape), c.metric, c.demand,
-      {.limits = {.least_ratio = kFloor}, .later = {}, .ids = {kFirstId, 1U << 20U}});
+      {.limits = {.min_ratio = kFloor}, .later = {}, .ids = {kFirstId, 1U << 20U}});
 }
 
 TEST(InnerVertices, ChangeNothingButTetsInsideLabels) {

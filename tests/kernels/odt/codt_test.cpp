@@ -9,7 +9,7 @@
 namespace mw::test {
 namespace {
 
-constexpr CodtOptions kOptions{.iterations = 4, .least_gain = -1.0, .ids = {1ULL << 63, 1000}};
+constexpr CodtOptions kOptions{.iterations = 4, .min_gain = -1.0, .ids = {1ULL << 63, 1000}};
 
 /// A window with a sample on some interface triangles, named by ids.
 struct Sampled {
@@ -46,14 +46,14 @@ struct Sampled {
 
 /// What constrained ODT must leave alone, by ids.
 struct Fixed {
-  std::map<VertexId, Point> places;
+  std::map<VertexId, Point> positions;
   std::set<std::pair<std::array<VertexId, 3>, std::vector<Label>>> borders;
   std::map<Label, std::int64_t> volumes;
 
   explicit Fixed(const TetMesh& mesh) {
     for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
       if (!mesh.is_free(v) || mesh.planes(v) != 0 || mesh.on_interface(v)) {
-        places[mesh.id(v)] = mesh.position(v);
+        positions[mesh.id(v)] = mesh.position(v);
       }
     }
     const std::vector<Point> at = positions(mesh);
@@ -198,7 +198,7 @@ TEST(Codt, StopsWhenThereIsLittleToGain) {
     std::vector<double> energies{odt_energy(mesh, sampled.window.metric)};
     CodtOptions options = kOptions;
     options.iterations = 50;
-    options.least_gain = gain;
+    options.min_gain = gain;
     // The answer is what is there, so the energy is that after the moves.
     const CodtStats stats = run(sampled, options, [&](const Plc&) {
       energies.push_back(odt_energy(mesh, sampled.window.metric));
@@ -240,11 +240,11 @@ TEST(Rebuild, DropsDeadVerticesAndIsCanonical) {
 }
 
 TEST(SteinerIdsOf, WindowsShareNone) {
-  constexpr std::uint64_t kMostCorners = 1ULL << 60;
+  constexpr std::uint64_t kMaxCorners = 1ULL << 60;
   for (std::uint64_t windows : {1ULL, 2ULL, 3ULL, 8ULL, 1000ULL, 1ULL << 40, (1ULL << 57) - 1}) {
     for (std::uint64_t w = 0; w < std::min<std::uint64_t>(windows, 1000); ++w) {
       const SteinerIds ids = steiner_ids(w, windows);
-      EXPECT_GE(ids.first, kMostCorners);
+      EXPECT_GE(ids.first, kMaxCorners);
       EXPECT_GE(ids.count, 64U);
       EXPECT_GE(ids.first + (ids.count - 1), ids.first) << "no wrap-around";
       if (w + 1 == windows) break;

@@ -71,11 +71,11 @@ TEST(Replacement, KeepsPatchesThatWouldSinkBelowTheFloor) {
     refused += out.stats.unimproved;
     taken += out.stats.patches - out.stats.unimproved - out.stats.unproved;
     const auto worst = [&](const std::vector<LocalTet>& tets) {
-      double least = 1.0;
+      double min = 1.0;
       for (const LocalTet& t : tets) {
-        least = std::min(least, radius_ratio(trial.window.mesh, trial.window.metric, t));
+        min = std::min(min, radius_ratio(trial.window.mesh, trial.window.metric, t));
       }
-      return least;
+      return min;
     };
     EXPECT_GE(worst(out.tets), std::min(0.25, worst(trial.window.mesh.tets())) - 1e-12);
   }

@@ -41,9 +41,9 @@ class Places {
   Places(unsigned seed, int steps) : random_(seed), steps_(steps) {}
 
   ScreenPoint point() {
-    std::uniform_int_distribution<int> place(-2 * steps_, (kSide + 2) * steps_);
+    std::uniform_int_distribution<int> position(-2 * steps_, (kSide + 2) * steps_);
     std::uniform_real_distribution<double> depth(0, 1);
-    const double x = place(random_), y = place(random_);
+    const double x = position(random_), y = position(random_);
     return {x / steps_, y / steps_, depth(random_)};
   }
   ScreenTriangle triangle() {
@@ -71,21 +71,21 @@ double turn(const ScreenPoint& a, const ScreenPoint& b, double x, double y) {
 }
 
 TEST(Raster, TriangleCoversThePixelsWhoseCentresAreInside) {
-  Places places(1, 2);
+  Places positions(1, 2);
   int inside_any = 0;
   for (int round = 0; round < 300; ++round) {
-    const ScreenTriangle triangle = places.triangle();
+    const ScreenTriangle triangle = positions.triangle();
     const Pixels pixels = picture_of({triangle}, 1);
     const auto& [a, b, c] = triangle.corners;
     const double area = turn(a, b, c.x, c.y);
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         const double px = x + 0.5, py = y + 0.5;
-        const double least = std::min(
+        const double min = std::min(
             {turn(a, b, px, py) * area, turn(b, c, px, py) * area, turn(c, a, px, py) * area});
-        if (area == 0 || least < 0) {
+        if (area == 0 || min < 0) {
           ASSERT_FALSE(is_drawn(pixels, x, y)) << round << ": " << x << ", " << y;
-        } else if (least > 0) {
+        } else if (min > 0) {
           ASSERT_TRUE(is_drawn(pixels, x, y)) << round << ": " << x << ", " << y;
           ++inside_any;
         }
@@ -96,11 +96,11 @@ TEST(Raster, TriangleCoversThePixelsWhoseCentresAreInside) {
 }
 
 TEST(Raster, SharedSidesLeaveNoGapAndNoOverlap) {
-  Places places(2, 2);
+  Places positions(2, 2);
   const double end = kSide;
   const std::vector<ScreenPoint> ring{{0, 0}, {end, 0}, {end, end}, {0, end}};
   for (int round = 0; round < 100; ++round) {
-    ScreenPoint middle = places.point();
+    ScreenPoint middle = positions.point();
     middle.x = std::clamp(middle.x, 0.0, end);
     middle.y = std::clamp(middle.y, 0.0, end);
     std::vector<int> count(kSide * kSide);
@@ -113,11 +113,11 @@ TEST(Raster, SharedSidesLeaveNoGapAndNoOverlap) {
 }
 
 TEST(Raster, NearestTriangleWins) {
-  Places places(3, 256);
+  Places positions(3, 256);
   for (int round = 0; round < 50; ++round) {
     std::vector<ScreenTriangle> triangles;
     for (int i = 0; i < 5; ++i) {
-      ScreenTriangle triangle = places.triangle();
+      ScreenTriangle triangle = positions.triangle();
       triangle.line_width = 0;
       for (ScreenPoint& corner : triangle.corners) corner.depth = 0.1 * (i + 1);
       triangles.push_back(triangle);
@@ -129,20 +129,20 @@ TEST(Raster, NearestTriangleWins) {
         if (alone[at + 3] != 0) std::copy_n(&alone[at], 4, &expected[at]);
       }
     }
-    std::shuffle(triangles.begin(), triangles.end(), places.random());
+    std::shuffle(triangles.begin(), triangles.end(), positions.random());
     EXPECT_EQ(picture_of(triangles, 1), expected) << round;
   }
 }
 
 TEST(Raster, OrderCornersAndBandsDoNotMatter) {
-  Places places(4, 3);
+  Places positions(4, 3);
   for (int round = 0; round < 30; ++round) {
     std::vector<ScreenTriangle> triangles;
-    for (int i = 0; i < 8; ++i) triangles.push_back(places.triangle());
+    for (int i = 0; i < 8; ++i) triangles.push_back(positions.triangle());
     triangles.push_back(triangles[0]);  // as near as another
     triangles.back().face = {9, 9, 9};
     const Pixels expected = picture_of(triangles, 3);
-    std::shuffle(triangles.begin(), triangles.end(), places.random());
+    std::shuffle(triangles.begin(), triangles.end(), positions.random());
     for (ScreenTriangle& triangle : triangles) {
       std::rotate(triangle.corners.begin(), triangle.corners.begin() + 1, triangle.corners.end());
       std::rotate(triangle.lined.begin(), triangle.lined.begin() + 1, triangle.lined.end());

@@ -48,14 +48,14 @@ TEST(Camera, PutsTheExtentIntoThePicture) {
       extent.add(view, points.back());
     }
     const Camera camera(view, extent, 300, 200);
-    double least = 1e9;
+    double min = 1e9;
     for (const Vec3& point : points) {
       const ScreenPoint seen = camera.at(point);
       EXPECT_GE(seen.depth, 0);
       EXPECT_LE(seen.depth, 1);
-      least = std::min({least, seen.x, seen.y, 300 - seen.x, 200 - seen.y});
+      min = std::min({min, seen.x, seen.y, 300 - seen.x, 200 - seen.y});
     }
-    EXPECT_NEAR(least, 8, 1e-6);  // 4 % of 200
+    EXPECT_NEAR(min, 8, 1e-6);  // 4 % of 200
   }
 }
 

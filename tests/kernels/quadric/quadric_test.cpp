@@ -60,8 +60,9 @@ Sum at_vertex(std::mt19937& random) {
 }
 
 /// What becomes of two vertices that are contracted to a third place.
-Sum merged(const Sum& p, const Sum& q, const Vec3& place) {
-  Sum out{place, p.quadric.shifted(place - p.owner) + q.quadric.shifted(place - q.owner), p.terms};
+Sum merged(const Sum& p, const Sum& q, const Vec3& position) {
+  Sum out{position, p.quadric.shifted(position - p.owner) + q.quadric.shifted(position - q.owner),
+          p.terms};
   out.terms.insert(out.terms.end(), q.terms.begin(), q.terms.end());
   return out;
 }

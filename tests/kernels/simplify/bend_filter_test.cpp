@@ -37,9 +37,9 @@ TEST(BendFilter, ComparesTheContractedMeshWithThePresentOne) {
         const double present = bends_around(mesh, metric, p) + bends_around(mesh, metric, q);
         const double after = bends_around(contracted, metric, p);
         const double allowed = mesh.order(p) == 2 && mesh.order(q) == 2 ? 0.5 : 1.0;
-        const double most = 0.8 * present + allowed;
-        if (std::abs(after - most) < 1e-9) continue;
-        ASSERT_EQ(verdict, after < most) << present << " " << after;
+        const double max = 0.8 * present + allowed;
+        if (std::abs(after - max) < 1e-9) continue;
+        ASSERT_EQ(verdict, after < max) << present << " " << after;
         (!verdict ? refused : after > allowed ? allowed_by_share : free) += 1;
         if (below(random, 8) != 0) continue;
         mesh.contract(p, q, *target, mesh.quadric(p));

@@ -114,20 +114,20 @@ TEST(Sec533Contraction, OtherPlacesLieAlongTheEdgeAndHaveTheirOwnCosts) {
     const auto c = plan_contraction(mesh, metric, p, q);
     if (!c || !c->moves) return;
     const Point keep = mesh.position(c->keep), drop = mesh.position(c->drop);
-    const auto places = other_places(mesh, metric, *c);
+    const auto positions = other_positions(mesh, metric, *c);
     const auto middle_of = [](Point a, Point b) {
       return Point{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
     };
     const Point middle = middle_of(keep, drop);
     const std::array<Point, 4> expected{middle_of(middle, c->position), middle, keep, drop};
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      EXPECT_EQ(places[i].position, expected[i]);
-      EXPECT_EQ(places[i].keep, c->keep);
-      EXPECT_EQ(places[i].drop, c->drop);
-      EXPECT_EQ(places[i].moves, places[i].position != keep);
-      const double error = joint_error(mesh, metric, p, q, places[i].position);
-      EXPECT_NEAR(places[i].cost, error, 1e-9 * (1.0 + error));
-      EXPECT_GE(places[i].cost, c->cost - 1e-4) << "cheaper than the optimum";
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      EXPECT_EQ(positions[i].position, expected[i]);
+      EXPECT_EQ(positions[i].keep, c->keep);
+      EXPECT_EQ(positions[i].drop, c->drop);
+      EXPECT_EQ(positions[i].moves, positions[i].position != keep);
+      const double error = joint_error(mesh, metric, p, q, positions[i].position);
+      EXPECT_NEAR(positions[i].cost, error, 1e-9 * (1.0 + error));
+      EXPECT_GE(positions[i].cost, c->cost - 1e-4) << "cheaper than the optimum";
     }
     ++seen;
   });

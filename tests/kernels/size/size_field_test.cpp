@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::test {
@@ -70,18 +70,18 @@ double defined_at(const Case& c, Point p) {
   const auto gap = [](std::int64_t a, std::int64_t b) {
     return static_cast<double>(std::max<std::int64_t>(std::abs(a - b) - 1, 0));
   };
-  double least = SizeField::kNoLimit;
-  each_index(c.volume.shape, [&](Index3 v) {
+  double min = SizeField::kNoLimit;
+  for_each_index(c.volume.shape, [&](Index3 v) {
     const double limit = c.limits[c.label_at(v)];
     if (limit == SizeField::kNoLimit) return;
     const Vec3 gaps{gap(here.x, v.x / kCube) * edges[0], gap(here.y, v.y / kCube) * edges[1],
                     gap(here.z, v.z / kCube) * edges[2]};
-    least = std::min(least, limit + c.gradation * gaps.norm());
+    min = std::min(min, limit + c.gradation * gaps.norm());
   });
-  return least;
+  return min;
 }
 
-Point random_place(std::mt19937& random, Index3 shape) {
+Point random_position(std::mt19937& random, Index3 shape) {
   const auto along = [&](std::int64_t voxels) {
     return static_cast<std::int32_t>(
         below(random, static_cast<std::uint32_t>(voxels * kUnitsPerVoxel + 1)));
@@ -96,7 +96,7 @@ TEST(SizeField, IsWhatItsDefinitionSays) {
     const Case c = random_case(random);
     const SizeField field = c.field();
     for (int k = 0; k < 8; ++k) {
-      const Point p = random_place(random, c.volume.shape);
+      const Point p = random_position(random, c.volume.shape);
       const double expected = defined_at(c, p);
       if (expected == SizeField::kNoLimit) {
         EXPECT_EQ(field.at(p), expected);
@@ -119,20 +119,20 @@ TEST(SizeField, AllowsCellsWhoseDiagonalFitsAtAllTheirCorners) {
     for (int k = 0; k < 20; ++k) {
       const int level = 1 + static_cast<int>(below(random, 4));
       const auto units = std::int32_t{kUnitsPerVoxel << level};
-      Point lo = random_place(random, c.volume.shape);
+      Point lo = random_position(random, c.volume.shape);
       lo = {lo.x / units * units, lo.y / units * units, lo.z / units * units};
       const Point hi{lo.x + units, lo.y + units, lo.z + units};
       if (hi.x > c.volume.shape.x * kUnitsPerVoxel || hi.y > c.volume.shape.y * kUnitsPerVoxel ||
           hi.z > c.volume.shape.z * kUnitsPerVoxel) {
         continue;
       }
-      double least = SizeField::kNoLimit;
-      each_index(Index3{3, 3, 3}, [&](Index3 at) {
-        least = std::min(least, field.at({lo.x + static_cast<std::int32_t>(at.x) * units / 2,
-                                          lo.y + static_cast<std::int32_t>(at.y) * units / 2,
-                                          lo.z + static_cast<std::int32_t>(at.z) * units / 2}));
+      double min = SizeField::kNoLimit;
+      for_each_index(Index3{3, 3, 3}, [&](Index3 at) {
+        min = std::min(min, field.at({lo.x + static_cast<std::int32_t>(at.x) * units / 2,
+                                      lo.y + static_cast<std::int32_t>(at.y) * units / 2,
+                                      lo.z + static_cast<std::int32_t>(at.z) * units / 2}));
       });
-      const bool fits = c.metric.vector(lo, hi).norm() <= least;
+      const bool fits = c.metric.vector(lo, hi).norm() <= min;
       const Index3 voxel{lo.x / kUnitsPerVoxel, lo.y / kUnitsPerVoxel, lo.z / kUnitsPerVoxel};
       EXPECT_EQ(field.allows_cell(voxel, level), fits);
       EXPECT_TRUE(field.allows_cell(voxel, 0));

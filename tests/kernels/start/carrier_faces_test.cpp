@@ -7,7 +7,7 @@
 
 #include <limits>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/core/metric.h"
 
 namespace mw::test {
@@ -51,11 +51,10 @@ TEST(CarrierFaces, AreAllThatHoldAPointNearEachSample) {
   const Index3 home{5, 5, 5};
   for (const double bound : {0.3, 0.71, 0.8, 1.0, 1.23, 1.5, 4.0}) {
     const CarrierFaces carriers(bound);
-    const double reach =
-        std::max(std::min(bound, kMostCoarseDistance) - kSampleCoveringRadius, 0.0);
+    const double reach = std::max(std::min(bound, kMaxCoarseDistance) - kSampleCoveringRadius, 0.0);
     for (unsigned axis = 0; axis < 3; ++axis) {
       std::size_t expected = 0;
-      each_index(Box3{{-4, -4, -4}, {5, 5, 5}}, [&](Index3 lower) {
+      for_each_index(Box3{{-4, -4, -4}, {5, 5, 5}}, [&](Index3 lower) {
         for (unsigned other = 0; other < 3; ++other) {
           const double d = farthest_sample({home, axis}, {home + lower, other});
           if (d > 0.0) {

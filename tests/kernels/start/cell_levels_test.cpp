@@ -39,7 +39,7 @@ class Definition {
     const std::int64_t size = std::int64_t{1} << k;
     const Index3 lo{cell.x * size, cell.y * size, cell.z * size};
     bool uniform = true;
-    each_index(Box3{lo, lo + Index3{size, size, size}}, [&](Index3 v) {
+    for_each_index(Box3{lo, lo + Index3{size, size, size}}, [&](Index3 v) {
       uniform = uniform && all_.contains(v) && labels_.at(v) == labels_.at(lo);
     });
     return uniform;
@@ -49,7 +49,7 @@ class Definition {
   bool finer_are_allowed(Index3 cell, int k) {
     const std::int64_t size = std::int64_t{1} << (k - 1);
     bool allowed = true;
-    each_index(Box3{{-1, -1, -1}, {3, 3, 3}}, [&](Index3 i) {
+    for_each_index(Box3{{-1, -1, -1}, {3, 3, 3}}, [&](Index3 i) {
       const Index3 finer = Index3{2 * cell.x, 2 * cell.y, 2 * cell.z} + i;
       const Index3 lo{finer.x * size, finer.y * size, finer.z * size};
       const bool outside = lo.x < 0 || lo.y < 0 || lo.z < 0 || lo.x >= all_.hi.x ||
@@ -95,7 +95,7 @@ TEST(CellLevels, FollowTheirDefinitionWithAndWithoutTheMap) {
         const LabelBox narrow = labels_around(volume, asked, LevelMap::kHalo);
         const CellLevels alone(wide, volume.shape, asked, level);
         const CellLevels mapped(narrow, volume.shape, asked, level, map);
-        each_index(asked, [&](Index3 v) {
+        for_each_index(asked, [&](Index3 v) {
           if (!Box3{{0, 0, 0}, volume.shape}.contains(v)) return;
           const int expected = definition.level_at(v, level);
           ASSERT_EQ(alone.level_at(v), expected);
@@ -115,7 +115,7 @@ TEST(LevelMap, AllowsTheLargeCellsOfTheDefinition) {
     const SmallVolume volume = random_with_large_cells(random);
     const LevelMap map = level_map(volume);
     Definition definition(volume);
-    each_index(Box3{{-8, -8, -8}, volume.shape + Index3{8, 8, 8}}, [&](Index3 v) {
+    for_each_index(Box3{{-8, -8, -8}, volume.shape + Index3{8, 8, 8}}, [&](Index3 v) {
       if (((v.x | v.y | v.z) & 7) != 0) return;
       const bool inside = Box3{{0, 0, 0}, volume.shape}.contains(v);
       for (int level : {3, 4}) {

@@ -16,7 +16,7 @@ namespace mw::test {
   LabelBox after = before;
   stats += coarsen(before, after, tile, volume.shape, max_distance);
   LabelBox out{tile, {}};
-  each_index(tile, [&](Index3 v) { out.labels.push_back(after.at(v)); });
+  for_each_index(tile, [&](Index3 v) { out.labels.push_back(after.at(v)); });
   return out;
 }
 

@@ -23,8 +23,8 @@ Label label_at(const SmallVolume& volume, Index3 v) {
 }
 
 /// Of all kinds, but most often the one where most can be done.
-SmallVolume random_of(std::mt19937& random, std::uint32_t least, std::uint32_t most) {
-  const auto edge = [&] { return std::int64_t{least + below(random, most - least + 1)}; };
+SmallVolume random_of(std::mt19937& random, std::uint32_t min, std::uint32_t max) {
+  const auto edge = [&] { return std::int64_t{min + below(random, max - min + 1)}; };
   const auto x = edge(), y = edge(), z = edge();
   const auto any = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
   const VolumeKind kind = below(random, 3) == 0 ? any : VolumeKind::kBlobs;
@@ -90,9 +90,9 @@ TEST(Promise5SameBytes, CoarseningForgetsTheTiles) {
 
 /// Output to input, as all voxels of the neighbourhood tell.
 void expect_near_its_label(const SmallVolume& before, const SmallVolume& after, double bound) {
-  each_index(after.shape, [&](Index3 v) {
+  for_each_index(after.shape, [&](Index3 v) {
     bool near = false;
-    each_index(Box3{v - Index3{3, 3, 3}, v + Index3{4, 4, 4}}, [&](Index3 w) {
+    for_each_index(Box3{v - Index3{3, 3, 3}, v + Index3{4, 4, 4}}, [&](Index3 w) {
       const Index3 d = w - v;
       const double distance = std::sqrt(static_cast<double>(d.x * d.x + d.y * d.y + d.z * d.z));
       near |= distance <= bound && label_at(before, w) == label_at(after, v);
@@ -118,7 +118,7 @@ double distance_to(const VoxelFace& face, Point p) {
 /// Calls visit(face, labels) for the faces between labels of the volume.
 template <typename Visit>
 void each_interface_face(const SmallVolume& volume, Visit visit) {
-  each_index(volume.shape, [&](Index3 v) {
+  for_each_index(volume.shape, [&](Index3 v) {
     for (unsigned axis = 0; axis < 3; ++axis) {
       const VoxelFace face{v, axis};
       const Label a = label_at(volume, v), b = label_at(volume, face.upper());
@@ -217,7 +217,7 @@ struct CubeLabels {
   std::vector<Label> labels;
 
   CubeLabels(const SmallVolume& volume, Index3 lo) {
-    each_index(Box3{lo, lo + Index3{2, 2, 2}}, [&](Index3 v) {
+    for_each_index(Box3{lo, lo + Index3{2, 2, 2}}, [&](Index3 v) {
       labels.push_back(label_at(volume, v));
       inside &= labels.back() != kExterior;
     });
@@ -237,7 +237,7 @@ TEST(Coarsen, ChangesWholeCubesOrNothing) {
     const SmallVolume coarse = coarsened(volume, 1.5, stats);
     std::uint64_t mixed = 0, made_uniform = 0;
     const Index3 s = volume.shape;
-    each_index(Index3{(s.x + 1) / 2, (s.y + 1) / 2, (s.z + 1) / 2}, [&](Index3 c) {
+    for_each_index(Index3{(s.x + 1) / 2, (s.y + 1) / 2, (s.z + 1) / 2}, [&](Index3 c) {
       const Index3 lo{2 * c.x, 2 * c.y, 2 * c.z};
       const CubeLabels before(volume, lo), after(coarse, lo);
       if (before.labels == after.labels) {

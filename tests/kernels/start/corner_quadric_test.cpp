@@ -37,12 +37,12 @@ struct Sheet {
 /// middle of two.
 std::map<std::pair<Label, Label>, Sheet> sheets_around(const StartLabels& labels, Index3 corner) {
   std::set<Label> meet;
-  each_index(Box3{corner - Index3{1, 1, 1}, corner + Index3{1, 1, 1}},
-             [&](Index3 v) { meet.insert(labels.shape.at(v)); });
+  for_each_index(Box3{corner - Index3{1, 1, 1}, corner + Index3{1, 1, 1}},
+                 [&](Index3 v) { meet.insert(labels.shape.at(v)); });
   meet.erase(kExterior);
   const Box3 wide{corner - Index3{2, 2, 2}, corner + Index3{2, 2, 2}};
   std::map<std::pair<Label, Label>, Sheet> out;
-  each_index(wide, [&](Index3 v) {
+  for_each_index(wide, [&](Index3 v) {
     for (const Index3& step : {Index3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
       const Index3 w = v + step;
       if (!wide.contains(w)) continue;
@@ -58,8 +58,8 @@ std::map<std::pair<Label, Label>, Sheet> sheets_around(const StartLabels& labels
 
 bool is_inner(const LabelBox& shape, Index3 corner) {
   std::set<Label> meet;
-  each_index(Box3{corner - Index3{1, 1, 1}, corner + Index3{1, 1, 1}},
-             [&](Index3 v) { meet.insert(shape.at(v)); });
+  for_each_index(Box3{corner - Index3{1, 1, 1}, corner + Index3{1, 1, 1}},
+                 [&](Index3 v) { meet.insert(shape.at(v)); });
   return meet.size() == 1;
 }
 
@@ -80,7 +80,7 @@ TEST(Sec52Quadrics, OfCoarseCornersMeasureMeanPlanesOfTheInput) {
     const Vec3 voxel = i % 2 == 0 ? Vec3(1.0, 1.0, 1.0) : Vec3(1.0, 4.0, 2.5);
     const StartOptions options{.weights = weights,
                                .metric = Metric({voxel[0], voxel[1], voxel[2]})};
-    each_index(shape + Index3{1, 1, 1}, [&](Index3 corner) {
+    for_each_index(shape + Index3{1, 1, 1}, [&](Index3 corner) {
       const Quadric q = wide_quadric(labels, corner, options);
       const bool inner = is_inner(coarse, corner);
       inner_corners += inner ? 1 : 0;

@@ -74,7 +74,7 @@ TEST(Sec51GradedStart, HasOnlyTheVerticesThatLabelsNeed) {
     for (const BlockVertex& v : mesh.vertices) found.insert(v.id);
     const LabelBox labels = labels_in(volume, {{-1, -1, -1}, shape + Index3{1, 1, 1}});
     VertexId id = 0;
-    each_index(shape + Index3{1, 1, 1}, [&](Index3 corner) {
+    for_each_index(shape + Index3{1, 1, 1}, [&](Index3 corner) {
       const std::array<bool, 3> odd{corner.x % 2 != 0, corner.y % 2 != 0, corner.z % 2 != 0};
       // Voxels around the corner, bit by bit on the upper side along x, y and z.
       std::array<Label, 8> around{};
@@ -182,7 +182,7 @@ CoarseVolume random_start(std::mt19937& random, int i) {
 std::multiset<FaceSamples> samples_of_input(const SmallVolume& volume) {
   std::multiset<FaceSamples> out;
   const LabelBox labels = labels_in(volume, {{0, 0, 0}, volume.shape + Index3{1, 1, 1}});
-  each_index(volume.shape, [&](Index3 v) {
+  for_each_index(volume.shape, [&](Index3 v) {
     for (unsigned axis = 0; axis < 3; ++axis) {
       const Label next = labels.at(VoxelFace{v, axis}.upper());
       if (next == kExterior || next == labels.at(v)) continue;
@@ -304,16 +304,17 @@ TEST(Promise5SameBytes, CoarseStartIsTheSameHoweverItIsCutIntoBlocks) {
     add_samples(expected_samples, whole);
     const std::int64_t edge = std::int64_t{1} << start.options.max_level;
     const Index3 s = start.shape.shape;
-    each_index(Index3{(s.x + edge - 1) / edge, (s.y + edge - 1) / edge, (s.z + edge - 1) / edge},
-               [&](Index3 b) {
-                 const Index3 lo{b.x * edge, b.y * edge, b.z * edge};
-                 const Index3 hi = lo + Index3{edge, edge, edge};
-                 const BlockMesh block = start.block(
-                     {lo, {std::min(hi.x, s.x), std::min(hi.y, s.y), std::min(hi.z, s.z)}});
-                 add_global(found, block);
-                 add_samples(found_samples, block);
-                 for (const BlockVertex& v : block.vertices) EXPECT_EQ(vertices.at(v.id), v);
-               });
+    for_each_index(
+        Index3{(s.x + edge - 1) / edge, (s.y + edge - 1) / edge, (s.z + edge - 1) / edge},
+        [&](Index3 b) {
+          const Index3 lo{b.x * edge, b.y * edge, b.z * edge};
+          const Index3 hi = lo + Index3{edge, edge, edge};
+          const BlockMesh block =
+              start.block({lo, {std::min(hi.x, s.x), std::min(hi.y, s.y), std::min(hi.z, s.z)}});
+          add_global(found, block);
+          add_samples(found_samples, block);
+          for (const BlockVertex& v : block.vertices) EXPECT_EQ(vertices.at(v.id), v);
+        });
     EXPECT_TRUE(found == expected);
     EXPECT_TRUE(found_samples == expected_samples);
   }

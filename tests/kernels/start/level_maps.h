@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kernels/core/each_index.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/start/level_map.h"
 
 namespace mw::test {
@@ -19,7 +19,7 @@ template <typename LabelsIn>
     const Index3 lo{cube.x * kCube, cube.y * kCube, cube.z * kCube}, around{halo, halo, halo};
     return Box3{lo - around, lo + Index3{kCube, kCube, kCube} + around};
   };
-  each_index(map.cubes(), [&](Index3 cube) {
+  for_each_index(map.cubes(), [&](Index3 cube) {
     const LabelBox labels = labels_in(box_of(cube, LevelMap::kHalo));
     map.set_eighths(cube, LevelMap::allowed_eighths(labels, volume, cube));
   });

@@ -31,9 +31,9 @@ CellNodes random_nodes(std::mt19937& random) {
 }
 
 TEST(Promise3Quality, StartKeepsEveryFloorOfIsotropicVoxels) {
-  EXPECT_NEAR(least_start_ratio(Metric(), 0), std::sqrt(3.0) - 1, 1e-12);
+  EXPECT_NEAR(min_start_ratio(Metric(), 0), std::sqrt(3.0) - 1, 1e-12);
   for (int level = 1; level <= kLargest; ++level) {
-    EXPECT_GE(least_start_ratio(Metric(), level), 0.5) << "the highest floor that may be asked";
+    EXPECT_GE(min_start_ratio(Metric(), level), 0.5) << "the highest floor that may be asked";
   }
 }
 
@@ -41,7 +41,7 @@ TEST(Promise3Quality, NoCellIsWorseThanTheFloorOfTheStart) {
   std::mt19937 random(721);
   for (int i = 0; i < 3000 && !HasFailure(); ++i) {
     const Metric metric = i % 3 == 0 ? Metric() : random_metric(random);
-    const double floor = least_start_ratio(metric, 1);
+    const double floor = min_start_ratio(metric, 1);
     const double asked = floor * (0.25 + 0.25 * below(random, 4));
     const CellNodes nodes = random_nodes(random);
     const CellTemplate cell = cut_cell(nodes, i % 2 == 0, metric, asked);
@@ -58,7 +58,7 @@ TEST(Promise3Quality, StartMeshesKeepTheFloorAtAnySpacing) {
   for (int i = 0; i < 60 && !HasFailure(); ++i) {
     const Metric metric = i % 4 == 0 ? Metric() : random_metric(random);
     const int level = static_cast<int>(below(random, 4));
-    const double floor = least_start_ratio(metric, level);
+    const double floor = min_start_ratio(metric, level);
     const Index3 shape{6 + below(random, 12), 6 + below(random, 12), 6 + below(random, 12)};
     const SmallVolume volume =
         random_volume_of(random, VolumeKind::kBlobs, shape, 1 + below(random, 4));
@@ -73,15 +73,15 @@ TEST(Promise3Quality, StartMeshesKeepTheFloorAtAnySpacing) {
 
 /// Layers leave spacings at which the start keeps the default floor with something to spare.
 TEST(Promise3Quality, StartKeepsTheDefaultFloorOnceSlicesAreCut) {
-  double least = 1.0;
+  double min = 1.0;
   for (double y = 1.0; y < 20.5; y += y < 4 ? 0.05 : 0.3) {
     for (double z = y; z < 20.5; z += z < 4 ? 0.05 : 0.3) {
       const std::array<double, 3> spacing{1, y, z};
       const Metric metric(layered_spacing(spacing, layers_of(spacing)));
-      least = std::min(least, least_start_ratio(metric, kLargest));
+      min = std::min(min, min_start_ratio(metric, kLargest));
     }
   }
-  EXPECT_GE(least, 0.3);
+  EXPECT_GE(min, 0.3);
 }
 
 }  // namespace

@@ -140,14 +140,14 @@ TEST(SurfaceEnergy, OfBendsAloneIsTheirSum) {
     const Vec3 x = random_offset(random);
     EXPECT_NEAR(energy.value_at(x), 4.5 / 6.0 * (star.bends_at(x) - star.bends_at(Vec3::Zero())),
                 1e-9);
-    double least = 1.0;
+    double min = 1.0;
     for (const InterfaceEdge& e : interface_edges(interface_triangles(mesh))) {
       const LocalVertex v = star.vertex();
       if (!e.triangles[0].has(v) && !e.triangles[1].has(v)) continue;
-      least = std::min(least, cosine_between(e.triangles[0].normal(mesh, metric),
-                                             e.triangles[1].normal(mesh, metric)));
+      min = std::min(min, cosine_between(e.triangles[0].normal(mesh, metric),
+                                         e.triangles[1].normal(mesh, metric)));
     }
-    EXPECT_NEAR(energy.least_cosine(), least, 1e-9);
+    EXPECT_NEAR(energy.min_cosine(), min, 1e-9);
   });
 }
 
@@ -258,18 +258,18 @@ struct Hat {
       const Metric& metric) {
     const Vec3 at = metric.vector({}, mesh.position(star.vertex()));
     for (const SurfaceTriangle& t : star.triangles()) {
-      guard.each_piece(triangle_key(star.vertex(), t.a, t.b), t.low,
-                       [&](const DistanceGuard::Piece& piece) {
-                         add(piece.middle.cwiseProduct(metric.voxel()) - at, piece.quarters, star);
-                       });
+      guard.for_each_piece(
+          triangle_key(star.vertex(), t.a, t.b), t.low, [&](const DistanceGuard::Piece& piece) {
+            add(piece.middle.cwiseProduct(metric.voxel()) - at, piece.quarters, star);
+          });
     }
   }
   void add(const Vec3& p, double area, const SurfaceStar& star) {
-    double value = 0.0, least = 1e9;
+    double value = 0.0, min = 1e9;
     for (const SurfaceTriangle& t : star.triangles()) {
       const Foot foot = foot_on_triangle(p, t.to_a, t.to_b);
-      if (foot.squared_distance >= least) continue;
-      least = foot.squared_distance;
+      if (foot.squared_distance >= min) continue;
+      min = foot.squared_distance;
       value = foot.weights[0];
     }
     once += area * value;
@@ -335,9 +335,9 @@ TEST(SurfaceEnergy, FitIsLeastOnThePlane) {
                           energy.collect(mesh, metric, star, guard, nullptr, nullptr);
                           const double height = kHeight * metric.voxel().dot(normal);
                           const StarTerms terms = derivatives(energy, Vec3::Zero());
-                          const double least =
+                          const double min =
                               -normal.dot(terms.gradient) / normal.dot(terms.hessian * normal);
-                          EXPECT_NEAR(least, height, 0.05 * height);
+                          EXPECT_NEAR(min, height, 0.05 * height);
                         });
 }
 
@@ -351,7 +351,7 @@ TEST(SurfaceEnergy, IsLeastForAPlaneWhereItIs) {
                           EXPECT_NEAR(derivatives(energy, Vec3::Zero()).gradient.norm(), 0.0, 1e-9);
                           for (const double step : {0.2, -0.2})
                             EXPECT_GT(energy.value_at(step * normal), 0.01);
-                          EXPECT_EQ(energy.least_cosine(), 1.0);
+                          EXPECT_EQ(energy.min_cosine(), 1.0);
                         });
 }
 

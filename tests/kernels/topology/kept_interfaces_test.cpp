@@ -11,14 +11,15 @@
 namespace mw::test {
 namespace {
 
-using audit::test::places_of;
-using audit::test::PlacesBetti;
+using audit::test::junctions_of;
+using audit::test::JunctionsBetti;
 
-PlacesBetti places(const SmallVolume& volume) {
-  return places_of(complex_of(volume.view(), volume.label_count));
+JunctionsBetti junctions(const SmallVolume& volume) {
+  return junctions_of(complex_of(volume.view(), volume.label_count));
 }
-PlacesBetti places(const TetMesh& mesh, const std::vector<LocalTet>& tets, std::size_t labels) {
-  return places_of(complex_of(small_mesh(mesh, tets).view(), labels));
+JunctionsBetti junctions(const TetMesh& mesh, const std::vector<LocalTet>& tets,
+                         std::size_t labels) {
+  return junctions_of(complex_of(small_mesh(mesh, tets).view(), labels));
 }
 
 /// Contractions with all survivors positive, by what the oracle and the test say about them.
@@ -50,7 +51,7 @@ class Trial {
       : mesh_(mesh),
         random_(random),
         label_count_(volume.label_count),
-        expected_(places(volume)),
+        expected_(junctions(volume)),
         expected_labels_(betti(volume)),
         counts_(counts) {}
 
@@ -74,7 +75,7 @@ class Trial {
 
   void count(LocalVertex p, LocalVertex q, bool accepted, bool accepted_by_labels) {
     const std::vector<LocalTet> after = contracted(mesh_.tets(), p, q);
-    const bool kept = places(mesh_, after, label_count_) == expected_;
+    const bool kept = junctions(mesh_, after, label_count_) == expected_;
     const bool one_inner = mesh_.order(p) == 1 || mesh_.order(q) == 1;
     EXPECT_TRUE(kept || !accepted) << "accepted, but a Betti number changes";
     EXPECT_TRUE(accepted_by_labels || !accepted) << "kInterfaces must imply kLabels";
@@ -90,7 +91,7 @@ class Trial {
   TetMesh& mesh_;
   std::mt19937& random_;
   std::size_t label_count_;
-  PlacesBetti expected_;
+  JunctionsBetti expected_;
   std::vector<RegionBetti> expected_labels_;
   Counts& counts_;
 };
@@ -148,7 +149,7 @@ TEST(KeptInterfaces, FlipsKeepMeetingsAndInterfaces) {
       ++flips;
       on_surfaces += surface ? 1 : 0;
     }
-    EXPECT_TRUE(places(mesh, mesh.tets(), volume.label_count) == places(volume));
+    EXPECT_TRUE(junctions(mesh, mesh.tets(), volume.label_count) == junctions(volume));
   }
   EXPECT_GT(flips, 300);
   EXPECT_GT(on_surfaces, 50);

@@ -72,12 +72,12 @@ TEST_P(NodeClassesOfGrids, EveryNodeIsOnTheFirstEntityThatHasIt) {
                                      : static_cast<std::size_t>(first - rows.begin());
       if (entity == e) expected.push_back(row);
     }
-    const RowRange& places = classes.nodes(e);
-    if (places.size() > 0) {
-      EXPECT_EQ(places.begin, next);
-      next = places.end;
+    const RowRange& indices = classes.nodes(e);
+    if (indices.size() > 0) {
+      EXPECT_EQ(indices.begin, next);
+      next = indices.end;
     }
-    for (std::uint64_t i = places.begin; i < places.end; ++i) found.push_back(classes.row(i));
+    for (std::uint64_t i = indices.begin; i < indices.end; ++i) found.push_back(classes.row(i));
     EXPECT_EQ(found, expected) << e;
   }
   EXPECT_EQ(next, mesh.node_count());

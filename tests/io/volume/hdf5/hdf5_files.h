@@ -27,7 +27,7 @@ struct Hdf5Sample {
   bool big = false;
   H5D_layout_t layout = H5D_CONTIGUOUS;
   std::vector<hsize_t> chunk{};
-  std::vector<hsize_t> most_shape{};  ///< empty: it cannot grow
+  std::vector<hsize_t> max_shape{};  ///< empty: it cannot grow
   bool shuffle = false;
   bool deflate = false;
   bool fletcher = false;
@@ -73,7 +73,7 @@ inline Hdf5Handle create_data_set(const Hdf5Handle& file, const std::string& pat
                                   const Hdf5Sample& sample) {
   const Hdf5Handle space(
       H5Screate_simple(static_cast<int>(sample.shape.size()), sample.shape.data(),
-                       sample.most_shape.empty() ? nullptr : sample.most_shape.data()),
+                       sample.max_shape.empty() ? nullptr : sample.max_shape.data()),
       &H5Sclose);
   const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
   H5Pset_create_intermediate_group(links.get(), 1);

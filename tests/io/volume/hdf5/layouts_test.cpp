@@ -74,9 +74,9 @@ TEST(Hdf5, EveryIndexOfChunks) {
   for (const bool latest : {false, true}) {
     for (const bool deflate : {false, true}) {
       Hdf5Sample sample{.shape = {20, 21, 22}, .layout = H5D_CHUNKED, .deflate = deflate};
-      for (const auto& most : std::vector<std::vector<hsize_t>>{
+      for (const auto& max : std::vector<std::vector<hsize_t>>{
                {}, {40, 40, 40}, {any, 21, 22}, {any, any, 22}, {any, any, any}}) {
-        sample.most_shape = most;
+        sample.max_shape = max;
         for (const auto& chunk : std::vector<std::vector<hsize_t>>{{4, 5, 6}, {20, 21, 22}}) {
           sample.chunk = chunk;
           expect_same(dir, sample, latest);
@@ -98,11 +98,12 @@ TEST(Hdf5, ChunksThatWereNeverWrittenAreTheFillValue) {
       const Hdf5Handle file = create_hdf5(path, latest);
       const Hdf5Handle set = create_data_set(file, "/labels", sample);
       const std::array<hsize_t, 3> first{2, 0, 4}, size{2, 3, 4};
-      const Hdf5Handle place(H5Dget_space(set.get()), &H5Sclose);
-      H5Sselect_hyperslab(place.get(), H5S_SELECT_SET, first.data(), nullptr, size.data(), nullptr);
+      const Hdf5Handle position(H5Dget_space(set.get()), &H5Sclose);
+      H5Sselect_hyperslab(position.get(), H5S_SELECT_SET, first.data(), nullptr, size.data(),
+                          nullptr);
       const Hdf5Handle memory(H5Screate_simple(3, size.data(), nullptr), &H5Sclose);
       const std::vector<std::int64_t> ones(24, 1);
-      H5Dwrite(set.get(), H5T_NATIVE_INT64, memory.get(), place.get(), H5P_DEFAULT, ones.data());
+      H5Dwrite(set.get(), H5T_NATIVE_INT64, memory.get(), position.get(), H5P_DEFAULT, ones.data());
     }
     const auto labels = read_all(*open_volume(path));
     for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -107,12 +107,12 @@ struct N5Sample {
     for (const std::int64_t n : extents) values *= n;
     // Each value's place along every axis tells whether it is a voxel or filling.
     for (std::int64_t i = 0; i < values; ++i) {
-      std::vector<std::int64_t> place;
+      std::vector<std::int64_t> index;
       for (std::int64_t rest = i; const std::int64_t n : extents) {
-        place.push_back(rest % n);
+        index.push_back(rest % n);
         rest /= n;
       }
-      plain += number_bytes(value_at(random, inside, held, place), byte_size(type), true);
+      plain += number_bytes(value_at(random, inside, held, index), byte_size(type), true);
     }
     std::string head =
         number_bytes(counted ? 1 : 0, 2, true) + number_bytes(extents.size(), 2, true);
@@ -124,13 +124,13 @@ struct N5Sample {
   }
 
   [[nodiscard]] RawLabel value_at(Random& random, const std::vector<RawLabel>& inside, Index3 held,
-                                  std::vector<std::int64_t> place) const {
+                                  std::vector<std::int64_t> index) const {
     bool is_voxel = true;
     for (std::size_t i = 0; i < others.size(); ++i) {
-      is_voxel = is_voxel && place[before] == 0;
-      place.erase(place.begin() + static_cast<std::ptrdiff_t>(before));
+      is_voxel = is_voxel && index[before] == 0;
+      index.erase(index.begin() + static_cast<std::ptrdiff_t>(before));
     }
-    const Index3 v{place[0], place[1], place[2]};
+    const Index3 v{index[0], index[1], index[2]};
     const Box3 box{{0, 0, 0}, held};
     if (!is_voxel || !box.contains(v)) return random() % 250;
     return inside[static_cast<std::size_t>(box.offset(v))];

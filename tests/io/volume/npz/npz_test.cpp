@@ -48,18 +48,18 @@ class ZipMaker {
     const auto method = static_cast<std::uint64_t>(m.method >= 0 ? m.method : m.pack ? 8 : 0);
     const std::string fields = le(45, 2) + le(static_cast<std::uint64_t>(m.flags), 2) +
                                le(method, 2) + le(0, 4) + le(crc, 4);
-    const std::uint64_t place = file_.size();
+    const std::uint64_t index = file_.size();
     const auto narrow = [&](std::uint64_t value) { return le(m.zip64 ? 0xffffffff : value, 4); };
     const std::string local64 =
         m.zip64 ? le(1, 2) + le(16, 2) + le(bytes, 8) + le(packed.size(), 8) : "";
     const std::string extra64 = m.zip64 ? le(7, 2) + le(1, 2) + "x" + le(1, 2) + le(24, 2) +
-                                              le(bytes, 8) + le(packed.size(), 8) + le(place, 8)
+                                              le(bytes, 8) + le(packed.size(), 8) + le(index, 8)
                                         : "";
     file_ += "PK\3\4" + fields + narrow(packed.size()) + narrow(bytes) + le(m.name.size(), 2) +
              le(local64.size(), 2) + m.name + local64 + packed;
     directory_ += "PK\1\2" + le(45, 2) + fields + narrow(packed.size()) + narrow(bytes) +
                   le(m.name.size(), 2) + le(extra64.size(), 2) + le(0, 2) + le(0, 2) + le(0, 2) +
-                  le(0, 4) + narrow(place) + m.name + extra64;
+                  le(0, 4) + narrow(index) + m.name + extra64;
     ++members_;
   }
 

@@ -39,7 +39,7 @@ TEST(CompressedSegmentation, RandomChunksComeBack) {
     const auto labels = random_labels(random, shape, type);
     const SegmentationLayout layout{.shape = shape, .block = block, .type = type};
     const std::string packed = encode_segmentation(random, labels, shape, block, byte_size(type));
-    ASSERT_LE(packed.size(), most_segmentation_bytes(layout));
+    ASSERT_LE(packed.size(), max_segmentation_bytes(layout));
     ASSERT_EQ(unpack_segmentation(bytes_of(packed), layout, "chunk"),
               bytes_of(voxel_bytes(labels, type, false)));
   }

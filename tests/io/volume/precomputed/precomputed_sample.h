@@ -251,7 +251,7 @@ struct PrecomputedSample {
       ranges[2 * minishard + 1] = data.size();
     }
     std::string bytes;
-    for (const std::uint64_t place : ranges) bytes += number_bytes(place, 8, false);
+    for (const std::uint64_t position : ranges) bytes += number_bytes(position, 8, false);
     return bytes + data;
   }
 };

@@ -217,10 +217,10 @@ TEST(PrecomputedErrors, SizesThatNoMemoryHolds) {
     std::filesystem::create_directory(dir.path() / sample.key);
     static_cast<void>(open_volume(dir.path()));
   };
-  const Index3 most{1 << 20, 1 << 20, 1 << 20};
-  expect_error(ErrorKind::kInput, {"chunk_sizes", "2 GiB"}, [&] { huge(most, most, {}); });
+  const Index3 max{1 << 20, 1 << 20, 1 << 20};
+  expect_error(ErrorKind::kInput, {"chunk_sizes", "2 GiB"}, [&] { huge(max, max, {}); });
   expect_error(ErrorKind::kInput, {"minishard_bits", "more minishards"}, [&] {
-    huge(most, {64, 64, 64}, {});
+    huge(max, {64, 64, 64}, {});
   });
   expect_error(ErrorKind::kInput, {"block_size", "4 GiB"}, [&] {
     huge({1, 1024, 1024}, {1, 1024, 1024}, Index3{1 << 24, 1, 1});

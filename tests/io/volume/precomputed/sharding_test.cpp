@@ -64,16 +64,16 @@ TEST(PrecomputedMorton, DiffersForAllCells) {
 TEST(PrecomputedSharding, PlacesAndNames) {
   // The same volume: preshift 9, 6 bits of minishards, 16 of shards.
   const Sharding sharding{.preshift_bits = 9, .minishard_bits = 6, .shard_bits = 16};
-  const ShardPlace place = place_of(sharding, 0x434522d9U);
-  EXPECT_EQ(place.shard, 0x868aU);
-  EXPECT_EQ(place.minishard, 0x11U);
-  EXPECT_EQ(shard_file_name(sharding, place.shard), "868a.shard");
+  const ShardPosition index = position_of(sharding, 0x434522d9U);
+  EXPECT_EQ(index.shard, 0x868aU);
+  EXPECT_EQ(index.minishard, 0x11U);
+  EXPECT_EQ(shard_file_name(sharding, index.shard), "868a.shard");
   EXPECT_EQ(shard_file_name({.shard_bits = 9}, 0xb), "00b.shard");
   EXPECT_EQ(shard_file_name({.shard_bits = 0}, 0), "0.shard");
   EXPECT_EQ(shard_file_name({.shard_bits = 64}, ~std::uint64_t{0}), "ffffffffffffffff.shard");
-  const ShardPlace all = place_of({.preshift_bits = 64, .shard_bits = 64}, ~std::uint64_t{0});
+  const ShardPosition all = position_of({.preshift_bits = 64, .shard_bits = 64}, ~std::uint64_t{0});
   EXPECT_EQ(all.shard, 0U);
-  EXPECT_EQ(place_of({.shard_bits = 64}, ~std::uint64_t{0}).shard, ~std::uint64_t{0});
+  EXPECT_EQ(position_of({.shard_bits = 64}, ~std::uint64_t{0}).shard, ~std::uint64_t{0});
 }
 
 TEST(PrecomputedSharding, NoMinishardHoldsMoreThanItsBound) {
@@ -86,10 +86,10 @@ TEST(PrecomputedSharding, NoMinishardHoldsMoreThanItsBound) {
                             .shard_bits = static_cast<int>(pick(random, 0, 5))};
     std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint64_t> held;
     each_chunk(grid, {1, 1, 1}, [&](Index3 cell, const Box3&) {
-      const ShardPlace place = place_of(sharding, morton_code(cell, grid));
-      ++held[{place.shard, place.minishard}];
+      const ShardPosition index = position_of(sharding, morton_code(cell, grid));
+      ++held[{index.shard, index.minishard}];
     });
-    for (const auto& [place, count] : held) ASSERT_LE(count, most_in_minishard(sharding, grid));
+    for (const auto& [index, count] : held) ASSERT_LE(count, max_in_minishard(sharding, grid));
   }
 }
 

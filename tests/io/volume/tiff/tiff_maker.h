@@ -175,9 +175,9 @@ class TiffWriter {
     std::string bytes;
     for (const std::uint64_t value : values) bytes += number(value, size);
     if (bytes.size() > static_cast<std::size_t>(wide())) {
-      const std::uint64_t place = file_.size();
+      const std::uint64_t position = file_.size();
       file_ += bytes;
-      bytes = number(place, wide());
+      bytes = number(position, wide());
     }
     bytes.resize(static_cast<std::size_t>(wide()), '\0');
     return number(static_cast<std::uint64_t>(tag), 2) +

@@ -34,8 +34,8 @@ TEST(Tiff, StripsAndTilesByRegion) {
   for (const TiffPacking packing :
        {TiffPacking::kNone, TiffPacking::kLzw, TiffPacking::kDeflate, TiffPacking::kPackBits}) {
     for (int i = 0; i < 12; ++i) {
-      const auto size = [&](std::int64_t most) {
-        return 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(most));
+      const auto size = [&](std::int64_t max) {
+        return 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(max));
       };
       TiffSample sample{.shape = {size(70), size(70), size(4)},
                         .type = VoxelType::kU16,

@@ -134,9 +134,9 @@ TEST(Vti, EveryTypeFormatAndPacking) {
 
 TEST(Vti, CellsLieBetweenPointsAndPointsAreCentres) {
   const TempDir dir;
-  const std::string place =
+  const std::string position =
       " Origin=\"10 20 30\" Spacing=\"1 2 4\" Direction=\"0 -1 0 1 0 0 0 0 1\"";
-  const VtiSample cells{.grid = "WholeExtent=\"2 7 0 4 0 3\"" + place, .extent = "2 7 0 4 0 3"};
+  const VtiSample cells{.grid = "WholeExtent=\"2 7 0 4 0 3\"" + position, .extent = "2 7 0 4 0 3"};
   const auto labels = sample_labels(kShape, cells.type);
   const VolumeSpace of_cells = open_volume(dir.file("c.vti", cells.file(labels)))->info().space;
   // Axis x of the array goes along the world's y; the extent begins two steps from Origin.

@@ -258,8 +258,8 @@ struct ZarrSample {
 };
 
 /// A random volume, its chunks and fill value, without packing.
-inline ZarrSample random_sample(Random& random, std::int64_t most) {
-  ZarrSample sample{.shape = pick_shape(random, most)};
+inline ZarrSample random_sample(Random& random, std::int64_t max) {
+  ZarrSample sample{.shape = pick_shape(random, max)};
   sample.type = kAllTypes[random() % std::size(kAllTypes)];
   sample.labels = random_labels(random, sample.shape, sample.type);
   sample.big = random() % 2 == 0;
@@ -271,7 +271,7 @@ inline ZarrSample random_sample(Random& random, std::int64_t most) {
   sample.separator = random() % 2 == 0 ? '.' : '/';
   // A corner of nothing but the fill value, so that chunks are missing.
   const Box3 all{{0, 0, 0}, sample.shape};
-  const Index3 cut = pick_shape(random, most);
+  const Index3 cut = pick_shape(random, max);
   for (Index3 v{0, 0, 0}; v.z < sample.shape.z; ++v.z) {
     for (v.y = 0; v.y < sample.shape.y; ++v.y) {
       for (v.x = 0; v.x < sample.shape.x; ++v.x) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Places of a volume: one look at every lattice vertex and the cells towards +x, +y, +z.
+// Junctions of a volume: one look at every lattice vertex and the cells towards +x, +y, +z.
 #include <algorithm>
 #include <array>
 
-#include "kernels/audit/place_counter.h"
+#include "kernels/audit/junction_counter.h"
 
 namespace mw::audit {
 namespace {
@@ -41,8 +41,8 @@ class TileLattice {
     return static_cast<std::uint64_t>(box_.offset(v));
   }
 
-  [[nodiscard]] PlaceVertices vertices() const {
-    PlaceVertices out;
+  [[nodiscard]] JunctionVertices vertices() const {
+    JunctionVertices out;
     for (Index3 v = box_.lo; v.z < box_.hi.z; ++v.z) {
       for (v.y = box_.lo.y; v.y < box_.hi.y; ++v.y) {
         for (v.x = box_.lo.x; v.x < box_.hi.x; ++v.x) {
@@ -76,7 +76,7 @@ class LatticeSweep {
         lattice_(tile),
         sweep_(lattice_.vertices()) {}
 
-  PlacesPiece run() {
+  JunctionsPiece run() {
     const Box3 box = intersection(lattice_.box(), {{0, 0, 0}, tile_.owned.hi});
     for (Index3 v = box.lo; v.z < box.hi.z; ++v.z) {
       for (v.y = box.lo.y; v.y < box.hi.y; ++v.y) {
@@ -142,13 +142,13 @@ class LatticeSweep {
   const VoxelTile& tile_;
   Label exterior_;
   TileLattice lattice_;
-  PlaceSweep sweep_;
+  JunctionSweep sweep_;
   std::array<Label, 8> around_{};
 };
 
 }  // namespace
 
-PlacesPiece voxel_places(const VoxelTile& tile, std::size_t label_count) {
+JunctionsPiece voxel_junctions(const VoxelTile& tile, std::size_t label_count) {
   return LatticeSweep(tile, label_count).run();
 }
 

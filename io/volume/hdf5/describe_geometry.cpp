@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads the attributes and small data sets that tell spacing and origin.
-#include "io/volume/hdf5/describe_place.h"
+#include "io/volume/hdf5/describe_geometry.h"
 
 #include <algorithm>
 #include <string>
@@ -14,9 +14,9 @@
 namespace mw::io {
 namespace {
 
-constexpr hssize_t kMostNumbers = H5S_MAX_RANK;
+constexpr hssize_t kMaxNumbers = H5S_MAX_RANK;
 constexpr const char* kDamaged = "the file is damaged: check it with h5dump, or h5repack it";
-constexpr std::size_t kMostTextBytes = 1 << 14;
+constexpr std::size_t kMaxTextBytes = 1 << 14;
 
 /// Looks things up by name.  None is an answer; a look-up that fails is damage.
 class Reader {
@@ -59,7 +59,7 @@ class Reader {
       return variable_text(attribute.get(), type.get(), name);
     }
     const std::size_t size = H5Tget_size(type.get());
-    if (size > kMostTextBytes) refuse(name);
+    if (size > kMaxTextBytes) refuse(name);
     std::string out(size, '\0');
     demand(H5Aread(attribute.get(), type.get(), out.data()), name);
     return out.substr(0, out.find('\0'));
@@ -81,7 +81,7 @@ class Reader {
 
  private:
   [[noreturn]] void refuse(const char* name) const {
-    fail_input(file_, name, text("is not one text of up to ", kMostTextBytes, " bytes"), kDamaged);
+    fail_input(file_, name, text("is not one text of up to ", kMaxTextBytes, " bytes"), kDamaged);
   }
 
   /// What the library returned, unless it is negative: it failed.
@@ -106,7 +106,7 @@ class Reader {
     const hssize_t count = demand(H5Sget_simple_extent_npoints(space.get()), name);
     const bool numbers = kind == H5T_INTEGER || kind == H5T_FLOAT;
     if (!numbers) return 0;
-    if (count > kMostNumbers) {
+    if (count > kMaxNumbers) {
       fail_input(file_, name, text("holds ", count, " numbers, more than a place has"), kDamaged);
     }
     return static_cast<std::size_t>(count);
@@ -118,7 +118,7 @@ class Reader {
     // A heap that has lost the text gives none.
     std::string out(bytes == nullptr ? "" : bytes);
     H5free_memory(bytes);
-    if (out.empty() || out.size() > kMostTextBytes) refuse(name);
+    if (out.empty() || out.size() > kMaxTextBytes) refuse(name);
     return out;
   }
 
@@ -148,7 +148,7 @@ bool find_geometry(const Reader& reader, hid_t group, Hdf5Description& out) {
 
 }  // namespace
 
-void find_place(hid_t hdf5, hid_t set, std::string_view file, Hdf5Description& description) {
+void find_geometry(hid_t hdf5, hid_t set, std::string_view file, Hdf5Description& description) {
   const Reader reader(file);
   for (const char* name : {"resolution", "offset", "element_size_um"}) {
     keep(description, name, reader.attribute_numbers(set, name));

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Places put together from tiles against those of wholes.
-#include "engine/verify/place_ledger.h"
+// Junctions put together from tiles against those of wholes.
+#include "engine/verify/junction_ledger.h"
 
 #include <gtest/gtest.h>
 
 #include "kernels/audit/parts_union.h"
 #include "tests/kernels/audit/mesh_parts_by_owner.h"
 #include "tests/oracle/small_volumes.h"
-#include "tests/oracle/whole_places.h"
+#include "tests/oracle/whole_junctions.h"
 #include "tests/temp_folder.h"
 
 namespace mw::engine {
@@ -17,7 +17,7 @@ namespace {
 using audit::test::below;
 using audit::test::SmallMesh;
 using audit::test::SmallVolume;
-using Side = PlaceLedger::Side;
+using Side = JunctionLedger::Side;
 
 /// A volume, and a mesh of it with other labels on some tets.
 struct Case {
@@ -48,7 +48,7 @@ audit::Cavities cavities(const audit::PartsPiece& piece, std::size_t labels) {
 }
 
 /// Boxes of voxels with those around the vertices that they own.
-void add_tiles(const SmallVolume& volume, std::int64_t edge, PlaceLedger& ledger) {
+void add_tiles(const SmallVolume& volume, std::int64_t edge, JunctionLedger& ledger) {
   const Box3 all{{0, 0, 0}, volume.shape};
   const Index3 last = volume.shape + Index3{1, 1, 1};
   for (std::int64_t z = 0; z < last.z; z += edge) {
@@ -66,25 +66,25 @@ void add_tiles(const SmallVolume& volume, std::int64_t edge, PlaceLedger& ledger
           }
         }
         ledger.add(Side::kVolume,
-                   audit::voxel_places({{loaded.shape(), labels}, volume.shape, loaded, owned},
-                                       volume.label_count));
+                   audit::voxel_junctions({{loaded.shape(), labels}, volume.shape, loaded, owned},
+                                          volume.label_count));
       }
     }
   }
 }
 
-void add_shreds(std::mt19937& random, const Case& c, PlaceLedger& ledger) {
+void add_shreds(std::mt19937& random, const Case& c, JunctionLedger& ledger) {
   const std::uint32_t tiles = 1 + below(random, 5);
   const auto owner = audit::test::random_owners(random, c.mesh.vertices.size(), tiles);
   for (std::uint32_t tile = 0; tile < tiles; ++tile) {
     const audit::test::OwnedPart part = audit::test::part_of_owner(c.mesh, owner, tile);
     ledger.add(Side::kMesh,
-               audit::mesh_places(audit::MeshStars(part.view()), c.volume.label_count));
+               audit::mesh_junctions(audit::MeshStars(part.view()), c.volume.label_count));
   }
 }
 
-void expect_same(const std::vector<audit::PlaceChange>& tiled,
-                 const std::vector<audit::PlaceChange>& whole) {
+void expect_same(const std::vector<audit::JunctionChange>& tiled,
+                 const std::vector<audit::JunctionChange>& whole) {
   ASSERT_EQ(tiled.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
     EXPECT_EQ(tiled[i].labels, whole[i].labels);
@@ -92,7 +92,7 @@ void expect_same(const std::vector<audit::PlaceChange>& tiled,
   }
 }
 
-TEST(PlaceLedger, TellsWhatTheWholeTellsWhateverTheTiles) {
+TEST(JunctionLedger, TellsWhatTheWholeTellsWhateverTheTiles) {
   std::mt19937 random(31);
   std::size_t changed = 0;
   for (int trial = 0; trial < 250 && !HasFailure(); ++trial) {
@@ -101,17 +101,17 @@ TEST(PlaceLedger, TellsWhatTheWholeTellsWhateverTheTiles) {
     SCOPED_TRACE("trial " + std::to_string(trial) + "\n" + c.volume.text());
     const ::mw::test::TempFolder folder;
     // So little memory that everything goes through the disk, or so much that nothing does.
-    PlaceLedger ledger(folder.path(), trial % 2 == 0 ? 4096 : 1 << 20);
+    JunctionLedger ledger(folder.path(), trial % 2 == 0 ? 4096 : 1 << 20);
     add_shreds(random, c, ledger);
     const audit::MeshStars stars(c.mesh.view());
     ledger.close(Side::kMesh, cavities(audit::mesh_parts(stars, labels).piece, labels));
     add_tiles(c.volume, 1 + trial % 4, ledger);
     ledger.close(Side::kVolume,
                  cavities(audit::voxel_parts(audit::whole(c.volume.view()), labels).piece, labels));
-    const audit::PlacesReport tiled = ledger.compare();
-    const audit::PlacesReport whole =
-        audit::test::compare_places(audit::test::places_of_volume(c.volume.view(), labels),
-                                    audit::test::places_of_mesh(c.mesh.view(), labels));
+    const audit::JunctionReport tiled = ledger.compare();
+    const audit::JunctionReport whole =
+        audit::test::compare_junctions(audit::test::junctions_of_volume(c.volume.view(), labels),
+                                       audit::test::junctions_of_mesh(c.mesh.view(), labels));
     EXPECT_EQ(tiled.interfaces, whole.interfaces);
     EXPECT_EQ(tiled.meetings, whole.meetings);
     expect_same(tiled.interfaces_changed, whole.interfaces_changed);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sorted by place, what tiles counted adds up; sets that are one count one less.
-#include "engine/verify/place_ledger.h"
+// Sorted by junction, what tiles counted adds up; sets that are one count one less.
+#include "engine/verify/junction_ledger.h"
 
 #include <limits>
 
@@ -11,43 +11,44 @@
 namespace mw::engine {
 namespace {
 
-using audit::PlaceKind;
-using audit::PlaceLabels;
+using audit::JunctionKind;
+using audit::JunctionLabels;
 
 // Two labels a word: words are in the order of the labels.
-std::array<std::uint64_t, 2> words_of(const PlaceLabels& l) {
+std::array<std::uint64_t, 2> words_of(const JunctionLabels& l) {
   return {std::uint64_t{l[0]} << 32 | l[1], std::uint64_t{l[2]} << 32 | l[3]};
 }
-PlaceLabels labels_of(std::uint64_t first, std::uint64_t second) {
+JunctionLabels labels_of(std::uint64_t first, std::uint64_t second) {
   return {static_cast<Label>(first >> 32), static_cast<Label>(first),  //
           static_cast<Label>(second >> 32), static_cast<Label>(second)};
 }
 
-std::uint64_t word(PlaceKind kind) {
-  return kind == PlaceKind::kMeeting ? 1 : 0;
+std::uint64_t word(JunctionKind kind) {
+  return kind == JunctionKind::kMeeting ? 1 : 0;
 }
-PlaceKind kind_of(std::uint64_t word) {
-  return (word & 1U) != 0 ? PlaceKind::kMeeting : PlaceKind::kInterface;
+JunctionKind kind_of(std::uint64_t word) {
+  return (word & 1U) != 0 ? JunctionKind::kMeeting : JunctionKind::kInterface;
 }
 
 }  // namespace
 
-PlaceLedger::PlaceLedger(std::filesystem::path folder, std::size_t memory_bytes)
+JunctionLedger::JunctionLedger(std::filesystem::path folder, std::size_t memory_bytes)
     : folder_(std::move(folder)), share_(memory_bytes / 2), cells_(folder_, share_) {}
 
-void PlaceLedger::add_sums(Side side, const PlaceLabels& labels, PlaceKind kind, Sums sums) {
+void JunctionLedger::add_sums(Side side, const JunctionLabels& labels, JunctionKind kind,
+                              Sums sums) {
   const auto [first, second] = words_of(labels);
   cells_.add({first, second, word(kind) << 1U | static_cast<std::uint64_t>(side),
               static_cast<std::uint64_t>(sums.components), static_cast<std::uint64_t>(sums.euler)});
 }
 
-void PlaceLedger::add(Side side, const audit::PlacesPiece& piece) {
-  for (const audit::PlaceTally& t : piece.tallies) {
+void JunctionLedger::add(Side side, const audit::JunctionsPiece& piece) {
+  for (const audit::JunctionTally& t : piece.tallies) {
     add_sums(side, t.labels, t.kind, {t.components, t.euler});
   }
   if (!nodes_) nodes_.emplace(folder_, share_);
-  for (const audit::PlacesPiece::Node& node : piece.shared) {
-    const audit::PlaceTally& tally = piece.tallies[node.tally];
+  for (const audit::JunctionsPiece::Node& node : piece.shared) {
+    const audit::JunctionTally& tally = piece.tallies[node.tally];
     const auto [first, second] = words_of(tally.labels);
     nodes_->add({first, second, node.vertex << 1U | word(tally.kind), sets_ + node.set});
   }
@@ -58,7 +59,7 @@ void PlaceLedger::add(Side side, const audit::PlacesPiece& piece) {
   }
 }
 
-void PlaceLedger::close(Side side, audit::Cavities cavities) {
+void JunctionLedger::close(Side side, audit::Cavities cavities) {
   cavities_[static_cast<std::size_t>(side)] = std::move(cavities);
   audit::DisjointSets sets(sets_);
   std::array<std::uint64_t, 4> last{};
@@ -79,7 +80,7 @@ void PlaceLedger::close(Side side, audit::Cavities cavities) {
   sets_ = 0;
 }
 
-audit::Betti PlaceLedger::betti_of(const Row& row, Side side) const {
+audit::Betti JunctionLedger::betti_of(const Row& row, Side side) const {
   const Sums& sums = row.sums[static_cast<std::size_t>(side)];
   if (sums.components == 0) return {};
   const audit::Cavities& cavities = cavities_[static_cast<std::size_t>(side)];
@@ -88,8 +89,8 @@ audit::Betti PlaceLedger::betti_of(const Row& row, Side side) const {
   return {sums.components, sums.components + b2 - sums.euler, b2};
 }
 
-void PlaceLedger::report(const Row& row, audit::PlacesReport& out) const {
-  const bool is_interface = row.kind == PlaceKind::kInterface;
+void JunctionLedger::report(const Row& row, audit::JunctionReport& out) const {
+  const bool is_interface = row.kind == JunctionKind::kInterface;
   const audit::Betti before = betti_of(row, Side::kVolume), after = betti_of(row, Side::kMesh);
   if (before.b0 > 0) ++(is_interface ? out.interfaces : out.meetings);
   if (before == after) return;
@@ -97,12 +98,12 @@ void PlaceLedger::report(const Row& row, audit::PlacesReport& out) const {
       .push_back({row.labels, before, after});
 }
 
-audit::PlacesReport PlaceLedger::compare() {
-  audit::PlacesReport out;
+audit::JunctionReport JunctionLedger::compare() {
+  audit::JunctionReport out;
   std::optional<Row> row;
   cells_.each([&](const std::array<std::uint64_t, 5>& cells) {
-    const PlaceLabels labels = labels_of(cells[0], cells[1]);
-    const PlaceKind kind = kind_of(cells[2] >> 1U);
+    const JunctionLabels labels = labels_of(cells[0], cells[1]);
+    const JunctionKind kind = kind_of(cells[2] >> 1U);
     if (row && (row->labels != labels || row->kind != kind)) {
       report(*row, out);
       row.reset();

@@ -14,7 +14,7 @@ namespace mw::io {
 }
 
 /// "the least that works is --memory 97MiB".
-[[nodiscard]] inline std::string least_memory(std::uint64_t bytes) {
+[[nodiscard]] inline std::string min_memory(std::uint64_t bytes) {
   return "the least that works is --memory " + mebibytes(bytes);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Counts cells and components of places where labels meet.
+// Counts cells and components of junctions where labels meet.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "kernels/audit/disjoint_sets.h"
-#include "kernels/audit/places.h"
+#include "kernels/audit/junctions.h"
 
 namespace mw::audit {
 
 /// The vertices that a tile has to do with, by row.
-struct PlaceVertices {
+struct JunctionVertices {
   std::vector<bool> owned;
   std::vector<bool> shared;        ///< other tiles have to do with it; all that are not owned
   std::vector<std::uint64_t> ids;  ///< in the whole; ascending
@@ -51,20 +51,20 @@ class DistinctList {
   std::size_t limit_ = kFirstLimit;
 };
 
-/// Collects the cells of the places of one kind.  Labels are ascending and distinct.
-class PlaceCounter {
+/// Collects the cells of the junctions of one kind.  Labels are ascending and distinct.
+class JunctionCounter {
  public:
   /// vertices outlive this.
-  explicit PlaceCounter(const PlaceVertices& vertices) : vertices_(vertices) {}
+  explicit JunctionCounter(const JunctionVertices& vertices) : vertices_(vertices) {}
 
   /// Vertices and edges may come again; faces, of two labels, may not.
   /// REQUIRES: v, and the face, are owned; v < w.
-  void add_vertex(const PlaceLabels& place, std::uint64_t v);
-  void add_edge(const PlaceLabels& place, std::uint64_t v, std::uint64_t w);
-  void add_face(const PlaceLabels& pair);
+  void add_vertex(const JunctionLabels& junction, std::uint64_t v);
+  void add_edge(const JunctionLabels& junction, std::uint64_t v, std::uint64_t w);
+  void add_face(const JunctionLabels& pair);
 
-  /// Adds all places to the piece, ascending.
-  void take(PlaceKind kind, PlacesPiece& out);
+  /// Adds all junctions to the piece, ascending.
+  void take(JunctionKind kind, JunctionsPiece& out);
 
  private:
   struct Link {
@@ -73,28 +73,28 @@ class PlaceCounter {
     friend auto operator<=>(const Link&, const Link&) = default;
   };
 
-  [[nodiscard]] std::uint64_t id(const PlaceLabels& place);
-  [[nodiscard]] std::uint64_t node(const PlaceLabels& place, std::uint64_t v) {
-    return id(place) * vertices_.count() + v;
+  [[nodiscard]] std::uint64_t id(const JunctionLabels& junction);
+  [[nodiscard]] std::uint64_t node(const JunctionLabels& junction, std::uint64_t v) {
+    return id(junction) * vertices_.count() + v;
   }
   /// Connected sets of all nodes, ascending; counts vertices and edges.
   [[nodiscard]] DisjointSets link(const std::vector<std::uint64_t>& nodes);
 
-  const PlaceVertices& vertices_;
-  std::map<PlaceLabels, std::uint64_t> ids_;
-  PlaceLabels last_place_{};  ///< what id() was asked for last
+  const JunctionVertices& vertices_;
+  std::map<JunctionLabels, std::uint64_t> ids_;
+  JunctionLabels last_junction_{};  ///< what id() was asked for last
   std::uint64_t last_id_ = 0;
-  DistinctList<std::uint64_t> nodes_;  ///< a vertex in a place
+  DistinctList<std::uint64_t> nodes_;  ///< a vertex in a junction
   DistinctList<Link> links_;
   std::vector<std::int64_t> euler_;  ///< by id
 };
 
-/// The two kinds of places of a tile, fed by cells with all labels around them.
-class PlaceSweep {
+/// The two kinds of junctions of a tile, fed by cells with all labels around them.
+class JunctionSweep {
  public:
-  explicit PlaceSweep(PlaceVertices vertices) : vertices_(std::move(vertices)) {}
-  PlaceSweep(const PlaceSweep&) = delete;
-  PlaceSweep& operator=(const PlaceSweep&) = delete;
+  explicit JunctionSweep(JunctionVertices vertices) : vertices_(std::move(vertices)) {}
+  JunctionSweep(const JunctionSweep&) = delete;
+  JunctionSweep& operator=(const JunctionSweep&) = delete;
 
   [[nodiscard]] bool owns(std::uint64_t v) const { return vertices_.owned[v]; }
 
@@ -105,12 +105,12 @@ class PlaceSweep {
   /// All faces with a vertex that the tile owns; vertices in cyclic order.
   void add_face(std::span<const Label> labels, std::span<const std::uint64_t> vertices);
 
-  [[nodiscard]] PlacesPiece take();
+  [[nodiscard]] JunctionsPiece take();
 
  private:
-  PlaceVertices vertices_;
-  PlaceCounter interfaces_{vertices_};
-  PlaceCounter meetings_{vertices_};
+  JunctionVertices vertices_;
+  JunctionCounter interfaces_{vertices_};
+  JunctionCounter meetings_{vertices_};
 };
 
 }  // namespace mw::audit

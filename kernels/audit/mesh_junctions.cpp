@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Places of a mesh: every vertex, edge and triangle with all labels around it.
+// Junctions of a mesh: every vertex, edge and triangle with all labels around it.
 #include <algorithm>
 #include <utility>
 
+#include "kernels/audit/junction_counter.h"
 #include "kernels/audit/mesh_parts.h"
-#include "kernels/audit/place_counter.h"
 
 namespace mw::audit {
 namespace {
 
 /// Other tiles have to do with the vertices of tets that they have too.
-PlaceVertices vertices_of(const MeshStars& stars) {
-  PlaceVertices out;
+JunctionVertices vertices_of(const MeshStars& stars) {
+  JunctionVertices out;
   for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
     out.owned.push_back(stars.owns(v));
     out.shared.push_back(!stars.owns(v));
@@ -27,12 +27,12 @@ PlaceVertices vertices_of(const MeshStars& stars) {
   return out;
 }
 
-class MeshPlaceSweep {
+class MeshJunctionSweep {
  public:
-  MeshPlaceSweep(const MeshStars& stars, Label exterior)
+  MeshJunctionSweep(const MeshStars& stars, Label exterior)
       : stars_(stars), exterior_(exterior), box_(box_cells(stars)), sweep_(vertices_of(stars)) {}
 
-  PlacesPiece run() {
+  JunctionsPiece run() {
     for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
       if (!stars_.owns(v)) continue;
       add_vertex(v);
@@ -95,7 +95,7 @@ class MeshPlaceSweep {
   const MeshStars& stars_;
   Label exterior_;
   BoxCells box_;
-  PlaceSweep sweep_;
+  JunctionSweep sweep_;
   std::size_t next_box_edge_ = 0;
   std::vector<FaceSide> sides_;
   std::vector<Label> labels_;
@@ -104,8 +104,8 @@ class MeshPlaceSweep {
 
 }  // namespace
 
-PlacesPiece mesh_places(const MeshStars& stars, std::size_t label_count) {
-  return MeshPlaceSweep(stars, static_cast<Label>(label_count)).run();
+JunctionsPiece mesh_junctions(const MeshStars& stars, std::size_t label_count) {
+  return MeshJunctionSweep(stars, static_cast<Label>(label_count)).run();
 }
 
 }  // namespace mw::audit

@@ -20,10 +20,10 @@ inline constexpr const char* kScratchPrefix = ".mwmesh-scratch-";
 /// Bytes by place.
 /// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
 /// the folder cannot be written.  Thread safety: different places may be used at once.
-class NamelessFile {
+class UnlinkedFile {
  public:
   /// REQUIRES: an existing folder.
-  explicit NamelessFile(const std::filesystem::path& folder);
+  explicit UnlinkedFile(const std::filesystem::path& folder);
 
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
   /// REQUIRES: the bytes were written.

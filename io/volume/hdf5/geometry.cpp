@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Spacing and origin from the attributes of an HDF5 data set.
-#include "io/volume/hdf5/place.h"
+#include "io/volume/hdf5/geometry.h"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Temporary files: what was written is read, no name is left, and errors name the folder.
-#include "io/file/nameless_file.h"
+#include "io/file/unlinked_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -24,19 +24,19 @@ std::vector<std::byte> random_bytes(std::mt19937& random, std::size_t count) {
 }
 
 /// Making a name, be it for an instant, shows in the time of the folder.
-TEST(NamelessFile, NeverHasANameWhereTheFileSystemCanDoWithout) {
+TEST(UnlinkedFile, NeverHasANameWhereTheFileSystemCanDoWithout) {
   const TempDir dir;
   const FileDescriptor probe(::open(dir.path().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (!probe.valid()) GTEST_SKIP() << "files need names here";
   const auto past = std::filesystem::last_write_time(dir.path()) - std::chrono::hours(1);
   std::filesystem::last_write_time(dir.path(), past);
-  const NamelessFile file(dir.path());
+  const UnlinkedFile file(dir.path());
   EXPECT_EQ(std::filesystem::last_write_time(dir.path()), past);
 }
 
-TEST(NamelessFile, HoldsWhatWasWrittenAndHasNoName) {
+TEST(UnlinkedFile, HoldsWhatWasWrittenAndHasNoName) {
   const TempDir dir;
-  const NamelessFile file(dir.path());
+  const UnlinkedFile file(dir.path());
   EXPECT_EQ(dir.entries(), 0U);
   std::mt19937 random(1051);
   std::vector<std::byte> expected(100000);
@@ -63,8 +63,8 @@ TEST(ScratchFile, ReadsBackWhatWasAppended) {
   std::mt19937 random(1052);
   std::vector<std::byte> expected;
   for (int i = 0; i < 60; ++i) {
-    const std::size_t most = i % 10 == 9 ? 600000 : 3000;
-    const std::vector<std::byte> bytes = random_bytes(random, random() % most);
+    const std::size_t max = i % 10 == 9 ? 600000 : 3000;
+    const std::vector<std::byte> bytes = random_bytes(random, random() % max);
     file.append(bytes);
     expected.insert(expected.end(), bytes.begin(), bytes.end());
     ASSERT_EQ(file.size(), expected.size());
@@ -88,16 +88,16 @@ void expect_error(ErrorKind kind, const std::string& folder, Action action) {
   }
 }
 
-TEST(NamelessFile, NamesTheFolderThatIsNotThere) {
+TEST(UnlinkedFile, NamesTheFolderThatIsNotThere) {
   const TempDir dir;
   const std::filesystem::path missing = dir.path() / "missing";
-  expect_error(ErrorKind::kUsage, missing.string(), [&] { const NamelessFile file(missing); });
+  expect_error(ErrorKind::kUsage, missing.string(), [&] { const UnlinkedFile file(missing); });
   expect_error(ErrorKind::kUsage, missing.string(), [&] { const ScratchFile file(missing); });
 }
 
-TEST(NamelessFile, SaysSoWhenThereIsLessThanWasAskedFor) {
+TEST(UnlinkedFile, SaysSoWhenThereIsLessThanWasAskedFor) {
   const TempDir dir;
-  const NamelessFile file(dir.path());
+  const UnlinkedFile file(dir.path());
   std::vector<std::byte> bytes(10);
   file.write_at(0, bytes);
   expect_error(ErrorKind::kResource, dir.path().string(), [&] { file.read_at(5, bytes); });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // A file without a name, pread and pwrite.
-#include "io/file/nameless_file.h"
+#include "io/file/unlinked_file.h"
 
 #include <fcntl.h>
 
@@ -27,14 +27,14 @@ int open_and_unlink(const std::string& folder) {
 
 }  // namespace
 
-NamelessFile::NamelessFile(const std::filesystem::path& folder)
+UnlinkedFile::UnlinkedFile(const std::filesystem::path& folder)
     : folder_(folder.empty() ? "." : folder.string()) {
   file_ = FileDescriptor(open_nameless(folder_));
   if (!file_.valid()) file_ = FileDescriptor(open_and_unlink(folder_));
   if (!file_.valid()) fail_output(folder_, "create a temporary file there", errno);
 }
 
-void NamelessFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) const {
+void UnlinkedFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) const {
   while (!bytes.empty()) {
     const ssize_t wrote =
         ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -45,7 +45,7 @@ void NamelessFile::write_at(std::uint64_t offset, std::span<const std::byte> byt
   }
 }
 
-void NamelessFile::read_at(std::uint64_t offset, std::span<std::byte> out) const {
+void UnlinkedFile::read_at(std::uint64_t offset, std::span<std::byte> out) const {
   while (!out.empty()) {
     const ssize_t got = ::pread(file_.get(), out.data(), out.size(), static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;

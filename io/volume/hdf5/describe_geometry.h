@@ -17,6 +17,6 @@ namespace mw::io {
 /// To be called apart (io/file/apart.h) only.
 /// ERRORS: mw::Error(kInput) naming file and what cannot be read: a look-up that fails does not say
 /// that there is nothing.
-void find_place(hid_t hdf5, hid_t set, std::string_view file, Hdf5Description& description);
+void find_geometry(hid_t hdf5, hid_t set, std::string_view file, Hdf5Description& description);
 
 }  // namespace mw::io
