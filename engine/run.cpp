@@ -11,13 +11,14 @@
 #include "engine/forecast/run_forecast.h"
 #include "engine/labels/prepared_labels.h"
 #include "engine/labels/voxel_lattice.h"
-#include "engine/march/timed_visit.h"
+#include "engine/marches.h"
 #include "engine/store/damaged_work.h"
 #include "engine/store/run_identity.h"
 #include "engine/store/workdir.h"
 #include "engine/system/resident_memory.h"
 #include "engine/system/stopwatch.h"
 #include "engine/system/tbb_for.h"
+#include "engine/team_run.h"
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
 
@@ -34,95 +35,6 @@ std::vector<WindowGrid> march_grids(Index3 shape, const MeshSettings& settings) 
   }
   return grids;
 }
-
-double seconds_between(Visited::Time a, Visited::Time b) {
-  return std::chrono::duration<double>(b - a).count();
-}
-
-/// The marches of a run: who is told of what, and what all visits add up to.
-class Marches {
- public:
-  /// done: windows of an earlier run.
-  Marches(const RunHooks& hooks, RunForecast& forecast, std::uint64_t done, std::uint64_t total)
-      : hooks_(hooks), forecast_(forecast), total_(total), done_(done) {}
-
-  void run(int march_number, const WindowOrder& order, BlockStore& store,
-           const WindowVisitor& visitor) {
-    forecast_.begin_march([&](Index3 w) { return store.is_done(w); });
-    const std::uint64_t budget = hooks_.store.memory;
-    const bool is_ample = budget_is_ample(budget, order.grid(), thread_count(hooks_.threads));
-    if (!is_ample && hooks_.owns_process) return_large_pieces_at_once();
-    const WindowNeeds needs{.start_size =
-                                [&](Index3 block) {
-                                  return is_ample ? max_start_size(order.grid(), block)
-                                                  : visitor.start_size(block);
-                                },
-                            .max_distance = visitor.max_distance()};
-    const AdmitWindow admit = [&](Index3 window) -> Admission {
-      const std::uint64_t bytes = window_bytes(order.grid(), window, store, needs);
-      if (!is_ample && bytes < budget) return_free_memory_above(budget - bytes);
-      if (!store.admit(window, bytes)) return nullptr;
-      return std::make_shared<Index3>(window);
-    };
-    // Once a window has failed nobody will ask for the results of others.
-    std::atomic<bool> failed = false;
-    const VisitWindow visit = [&](Index3 window) {
-      if (failed) return;
-      try {
-        if (hooks_.before_visit) hooks_.before_visit(window);
-        add(visitor.visit(window));
-      } catch (...) {
-        failed = true;
-        throw;
-      }
-    };
-    const OnVisited tell = [&](const Visited& v) { note(march_number, v); };
-    if (hooks_.pick) {
-      const VisitWindow visit_and_tell = [&](Index3 w) {
-        const Admission admission = admit(w);
-        tell(timed_visit(visit, w, 0));
-      };
-      march_by_choice(order, visit_and_tell, hooks_.pick);
-      return;
-    }
-    march(order, visit,
-          {.threads = hooks_.threads,
-           .admit = admit,
-           .visited = tell,
-           .finished_before = [&](Index3 w) { return store.is_done(w); }});
-  }
-
-  [[nodiscard]] const VisitStats& stats() const { return stats_; }
-
- private:
-  void add(const VisitStats& visit) {
-    const std::lock_guard lock(mutex_);
-    stats_ += visit;
-  }
-
-  void note(int march_number, const Visited& v) {
-    if (hooks_.trace) {
-      hooks_.trace({.march = march_number,
-                    .window = v.window,
-                    .start_seconds = seconds_between(begin_, v.start),
-                    .end_seconds = seconds_between(begin_, v.end),
-                    .cpu_seconds = v.cpu_seconds,
-                    .slot = v.slot});
-    }
-    ++done_;
-    if (!hooks_.progress) return;
-    forecast_.visited(v.window);
-    hooks_.progress({.done = done_, .total = total_, .seconds_left = forecast_.seconds_left()});
-  }
-
-  const RunHooks& hooks_;
-  RunForecast& forecast_;
-  std::uint64_t total_;
-  std::uint64_t done_;
-  Visited::Time begin_ = std::chrono::steady_clock::now();
-  std::mutex mutex_;
-  VisitStats stats_;
-};
 
 /// The blocks of the last march; a run may be stopped while they are read.
 class FinishedBlocks : public FinalBlocks {
@@ -234,10 +146,12 @@ void report_shape(FinishedMesh& finished, const PreparedLabels& labels, const La
   }
 }
 
-/// Everything between an open store and a written mesh.  workers: null without TetGen.
+/// Everything between an open store and a written mesh.  traffic: null where all windows are
+/// visited here; workers: null without TetGen.
 void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
                      const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
-                     const RunHooks& hooks, codt::WorkerPool* workers, RunReport& report) {
+                     const RunHooks& hooks, BlockTraffic* traffic, codt::WorkerPool* workers,
+                     RunReport& report) {
   Stopwatch watch;
   MemoryBudget::Reservation room;
   const PreparedLabels labels =
@@ -245,19 +159,27 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   watch.lap(report.prepare_seconds);
   const Metric metric(lattice.info().space.spacing);
   RunForecast forecast(labels.faces(), layout, settings, report.threads);
-  Marches marches(hooks, forecast, store.facts().resumed_windows, layout.windows());
+  if (traffic != nullptr) {
+    traffic->deal(deal_windows(*hooks.team, layout, settings, labels.faces()));
+  }
+  Marches marches(hooks, layout, forecast, store.facts().resumed_windows, traffic);
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
     if (report.threads > 1) visitor.seed_with(tbb_for);
-    const WindowOrder order(layout.grid(i), settings.order);
-    if (i + 1 == layout.marches()) visitor.polish(order);
+    if (i + 1 == layout.marches()) visitor.polish(layout.order(i));
     if (i + 1 == layout.marches() && workers != nullptr) {
       visitor.reconnect_with([workers](const Plc& plc) { return workers->triangulate(plc); });
     }
-    marches.run(static_cast<int>(i), order, store.march(i), visitor);
+    marches.run(i, store.march(i), visitor);
   }
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();
+  if (traffic != nullptr) {
+    static_cast<VisitStats&>(report) = sum_of_all(*hooks.team, report);
+    report.traffic = sum_of_all(*hooks.team, traffic->facts());
+    if (!hooks.team->is_first()) return;
+    traffic->wait_for_output();
+  }
   watch.restart();
   FinishedMesh finished = write_mesh(layout, lattice, store, sink, hooks, forecast);
   watch.lap(report.output_seconds);
@@ -283,7 +205,7 @@ void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
   if (options.kept) options.kept();
 }
 
-/// mesh_volume() but for the way out of damaged work.
+/// mesh_volume() but for errors.
 RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::MeshSink& sink,
               const RunHooks& asked) {
   check(volume.info(), settings);
@@ -301,10 +223,18 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   std::optional<codt::WorkerPool> workers;
   if (settings.optimizer == Optimizer::kTetgen) workers.emplace(hooks.workers);
   const auto workdir = open_workdir(volume.info(), settings, hooks.store);
-  RunStore store(layout, budget, workdir.get(), hooks.store.group);
+  std::optional<BlockTraffic> traffic;
+  if (hooks.team != nullptr) {
+    agree(*hooks.team, hooks.store.identity + identity_text(volume.info(), settings));
+    traffic.emplace(layout, *hooks.team);
+  }
+  RunStore store(layout, budget, workdir.get(), hooks.store.group, traffic ? &*traffic : nullptr);
+  std::optional<BlockTraffic::Attached> attached;
+  if (traffic) attached.emplace(*traffic, store);
   try {
-    march_and_write(layout, lattice, settings, store, sink, hooks, workers ? &*workers : nullptr,
-                    report);
+    march_and_write(layout, lattice, settings, store, sink, hooks, traffic ? &*traffic : nullptr,
+                    workers ? &*workers : nullptr, report);
+    if (hooks.team != nullptr) wait_for_all(*hooks.team);
   } catch (const DamagedWork&) {
     // Nobody is told to go on from it; it stays for whoever wants to know what happened.
     if (workdir != nullptr && store.has_saved_work()) workdir->keep();
@@ -323,16 +253,28 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   return report;
 }
 
-}  // namespace
-
-RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
-                      io::MeshSink& sink, const RunHooks& hooks) {
+/// The same, with the way out of damaged work.
+RunReport run_and_explain(const io::DenseVolume& volume, const MeshSettings& settings,
+                          io::MeshSink& sink, const RunHooks& hooks) {
   try {
     return run(volume, settings, sink, hooks);
   } catch (const DamagedWork& damage) {
     const std::string folder = hooks.store.workdir.string();
     throw Error(damage.kind(), io::text(damage.what(), "; the disk or ", folder,
                                         " is damaged: delete that folder and start again"));
+  }
+}
+
+}  // namespace
+
+RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
+                      io::MeshSink& sink, const RunHooks& hooks) {
+  if (hooks.team == nullptr) return run_and_explain(volume, settings, sink, hooks);
+  try {
+    return run_and_explain(volume, settings, sink, hooks);
+  } catch (...) {
+    tell(*hooks.team, std::current_exception());
+    throw;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "engine/codt/worker_pool.h"
+#include "engine/exchange/block_traffic.h"
 #include "engine/march/march.h"
 #include "engine/output/finish.h"
 #include "engine/settings/settings.h"
@@ -42,6 +43,7 @@ struct RunReport : VisitStats {
   std::uint64_t peak_accounted_bytes = 0;
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
   StoreFacts store;
+  TrafficFacts traffic;                    ///< of all processes
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
 };
 
@@ -78,6 +80,10 @@ struct RunHooks {
   OutputOptions output;
   StoreOptions store;         ///< memory and disk
   codt::PoolOptions workers;  ///< of Optimizer::kTetgen
+  /// The processes that the run is shared with; null: there are no others.  All of them call
+  /// mesh_volume() with the same volume and settings; only rank 0 uses its sink, and the others
+  /// return when its output is complete.  Store options and threads are each one's own.
+  Team* team = nullptr;
   /// Under a tight budget the allocator is told to give large pieces back at once (mallopt).
   bool owns_process = false;
 };

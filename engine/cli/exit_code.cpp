@@ -11,16 +11,6 @@
 #include "engine/cli/interrupt.h"
 
 namespace mw::cli {
-namespace {
-
-/// stdio, since it needs no memory when there is none left.
-int fail(int code, const char* what, const char* message) {
-  std::fprintf(stderr, "mwmesh: error: %s%s\n", what, message);
-  return code;
-}
-
-}  // namespace
-
 int exit_code(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::kInternal:
@@ -37,7 +27,12 @@ int exit_code(ErrorKind kind) {
   return kExitInternal;
 }
 
-int guarded(const std::function<int()>& action) noexcept {
+int guarded(const std::function<int()>& action, bool quiet) noexcept {
+  // stdio, since it needs no memory when there is none left.
+  const auto fail = [quiet](int code, const char* what, const char* message) {
+    if (!quiet) std::fprintf(stderr, "mwmesh: error: %s%s\n", what, message);
+    return code;
+  };
   try {
     return action();
   } catch (const Error& error) {

@@ -20,7 +20,8 @@ inline constexpr int kExitInterrupted = 130;
 
 [[nodiscard]] int exit_code(ErrorKind kind);
 
-/// Runs action; any exception becomes "mwmesh: error: ..." on stderr and its exit code.
-[[nodiscard]] int guarded(const std::function<int()>& action) noexcept;
+/// Runs action; any exception becomes "mwmesh: error: ..." on stderr, unless quiet, and its exit
+/// code.
+[[nodiscard]] int guarded(const std::function<int()>& action, bool quiet = false) noexcept;
 
 }  // namespace mw::cli

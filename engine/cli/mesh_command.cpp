@@ -13,6 +13,7 @@
 #include "engine/cli/log.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/page/run_page.h"
+#include "engine/cli/shared_runs.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
 #include "engine/report/mesh_facts.h"
@@ -46,11 +47,25 @@ bool is_measured(const MeshRequest& request) {
   return !request.report.empty() || !request.html.empty();
 }
 
+/// Of a rank that writes nothing.
+class NoSink : public io::MeshSink {
+ public:
+  void begin(const io::MeshHeader& /*header*/) override {}
+  void write_vertices(std::span<const io::Position> /*positions*/) override {}
+  void write_tets(std::span<const io::TetRows> /*tets*/,
+                  std::span<const RawLabel> /*labels*/) override {}
+  void finish() override {}
+};
+
+std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request) {
+  if (shared_team() != nullptr && !shared_team()->is_first()) return std::make_unique<NoSink>();
+  return io::open_mesh_sink(request.output, request.element,
+                            request.ascii ? io::Encoding::kText : io::Encoding::kUsual);
+}
+
 /// The files of a run, created before any work so that a bad path fails at once.
 struct MeshFiles {
-  explicit MeshFiles(const MeshRequest& request)
-      : sink(io::open_mesh_sink(request.output, request.element,
-                                request.ascii ? io::Encoding::kText : io::Encoding::kUsual)) {
+  explicit MeshFiles(const MeshRequest& request) : sink(open_sink(request)) {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
@@ -90,7 +105,8 @@ engine::MeshJob job_of(const MeshRequest& request) {
           .save_every = request.save_every,
           .is_measured = is_measured(request),
           .folder = request.output.parent_path(),
-          .owns_process = true};
+          .owns_process = true,
+          .team = shared_team()};
 }
 
 /// Says where the work is when a run that ends early leaves some.
@@ -183,11 +199,13 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   (void)engine::plan_certificate(job_of(request));  // refused before any file is opened
   const report::ResourceMeter meter;
+  const RankFolders folders(request, shared_team());
   MeshFiles files(request);
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
   report::FinishedRun run = mesh_into(request, *volume, files);
   if (files.trace) files.trace->finish();
+  if (shared_team() != nullptr && !shared_team()->is_first()) return kExitDone;
   tell_resume(request, run.engine.store);
   run.resources = meter.read();
   print_summary(run, request);
@@ -209,12 +227,15 @@ int run_mesh(MeshCommand& job) {
   std::optional<std::filesystem::path> config;
   if (!job.config.empty()) config = job.config;
   job.options.resolve(config);
+  engine::Team* team = shared_team();
+  const bool speaks = team == nullptr || team->is_first();
   if (job.print_config) {
-    std::cout << job.options.toml();
+    if (speaks) std::cout << job.options.toml();
     return kExitDone;
   }
   check_mesh_request(job.request);
-  start_log(job.request.log_level);
+  start_log(speaks ? job.request.log_level : "off");
+  if (team != nullptr) take_part(job.request, *team);
   job.request.threads = threads_at_hand(job.request.threads);
   return mesh(job.request, job.options);
 }

@@ -11,7 +11,9 @@
 #include "engine/cli/commands.h"
 #include "engine/cli/environment.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/shared_runs.h"
 #include "engine/cli/unknown_word.h"
+#include "engine/team_run.h"
 
 namespace mw::cli {
 namespace {
@@ -40,6 +42,11 @@ void add_commands(CLI::App& app, Action& chosen) {
   }
 }
 
+/// What is printed here comes from rank 0.
+bool is_silent() {
+  return shared_team() != nullptr && !shared_team()->is_first();
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app(kAbout, "mwmesh");
   Action chosen;
@@ -47,11 +54,15 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);  // --help and --version
+    return is_silent() ? kExitDone : app.exit(success);  // --help and --version
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::kUsage, explain(app, error));
   }
   if (!chosen) throw Error(ErrorKind::kUsage, "a subcommand is needed; see mwmesh --help");
+  if (shared_team() != nullptr && !app.got_subcommand("mesh")) {
+    throw Error(ErrorKind::kUsage,
+                "mwmesh-mpi shares out mesh; for everything else there is mwmesh");
+  }
   if (!app.got_subcommand("generate")) refuse_unknown_variables(app);
   const int code = chosen();
   if (!std::cout.flush()) throw Error(ErrorKind::kResource, "cannot write to standard output");
@@ -64,6 +75,23 @@ int run_program(int argc, char** argv) noexcept {
   // A file size limit is then a failed write with a message instead of a silent death.
   (void)std::signal(SIGXFSZ, SIG_IGN);
   return guarded([&] { return parse_and_run(argc, argv); });
+}
+
+int run_shared_program(int argc, char** argv, engine::Exchange& exchange) noexcept {
+  (void)std::signal(SIGXFSZ, SIG_IGN);
+  const bool quiet = exchange.rank() != 0;
+  return guarded(
+      [&] {
+        engine::Team team(exchange);
+        share_runs_with(&team);
+        try {
+          return parse_and_run(argc, argv);
+        } catch (...) {
+          tell(team, std::current_exception());
+          throw;
+        }
+      },
+      quiet);
 }
 
 }  // namespace mw::cli

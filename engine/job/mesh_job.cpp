@@ -36,6 +36,7 @@ RunHooks run_hooks(const MeshJob& job, const io::LabelTable& table, const JobHoo
                 .measure_shape = job.is_measured,
                 .measure_edges = job.is_measured && !job.settings.sizes.labels.empty()};
   out.owns_process = job.owns_process;
+  out.team = job.team;
   return out;
 }
 

@@ -35,6 +35,7 @@ struct MeshJob {
   /// Whether the allocator of the process may be told to give large pieces back at once, as a tight
   /// budget wants it.
   bool owns_process = false;
+  Team* team = nullptr;  ///< see RunHooks
 };
 
 /// Who looks on.  Nothing here changes the result.

@@ -7,7 +7,9 @@
 #include <oneapi/tbb/flow_graph.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <atomic>
 #include <exception>
+#include <memory>
 #include <tuple>
 
 #include "engine/march/timed_visit.h"
@@ -17,9 +19,9 @@ namespace {
 
 namespace flow = oneapi::tbb::flow;
 
-/// What the visitor sends to the keeper.
+/// What the visitor sends to the keeper; without a visit, that something came in.
 struct Outcome {
-  Visited visited;
+  std::optional<Visited> visited;
   std::exception_ptr error;
 };
 
@@ -30,7 +32,7 @@ Outcome visit_window(const VisitWindow& visit, Index3 window) {
   try {
     return {timed_visit(visit, window, oneapi::tbb::this_task_arena::current_thread_index()), {}};
   } catch (...) {
-    return {{.window = window, .start = {}, .end = {}}, std::current_exception()};
+    return {Visited{.window = window, .start = {}, .end = {}}, std::current_exception()};
   }
 }
 
@@ -39,22 +41,29 @@ Outcome visit_window(const VisitWindow& visit, Index3 window) {
 class Dispatcher {
  public:
   Dispatcher(const WindowOrder& order, const MarchOptions& options, int threads)
-      : order_(order),
-        options_(options),
-        threads_(static_cast<std::size_t>(threads)),
-        wavefront_(order,
-                   options.look_ahead > 0 ? options.look_ahead : default_look_ahead(threads_),
-                   options.finished_before) {}
+      : order_(order), options_(options), threads_(static_cast<std::size_t>(threads)) {
+    const std::uint64_t ahead =
+        options.look_ahead > 0 ? options.look_ahead : default_look_ahead(threads_);
+    if (options.share == nullptr) {
+      front_ = std::make_unique<Wavefront>(order, ahead, options.finished_before);
+    } else {
+      auto front =
+          std::make_unique<ArrivalFront>(order, *options.share, ahead, options.finished_before);
+      arrival_front_ = front.get();
+      front_ = std::move(front);
+    }
+  }
 
   /// Takes an outcome in.
   void finish(const Outcome& outcome) {
-    const std::uint64_t rank = order_.rank(outcome.visited.window);
+    if (!outcome.visited) return look_at_arrivals();
+    const std::uint64_t rank = order_.rank(outcome.visited->window);
     std::erase_if(running_, [&](const Running& r) { return r.rank == rank; });
     if (outcome.error) return note(rank, outcome.error);
-    wavefront_.finish(rank);
+    front_->finish(rank);
     if (error_ || !options_.visited) return;
     try {
-      options_.visited(outcome.visited);
+      options_.visited(*outcome.visited);
     } catch (...) {
       note(rank, std::current_exception());
     }
@@ -64,12 +73,17 @@ class Dispatcher {
   /// no window may start.
   [[nodiscard]] std::optional<Index3> next() {
     if (error_ || running_.size() == threads_) return std::nullopt;
-    const std::optional<std::uint64_t> best = wavefront_.best();
+    const std::optional<std::uint64_t> best = front_->best();
     if (!best) return std::nullopt;
     if (try_start(*best)) return order_.window(*best);
-    const std::uint64_t first = wavefront_.first_unfinished();
-    if (error_ || !wavefront_.is_ready(first) || !try_start(first)) return std::nullopt;
+    const std::uint64_t first = front_->first_unfinished();
+    if (error_ || !front_->is_ready(first) || !try_start(first)) return std::nullopt;
     return order_.window(first);
+  }
+
+  /// Whether other processes may still bring something to do.
+  [[nodiscard]] bool waits() const {
+    return arrival_front_ != nullptr && !error_ && front_->first_unfinished() < order_.size();
   }
 
   void rethrow_error() const {
@@ -91,11 +105,18 @@ class Dispatcher {
       note(rank, std::current_exception());
       return false;
     }
-    const bool must_start = running_.empty() && rank == wavefront_.first_unfinished();
+    // What other processes have not taken yet may hold the room: then it is asked again.
+    const bool must_start =
+        arrival_front_ == nullptr && running_.empty() && rank == front_->first_unfinished();
     if (options_.admit && !admission && !must_start) return false;
-    wavefront_.start(rank);
+    front_->start(rank);
     running_.push_back({rank, std::move(admission)});
     return true;
+  }
+
+  void look_at_arrivals() {
+    if (const auto error = options_.share->arrivals->error()) note(order_.size(), error);
+    arrival_front_->poll();
   }
 
   void note(std::uint64_t rank, std::exception_ptr error) {
@@ -107,34 +128,78 @@ class Dispatcher {
   const WindowOrder& order_;
   const MarchOptions& options_;
   std::size_t threads_;
-  Wavefront wavefront_;
+  std::unique_ptr<Front> front_;
+  ArrivalFront* arrival_front_ = nullptr;  ///< with a share: the same
   std::vector<Running> running_;
   std::exception_ptr error_;
   std::uint64_t error_rank_ = 0;
 };
 
-/// Runs the graph in the calling thread's arena.
-void run_graph(Dispatcher& dispatcher, const VisitWindow& visit) {
+/// Keeps a graph alive while other processes may bring something to do, and wakes it when they do.
+class Waiting {
+ public:
+  Waiting(flow::graph& graph, Keeper& keeper, const Dispatcher& dispatcher, Arrivals* arrivals)
+      : graph_(graph), dispatcher_(dispatcher), arrivals_(arrivals) {
+    if (arrivals_ == nullptr) return;
+    graph_.reserve_wait();
+    arrivals_->on_wake([&keeper] { keeper.try_put(Outcome{}); });
+  }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  ~Waiting() { end(); }
+
+  /// By the keeper, after each outcome.
+  void release_if_over() {
+    if (!dispatcher_.waits()) release();
+  }
+  /// ENSURES: nobody wakes the graph any more; what is on its way still has to run.
+  void end() {
+    if (arrivals_ != nullptr) arrivals_->on_wake({});
+    release();
+  }
+
+ private:
+  void release() {
+    if (arrivals_ != nullptr && !released_.exchange(true)) graph_.release_wait();
+  }
+
+  flow::graph& graph_;
+  const Dispatcher& dispatcher_;
+  Arrivals* arrivals_;
+  std::atomic<bool> released_ = false;
+};
+
+/// Runs the graph in the calling thread's arena.  arrivals: null without a share.
+void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arrivals) {
   flow::graph graph;
   Visitor visitor(graph, flow::unlimited,
                   [&](Index3 window) { return visit_window(visit, window); });
+  Waiting* waiting = nullptr;
   Keeper keeper(graph, flow::serial, [&](const Outcome& outcome, Keeper::output_ports_type& out) {
     dispatcher.finish(outcome);
     while (const auto window = dispatcher.next()) std::get<0>(out).try_put(*window);
+    waiting->release_if_over();
   });
   flow::make_edge(visitor, keeper);
   flow::make_edge(flow::output_port<0>(keeper), visitor);
   // All of the first windows are chosen before one is sent: from then on the keeper may be at work.
   std::vector<Index3> first;
   while (const auto window = dispatcher.next()) first.push_back(*window);
+  Waiting wait(graph, keeper, dispatcher, arrivals);
+  waiting = &wait;
   try {
     for (Index3 window : first) visitor.try_put(window);
+    // What came in meanwhile, or nothing to do at all.
+    if (arrivals != nullptr) arrivals->wake();
   } catch (...) {
     // No memory for a message: those that were sent must be over before the nodes go.
+    wait.end();
     graph.cancel();
     graph.wait_for_all();
     throw;
   }
+  graph.wait_for_all();
+  wait.end();
   graph.wait_for_all();
 }
 
@@ -143,7 +208,8 @@ void run_graph(Dispatcher& dispatcher, const VisitWindow& visit) {
 void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options,
                 Crew& crew) {
   Dispatcher dispatcher(order, options, crew.size());
-  crew.run([&] { run_graph(dispatcher, visit); });
+  Arrivals* arrivals = options.share == nullptr ? nullptr : options.share->arrivals;
+  crew.run([&] { run_graph(dispatcher, visit, arrivals); });
   dispatcher.rethrow_error();
 }
 

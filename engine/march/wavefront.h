@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The bookkeeping of a march: which windows are ready, in memory that does not grow with the
-// volume.
+// The front of a process that visits all windows, in memory that does not grow with the volume.
 #pragma once
 
 #include <functional>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/march/front.h"
 #include "engine/march/window_order.h"
 
 namespace mw::engine {
@@ -32,25 +32,22 @@ using IsFinished = std::function<bool(Index3 window)>;
 ///
 /// Memory: min(look_ahead, windows) bytes, and at most as many ready windows.
 /// Cost: O(log look_ahead) a window.  Thread safety: none.
-class Wavefront {
+class Wavefront : public Front {
  public:
   /// REQUIRES: look_ahead >= 1; the windows finished before are closed under predecessors; order
   /// outlives this.
   Wavefront(const WindowOrder& order, std::uint64_t look_ahead, IsFinished finished_before = {});
 
-  /// The rank of the ready window with the longest path to go, of equals the first in sequence.
-  [[nodiscard]] std::optional<std::uint64_t> best() const;
-  /// The sequence's first unfinished window; size() at the end.  It is ready unless it runs.
-  [[nodiscard]] std::uint64_t first_unfinished() const { return first_; }
-  [[nodiscard]] bool is_ready(std::uint64_t rank) const;
+  [[nodiscard]] std::optional<std::uint64_t> best() const override;
+  /// It is ready unless it runs.
+  [[nodiscard]] std::uint64_t first_unfinished() const override { return first_; }
+  [[nodiscard]] bool is_ready(std::uint64_t rank) const override;
   [[nodiscard]] std::size_t ready_count() const { return ready_.size(); }
   /// Windows that it can hold at a time.
   [[nodiscard]] std::size_t capacity() const { return states_.size(); }
 
-  /// REQUIRES: ready.
-  void start(std::uint64_t rank);
-  /// REQUIRES: started, not finished.
-  void finish(std::uint64_t rank);
+  void start(std::uint64_t rank) override;
+  void finish(std::uint64_t rank) override;
 
  private:
   enum class State : std::uint8_t { kWaiting, kReady, kRunning, kFinished };

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/march/window_order.h"
 #include "kernels/core/assert.h"
 
 namespace mw::engine {
@@ -14,17 +13,6 @@ namespace {
 
 std::uint64_t count(Index3 shape) {
   return static_cast<std::uint64_t>(shape.product());
-}
-
-/// The windows that cover a block: one block apart, two blocks wide.
-Box3 windows_over(const WindowGrid& grid, Index3 block) {
-  const auto first = [](std::int64_t b) { return std::max<std::int64_t>(0, b - 1); };
-  const auto end = [](std::int64_t b, std::int64_t windows) {
-    return std::min(b, windows - 1) + 1;
-  };
-  const Index3 w = grid.windows();
-  return {{first(block.x), first(block.y), first(block.z)},
-          {end(block.x, w.x), end(block.y, w.y), end(block.z, w.z)}};
 }
 
 }  // namespace
@@ -67,13 +55,24 @@ std::vector<BlockKey> RunLayout::parts(const BlockKey& key) const {
   return out;
 }
 
+/// Windows are one block apart, two blocks wide.
+Box3 RunLayout::windows_over(const BlockKey& key) const {
+  const auto first = [](std::int64_t b) { return std::max<std::int64_t>(0, b - 1); };
+  const auto end = [](std::int64_t b, std::int64_t windows) {
+    return std::min(b, windows - 1) + 1;
+  };
+  const Index3 block = key.block, w = grids_[key.march].windows();
+  return {{first(block.x), first(block.y), first(block.z)},
+          {end(block.x, w.x), end(block.y, w.y), end(block.z, w.z)}};
+}
+
 std::optional<std::uint64_t> RunLayout::next_window(const BlockKey& key,
                                                     const DoneWindows& done) const {
-  const WindowGrid& grid = grids_[key.march];
+  const WindowOrder of_march = order(key.march);
   std::optional<std::uint64_t> next;
-  for_each_index(windows_over(grid, key.block), [&](Index3 w) {
+  for_each_index(windows_over(key), [&](Index3 w) {
     if (done.contains(window({key.march, w}))) return;
-    const std::uint64_t time = first_window_[key.march] + WindowOrder(grid, order_).rank(w);
+    const std::uint64_t time = first_window_[key.march] + of_march.rank(w);
     if (!next || time < *next) next = time;
   });
   return next;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/march/window_order.h"
 #include "engine/settings/settings.h"
 #include "engine/store/block_codec.h"
 #include "engine/window/window_grid.h"
@@ -16,6 +17,8 @@ namespace mw::engine {
 struct WindowKey {
   std::uint32_t march = 0;
   Index3 window;
+
+  friend bool operator==(const WindowKey&, const WindowKey&) = default;
 };
 
 /// Windows that are finished, by number.  Thread safety: none.
@@ -55,6 +58,11 @@ class RunLayout {
 
   /// REQUIRES: key.march > 0.
   [[nodiscard]] std::vector<BlockKey> parts(const BlockKey& key) const;
+
+  /// The march's windows in their sequence.
+  [[nodiscard]] WindowOrder order(std::uint32_t march) const { return {grids_[march], order_}; }
+  /// The windows of its march that cover a block: a box of them.
+  [[nodiscard]] Box3 windows_over(const BlockKey& key) const;
 
   /// A point on the run's time line: the first window that is not done and covers the block or
   /// what it becomes a part of; past all marches, its turn in the output.

@@ -73,10 +73,11 @@ class RunStore::March : public BlockStore {
 };
 
 RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* files,
-                   const GroupCommit& group)
+                   const GroupCommit& group, BlockRouter* router)
     : layout_(layout),
       budget_(budget),
       limits_(group),
+      router_(router),
       index_room_(budget.reserve(Purpose::kIndex, index_bytes(layout))),
       done_(layout.windows()),
       disk_(open_disk(files)),
@@ -84,7 +85,7 @@ RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* fil
   for (std::uint32_t m = 0; m < layout.marches(); ++m) {
     marches_.push_back(std::make_unique<March>(*this, m));
   }
-  if (files == nullptr) return;
+  if (files == nullptr || router != nullptr) return;
   journal_ = std::make_unique<Journal>(files->open(kJournalFile));
   restore();
 }
@@ -217,9 +218,14 @@ MemoryBudget::Reservation RunStore::reserve(Purpose purpose, std::uint64_t bytes
 
 BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh,
                           MemoryBudget::Reservation& room) {
+  return hold(encode_block(key, mesh), memory_bytes(mesh), room);
+}
+
+BlockPin RunStore::hold(std::vector<std::byte> encoded, std::uint64_t memory_bytes,
+                        MemoryBudget::Reservation& room) {
   auto block = std::make_shared<EncodedBlock>();
-  block->bytes = encode_block(key, mesh);
-  block->memory_bytes = memory_bytes(mesh);
+  block->bytes = std::move(encoded);
+  block->memory_bytes = memory_bytes;
   const std::uint64_t bytes = cost_of(block->bytes.size());
   block->room = room.bytes() >= bytes ? budget_.carve(room, Purpose::kBlocks, bytes)
                                       : reserve(Purpose::kBlocks, bytes);
@@ -227,9 +233,11 @@ BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh,
 }
 
 bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
+  // Asked first: when it leaves afterwards, the march is told and asks again.
+  const bool is_sending = router_ != nullptr && router_->is_sending();
   auto room = try_reserve(Purpose::kWindows, bytes);
   const std::lock_guard lock(mutex_);
-  if (!room && in_flight_.empty()) budget_.fail(bytes);
+  if (!room && in_flight_.empty() && !is_sending) budget_.fail(bytes);
   if (!room) return false;
   in_flight_.emplace(layout_.window(key), std::move(*room));
   return true;
@@ -253,18 +261,20 @@ void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
   bool full = false;
   {
     const std::lock_guard lock(mutex_);
-    replace(key, keys, std::move(pins));
+    replace(key, keys, pins);
     in_flight_.erase(layout_.window(key));  // now all that it held can be spilled
     full = group_is_full();
   }
+  if (router_ != nullptr) send_away(key, keys, std::move(pins));
   if (!full) return;
   const std::unique_lock turn(saving_, std::try_to_lock);  // else another thread is at it
   if (turn.owns_lock()) write_group();
 }
 
-/// The blocks leave the table under their old turns, the window is done, they enter it again.
+/// The blocks leave the table under their old turns, the window is done, and those whose next user
+/// is here enter it again.
 void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
-                       std::vector<BlockPin> pins) {
+                       std::vector<BlockPin>& pins) {
   std::vector<std::uint64_t> slots;
   for (const BlockKey& block : blocks) {
     slots.push_back(layout_.slot(block));
@@ -274,10 +284,42 @@ void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
     table_.remove(slots.back());
   }
   done_.insert(layout_.window(key));
-  for (std::size_t i = 0; i < slots.size(); ++i) table_.put(slots[i], std::move(pins[i]));
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (stays(key, blocks[i])) table_.put(slots[i], std::move(pins[i]));
+  }
   if (journal_ == nullptr) return;
   group_.windows.push_back(layout_.window(key));
   group_.slots.insert(group_.slots.end(), slots.begin(), slots.end());
+}
+
+/// pins: null of those that are in the table.
+void RunStore::send_away(const WindowKey& key, std::span<const BlockKey> blocks,
+                         std::vector<BlockPin> pins) {
+  std::vector<BlockVersion> here;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const BlockVersion version{blocks[i], key};
+    if (pins[i] == nullptr) {
+      here.push_back(version);
+    } else {
+      router_->send(version, std::move(pins[i]));
+    }
+  }
+  router_->committed(here);
+}
+
+/// The windows over the block that came before are done, wherever they were: the block's turn is
+/// that of the window that waits for it.
+void RunStore::receive(const BlockVersion& version, std::vector<std::byte> bytes,
+                       std::uint64_t memory_bytes) {
+  MemoryBudget::Reservation none;
+  BlockPin pin = hold(std::move(bytes), memory_bytes, none);
+  const WindowOrder order = layout_.order(version.block.march);
+  const std::uint64_t from = order.rank(version.from.window);
+  const std::lock_guard lock(mutex_);
+  for_each_index(layout_.windows_over(version.block), [&](Index3 w) {
+    if (order.rank(w) <= from) done_.insert(layout_.window({version.block.march, w}));
+  });
+  table_.put(layout_.slot(version.block), std::move(pin));
 }
 
 }  // namespace mw::engine

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 
+#include "engine/store/block_route.h"
 #include "engine/store/block_table.h"
 #include "engine/window/block_store.h"
 
@@ -17,6 +18,21 @@ namespace mw::engine {
 struct GroupCommit {
   std::uint64_t windows = 1 << 12;        ///< at most so many in a group, whose record is in memory
   std::chrono::milliseconds age{10'000};  ///< at most so long after the group before
+};
+
+/// Where blocks go that this process does not need next, in a run of several.
+/// Thread safety: all members may be called from many threads.
+class BlockRouter {
+ public:
+  virtual ~BlockRouter() = default;
+  /// Whether the next user of this version is here.
+  [[nodiscard]] virtual bool stays(const BlockVersion& version) const = 0;
+  /// Takes over a version whose next user is elsewhere.
+  virtual void send(const BlockVersion& version, BlockPin block) = 0;
+  /// Versions that stay can be taken from now on.
+  virtual void committed(std::span<const BlockVersion> versions) = 0;
+  /// Whether blocks that were taken over still hold memory.
+  [[nodiscard]] virtual bool is_sending() const = 0;
 };
 
 struct StoreFacts {
@@ -38,11 +54,12 @@ struct StoreFacts {
 class RunStore {
  public:
   /// Goes on from what the journal among `files` holds.
-  /// REQUIRES: layout, budget and files (null: none) outlive it.
+  /// router: null where all windows are visited here; with one nothing is journalled.
+  /// REQUIRES: layout, budget, files (null: none) and router outlive it.
   /// ERRORS: mw::Error(kResource) when the index alone exceeds the budget; kInput when the journal
   /// is damaged.
   RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* files,
-           const GroupCommit& group = {});
+           const GroupCommit& group = {}, BlockRouter* router = nullptr);
   ~RunStore();
 
   /// The store as the windows of one march see it.  It lives as long as this.
@@ -53,6 +70,11 @@ class RunStore {
                                                                      std::uint64_t bytes);
   /// The same.  ERRORS: mw::Error(kResource) with the least that works.
   [[nodiscard]] MemoryBudget::Reservation reserve(Purpose purpose, std::uint64_t bytes);
+
+  /// Takes in a version that another process left: `bytes` as its pin had them.
+  /// ERRORS: mw::Error(kResource) when there is no room for it.
+  void receive(const BlockVersion& version, std::vector<std::byte> bytes,
+               std::uint64_t memory_bytes);
 
   /// Makes durable what is finished.  ENSURES: nothing happens without a work folder, or after an
   /// error in an earlier group.
@@ -87,7 +109,14 @@ class RunStore {
   /// Its memory comes out of `room` if it fits there.
   [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh,
                                 MemoryBudget::Reservation& room);
-  void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin> pins);
+  void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin>& pins);
+  [[nodiscard]] BlockPin hold(std::vector<std::byte> bytes, std::uint64_t memory_bytes,
+                              MemoryBudget::Reservation& room);
+  [[nodiscard]] bool stays(const WindowKey& key, const BlockKey& block) const {
+    return router_ == nullptr || router_->stays({block, key});
+  }
+  void send_away(const WindowKey& key, std::span<const BlockKey> blocks,
+                 std::vector<BlockPin> pins);
   [[nodiscard]] bool group_is_full() const;
   void write_group();
   [[nodiscard]] JournalRecord close_group(std::vector<Extent>& retired);
@@ -97,6 +126,7 @@ class RunStore {
   const RunLayout& layout_;
   MemoryBudget& budget_;
   const GroupCommit limits_;
+  BlockRouter* router_;
   MemoryBudget::Reservation index_room_;
   std::vector<std::unique_ptr<March>> marches_;
 

@@ -37,6 +37,9 @@ bool is_standard(const std::string& name) {
   return name.find_first_of("./") == name.npos;
 }
 
+/// Part of a program of its own, for machines that have MPI.
+constexpr const char* kMpiUser = "engine/mpi/";
+
 /// What the system offers beside C++.
 bool is_posix(const std::string& name) {
   return name.starts_with("sys/") ||
@@ -107,6 +110,8 @@ const Room kRooms[] = {
     {"engine/verify/", {"engine/labels/", "engine/system/"}},
     {"engine/report/",
      {"engine/run.h", "engine/settings/", "engine/system/", "engine/verify/", "engine/version.h"}},
+    // Messages know no blocks; their traffic does.
+    {"engine/exchange/", {"engine/march/", "engine/store/", "engine/window/window_grid.h"}},
     // The main job as program and library start it.
     {"engine/job/", {"engine/"}},
 };
@@ -131,6 +136,13 @@ bool engine_may(const std::string& file, const Include& include) {
     return false;
   if (name.starts_with("engine/")) return room_may(file, name);
   return is_below(name, {"kernels/", "io/"});
+}
+
+bool mpi_may(const Include& include) {
+  const std::string& name = include.name;
+  if (!include.quoted) return is_standard(name) || is_posix(name) || name == "mpi.h";
+  return is_below(name,
+                  {"engine/cli/", "engine/exchange/exchange.h", "engine/mpi/", "kernels/core/"});
 }
 
 bool cli_may(const Include& include) {
@@ -158,6 +170,7 @@ bool may(const std::string& file, const Include& include) {
   if (file == "engine/mwmesh.h") return !include.quoted && is_standard(include.name);
   if (file.starts_with("engine/api/")) return api_may(include);
   if (file.starts_with("engine/cli/")) return cli_may(include);
+  if (file.starts_with(kMpiUser)) return mpi_may(include);
   return file.starts_with("engine/") && engine_may(file, include);
 }
 

@@ -46,14 +46,14 @@ struct Sampled {
 
 /// What constrained ODT must leave alone, by ids.
 struct Fixed {
-  std::map<VertexId, Point> positions;
+  std::map<VertexId, Point> by_id;
   std::set<std::pair<std::array<VertexId, 3>, std::vector<Label>>> borders;
   std::map<Label, std::int64_t> volumes;
 
   explicit Fixed(const TetMesh& mesh) {
     for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
       if (!mesh.is_free(v) || mesh.planes(v) != 0 || mesh.on_interface(v)) {
-        positions[mesh.id(v)] = mesh.position(v);
+        by_id[mesh.id(v)] = mesh.position(v);
       }
     }
     const std::vector<Point> at = positions(mesh);

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Parcels: a block's slot, the window that left it, its decoded size, and its bytes.
+#include "engine/exchange/block_traffic.h"
+
+#include <utility>
+
+namespace mw::engine {
+namespace {
+
+Arrivals::Window window_of(const RunLayout& layout, const WindowKey& key) {
+  return {key.march, layout.order(key.march).rank(key.window)};
+}
+
+/// The rank that needs a version next.
+int user_of(const BlockRoute& route, const Partition& partition, const BlockVersion& version) {
+  const auto next = route.next_user(version);
+  return next ? partition.rank_of(*next) : 0;
+}
+
+}  // namespace
+
+BlockTraffic::Attached::Attached(BlockTraffic& traffic, RunStore& store) : team_(traffic.team_) {
+  BlockTraffic* to = &traffic;
+  team_.listen({.parcel =
+                    [to, &store](const Team::Head& head, std::vector<std::byte> bytes) {
+                      to->receive(store, head, std::move(bytes));
+                    },
+                .sent = [to] { to->arrivals_.wake(); },
+                .failed = [to](const Error& error) { to->end(std::make_exception_ptr(error)); }});
+}
+
+BlockTraffic::Attached::~Attached() {
+  team_.listen({});
+  team_.let_go();
+}
+
+BlockVersion BlockTraffic::version_of(const Team::Head& head) const {
+  const BlockKey block = layout_.key(head[0]);
+  return {block, {block.march, layout_.order(block.march).window(head[1])}};
+}
+
+void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes) {
+  const BlockVersion version = version_of(head);
+  try {
+    store.receive(version, std::move(bytes), head[2]);
+  } catch (const std::exception&) {
+    // No room: the march ends with it, if it still runs, or the output.
+    return end(std::current_exception());
+  }
+  note(version);
+  arrivals_.wake();
+}
+
+void BlockTraffic::end(std::exception_ptr error) {
+  arrivals_.fail(std::move(error));
+  const std::lock_guard lock(mutex_);  // whoever waits has looked before, or will after
+  changed_.notify_all();
+}
+
+void BlockTraffic::note(const BlockVersion& version) {
+  if (const auto next = route_.next_user(version)) return arrivals_.add(window_of(layout_, *next));
+  {
+    const std::lock_guard lock(mutex_);
+    ++final_blocks_;
+  }
+  changed_.notify_all();
+}
+
+int BlockTraffic::next_rank(const BlockVersion& version) const {
+  return user_of(route_, partition_, version);
+}
+
+bool BlockTraffic::stays(const BlockVersion& version) const {
+  return next_rank(version) == team_.rank();
+}
+
+void BlockTraffic::send(const BlockVersion& version, BlockPin block) {
+  ++blocks_sent_;
+  bytes_sent_ += block->bytes.size();
+  const Team::Head head{layout_.slot(version.block),
+                        layout_.order(version.block.march).rank(version.from.window),
+                        block->memory_bytes};
+  const std::vector<std::byte>* bytes = &block->bytes;
+  team_.send(next_rank(version), head, SharedBytes(std::move(block), bytes));
+}
+
+void BlockTraffic::committed(std::span<const BlockVersion> versions) {
+  for (const BlockVersion& version : versions) note(version);
+}
+
+void BlockTraffic::wait_for_output() {
+  const std::uint32_t last = layout_.marches() - 1;
+  const std::int64_t blocks = layout_.grid(last).blocks().product();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return final_blocks_ == blocks || arrivals_.error() != nullptr; });
+  if (const auto error = arrivals_.error()) std::rethrow_exception(error);
+}
+
+std::vector<std::uint64_t> blocks_sent(const RunLayout& layout, const Partition& partition,
+                                       int ranks) {
+  const BlockRoute route(layout);
+  std::vector<std::uint64_t> out(static_cast<std::size_t>(ranks));
+  for (std::uint32_t march = 0; march < layout.marches(); ++march) {
+    const WindowGrid& grid = layout.grid(march);
+    for_each_index(grid.windows(), [&](Index3 window) {
+      const WindowKey key{march, window};
+      const int from = partition.rank_of(key);
+      for (Index3 block : grid.blocks_of(window)) {
+        if (user_of(route, partition, {{march, block}, key}) != from) {
+          ++out[static_cast<std::size_t>(from)];
+        }
+      }
+    });
+  }
+  return out;
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Blocks between the processes of a run: each version goes to the one that needs it next.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+
+#include "engine/exchange/team.h"
+#include "engine/march/arrivals.h"
+#include "engine/store/partition.h"
+#include "engine/store/run_store.h"
+
+namespace mw::engine {
+
+/// What a process has sent.
+struct TrafficFacts {
+  std::uint64_t blocks = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// Sends versions whose next user is elsewhere, takes in those that come, and counts the inputs of
+/// own windows.  The output's user is rank 0.  Nobody asks for a block: it comes as soon as it is
+/// ready.
+/// Thread safety: as BlockRouter; the others from one thread.
+class BlockTraffic : public BlockRouter {
+ public:
+  /// The references outlive it.
+  BlockTraffic(const RunLayout& layout, Team& team)
+      : layout_(layout), route_(layout), team_(team) {}
+
+  /// While it lives, what comes goes into the store.
+  class Attached {
+   public:
+    Attached(BlockTraffic& traffic, RunStore& store);
+    Attached(const Attached&) = delete;
+    Attached& operator=(const Attached&) = delete;
+    /// ENSURES: no block is held by the exchange any more.
+    ~Attached();
+
+   private:
+    Team& team_;
+  };
+
+  /// Before anything is committed.
+  void deal(Partition partition) { partition_ = std::move(partition); }
+
+  [[nodiscard]] Arrivals& arrivals() { return arrivals_; }
+  [[nodiscard]] bool is_mine(const WindowKey& key) const {
+    return partition_.rank_of(key) == team_.rank();
+  }
+  [[nodiscard]] std::uint32_t inputs(const WindowKey& key) const {
+    return static_cast<std::uint32_t>(route_.inputs(key).size());
+  }
+  [[nodiscard]] TrafficFacts facts() const { return {blocks_sent_, bytes_sent_}; }
+
+  /// Waits until all blocks of the last march are in the store.  REQUIRES: rank 0.
+  /// ERRORS: that of the rank that failed.
+  void wait_for_output();
+
+  [[nodiscard]] bool stays(const BlockVersion& version) const override;
+  void send(const BlockVersion& version, BlockPin block) override;
+  void committed(std::span<const BlockVersion> versions) override;
+  [[nodiscard]] bool is_sending() const override { return !team_.is_idle(); }
+
+ private:
+  void receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes);
+  [[nodiscard]] int next_rank(const BlockVersion& version) const;
+  [[nodiscard]] BlockVersion version_of(const Team::Head& head) const;
+  void note(const BlockVersion& version);
+  void end(std::exception_ptr error);
+
+  const RunLayout& layout_;
+  BlockRoute route_;
+  Team& team_;
+  Partition partition_;
+  Arrivals arrivals_;
+  std::atomic<std::uint64_t> blocks_sent_ = 0;
+  std::atomic<std::uint64_t> bytes_sent_ = 0;
+
+  std::mutex mutex_;  ///< guards the next lines
+  std::condition_variable changed_;
+  std::int64_t final_blocks_ = 0;  ///< here
+};
+
+/// Predicts how many blocks each rank sends in a run: a pure function.
+[[nodiscard]] std::vector<std::uint64_t> blocks_sent(const RunLayout& layout,
+                                                     const Partition& partition, int ranks);
+
+}  // namespace mw::engine

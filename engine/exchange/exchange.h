@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Messages between the processes of a run.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace mw::engine {
+
+/// What a message is about, for whoever made it; its bytes follow.
+using MessageHead = std::array<std::uint64_t, 4>;
+
+/// Shared with whoever waits until they are sent.
+using SharedBytes = std::shared_ptr<const std::vector<std::byte>>;
+
+/// A message that came in.
+struct Message {
+  int from = 0;
+  MessageHead head{};
+  std::vector<std::byte> bytes;
+};
+
+/// Takes messages, one at a time; must not wait for others.
+using OnMessage = std::function<void(Message message)>;
+
+/// Carries messages between `ranks()` processes, each one exactly once, in any order.
+/// Thread safety: all members but listen().
+class Exchange {
+ public:
+  virtual ~Exchange() = default;
+
+  [[nodiscard]] virtual int rank() const = 0;
+  [[nodiscard]] virtual int ranks() const = 0;
+  /// How many of them share this machine's memory and cores.
+  [[nodiscard]] virtual int ranks_here() const = 0;
+
+  /// Returns at once; the bytes are let go when they have left.  REQUIRES: to != rank().
+  virtual void send(int to, const MessageHead& head, SharedBytes bytes) = 0;
+  /// Whether all that was sent has left.
+  [[nodiscard]] virtual bool is_idle() const = 0;
+  /// Bytes that have not left yet are let go, too; where that cannot be, it waits, or keeps them
+  /// for good.
+  virtual void let_go() = 0;
+  /// From now on messages go to `receive`, those that came before first; `sent` is told, now and
+  /// then, that bytes have left.  Empty: they are kept again.
+  virtual void listen(OnMessage receive, std::function<void()> sent) = 0;
+};
+
+}  // namespace mw::engine

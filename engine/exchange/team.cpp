@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/exchange/team.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace mw::engine {
+namespace {
+
+enum Kind : std::uint64_t { kGathered = 1, kParcel, kFailure };
+
+std::vector<std::byte> bytes_of(const std::string& text) {
+  std::vector<std::byte> out(text.size());
+  std::copy_n(reinterpret_cast<const std::byte*>(text.data()), text.size(), out.begin());
+  return out;
+}
+
+std::string text_of(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+SharedBytes shared(std::vector<std::byte> bytes) {
+  return std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+}
+
+}  // namespace
+
+Team::Team(Exchange& exchange) : exchange_(exchange) {
+  exchange_.listen([this](Message message) { receive(std::move(message)); },
+                   [this] {
+                     const std::lock_guard lock(listening_);
+                     if (listener_.sent) listener_.sent();
+                   });
+}
+
+Team::~Team() {
+  exchange_.listen({}, {});
+}
+
+std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine) {
+  std::unique_lock lock(mutex_);
+  const std::uint64_t number = gathering_++;
+  lock.unlock();
+  const SharedBytes bytes = shared(std::move(mine));
+  for (int to = 0; to < ranks(); ++to) {
+    if (to != rank()) exchange_.send(to, {kGathered, number, 0, 0}, bytes);
+  }
+  lock.lock();
+  const auto others = static_cast<std::size_t>(ranks() - 1);
+  changed_.wait(lock, [&] { return failure_ || said_[number].size() == others; });
+  if (said_[number].size() < others) throw Error(*failure_);
+  std::vector<std::vector<std::byte>> out(static_cast<std::size_t>(ranks()));
+  for (auto& [from, said] : said_[number]) out[static_cast<std::size_t>(from)] = std::move(said);
+  said_.erase(number);
+  out[static_cast<std::size_t>(rank())] = *bytes;
+  return out;
+}
+
+std::vector<std::string> Team::gather(const std::string& mine) {
+  std::vector<std::string> out;
+  for (const auto& said : gather(bytes_of(mine))) out.push_back(text_of(said));
+  return out;
+}
+
+void Team::send(int to, const Head& head, SharedBytes bytes) {
+  exchange_.send(to, {kParcel, head[0], head[1], head[2]}, std::move(bytes));
+}
+
+void Team::listen(Listener listener) {
+  const std::lock_guard turn(listening_);
+  listener_ = std::move(listener);
+  if (!listener_.parcel) return;
+  std::vector<Message> waiting;
+  std::optional<Error> failure;
+  {
+    const std::lock_guard lock(mutex_);
+    waiting.swap(waiting_);
+    failure = failure_;
+  }
+  for (Message& m : waiting) {
+    listener_.parcel({m.head[1], m.head[2], m.head[3]}, std::move(m.bytes));
+  }
+  if (failure) listener_.failed(*failure);
+}
+
+void Team::fail(const Error& error) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (failure_ || has_failed_) return;
+    has_failed_ = true;
+  }
+  const std::string who = is_first() ? "" : "rank " + std::to_string(rank()) + ": ";
+  const SharedBytes text = shared(bytes_of(who + error.what()));
+  const auto kind = static_cast<std::uint64_t>(error.kind());
+  for (int to = 0; to < ranks(); ++to) {
+    if (to != rank()) exchange_.send(to, {kFailure, kind, 0, 0}, text);
+  }
+}
+
+std::optional<Error> Team::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void Team::note_failure(const Error& error) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (failure_) return;
+    failure_ = error;
+  }
+  changed_.notify_all();
+  if (listener_.failed) listener_.failed(error);
+}
+
+void Team::receive(Message message) {
+  const std::lock_guard turn(listening_);
+  switch (message.head[0]) {
+    case kGathered: {
+      {
+        const std::lock_guard lock(mutex_);
+        said_[message.head[1]].emplace(message.from, std::move(message.bytes));
+      }
+      changed_.notify_all();
+      return;
+    }
+    case kParcel:
+      if (listener_.parcel) {
+        return listener_.parcel({message.head[1], message.head[2], message.head[3]},
+                                std::move(message.bytes));
+      }
+      waiting_.push_back(std::move(message));
+      return;
+    default:
+      note_failure(Error(static_cast<ErrorKind>(message.head[1]), text_of(message.bytes)));
+  }
+}
+
+}  // namespace mw::engine

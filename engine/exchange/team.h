@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The processes of a run: what they tell one another beside blocks.
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "engine/exchange/exchange.h"
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+
+/// Sorts messages: parcels go to whoever listens, the rest is its own.
+/// Thread safety: send() and fail() from any thread; the others from one.
+class Team {
+ public:
+  /// exchange outlives it.
+  explicit Team(Exchange& exchange);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  [[nodiscard]] int rank() const { return exchange_.rank(); }
+  [[nodiscard]] int ranks() const { return exchange_.ranks(); }
+  [[nodiscard]] bool is_first() const { return rank() == 0; }
+  [[nodiscard]] int ranks_here() const { return exchange_.ranks_here(); }
+
+  /// What every rank says, by rank.  All ranks call it equally often.
+  /// ERRORS: that of the rank that failed.
+  [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine);
+  /// The same of texts.
+  [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
+
+  /// A parcel's first number is free for its kind; those of a rank that has no listener wait.
+  using Head = std::array<std::uint64_t, 3>;
+  using OnParcel = std::function<void(const Head& head, std::vector<std::byte> bytes)>;
+  void send(int to, const Head& head, SharedBytes bytes);
+  [[nodiscard]] bool is_idle() const { return exchange_.is_idle(); }
+  void let_go() { exchange_.let_go(); }
+
+  /// Who is told: of parcels, one at a time; that bytes have left; that a rank has failed.
+  struct Listener {
+    OnParcel parcel;
+    std::function<void()> sent;
+    std::function<void(const Error& error)> failed;
+  };
+  /// Those of before come first.  ENSURES: the former listener is not called any more.
+  void listen(Listener listener);
+
+  /// Tells all ranks that this one cannot go on, and which one that is; only the first failure of a
+  /// run is told.
+  void fail(const Error& error);
+  /// The failure of another rank, if that is why this one ends.
+  [[nodiscard]] std::optional<Error> failure() const;
+
+ private:
+  void receive(Message message);
+  void note_failure(const Error& error);
+
+  Exchange& exchange_;
+  mutable std::mutex mutex_;  ///< guards the rest but listener_
+  std::condition_variable changed_;
+  std::map<std::uint64_t, std::map<int, std::vector<std::byte>>> said_;  ///< by gathering, rank
+  std::uint64_t gathering_ = 0;
+  std::vector<Message> waiting_;  ///< parcels for a listener to come
+  std::optional<Error> failure_;
+  bool has_failed_ = false;  ///< this rank
+
+  std::mutex listening_;  ///< guards the next line; never taken inside mutex_
+  Listener listener_;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A thread that talks to MPI: an out box, sends and receives under way, signs of life.
+#include "engine/mpi/mpi_exchange.h"
+
+#include <mpi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <deque>
+#include <future>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kTag = 1;
+constexpr std::size_t kMaxSends = 256;  ///< under way at a time
+constexpr std::chrono::microseconds kPause{100};
+constexpr std::chrono::seconds kBeat{1};
+
+/// Heads of the transport's own messages; those of a Team begin with small numbers.
+constexpr std::uint64_t kAlive = ~std::uint64_t{0};
+constexpr std::uint64_t kLeaving = ~std::uint64_t{1};
+
+/// What MPI counts with is an int.
+int as_int(std::size_t bytes) {
+  if (bytes > std::size_t{1} << 30U) {
+    throw Error(ErrorKind::kInternal, "a message of more than 1 GiB");
+  }
+  return static_cast<int>(bytes);
+}
+
+/// Head and bytes as one message, wherever they lie.
+MPI_Datatype type_of(const MessageHead& head, const void* bytes, std::size_t size) {
+  std::array<int, 2> lengths{static_cast<int>(sizeof(MessageHead)), as_int(size)};
+  std::array<MPI_Aint, 2> at{};
+  MPI_Get_address(head.data(), &at[0]);
+  MPI_Get_address(bytes, &at[1]);
+  std::array<MPI_Datatype, 2> types{MPI_BYTE, MPI_BYTE};
+  MPI_Datatype out = MPI_DATATYPE_NULL;
+  MPI_Type_create_struct(size > 0 ? 2 : 1, lengths.data(), at.data(), types.data(), &out);
+  MPI_Type_commit(&out);
+  return out;
+}
+
+struct Outgoing {
+  int to = 0;
+  MessageHead head{};
+  SharedBytes bytes;
+};
+
+bool is_over(MPI_Request& request) {
+  int over = 0;
+  MPI_Test(&request, &over, MPI_STATUS_IGNORE);
+  return over != 0;
+}
+
+}  // namespace
+
+/// All that the thread and its callers share.
+class MpiExchange::Transport {
+ public:
+  Transport() : thread_([this] { run(); }) {
+    if (const std::string error = started_.get_future().get(); !error.empty()) {
+      thread_.join();
+      throw Error(ErrorKind::kInternal, error);
+    }
+  }
+  Transport(const Transport&) = delete;
+  Transport& operator=(const Transport&) = delete;
+  ~Transport() {
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+    }
+    thread_.join();
+  }
+
+  void send(Outgoing message) {
+    const std::lock_guard lock(mutex_);
+    out_box_.push_back(std::move(message));
+  }
+  [[nodiscard]] bool is_idle() const {
+    const std::lock_guard lock(mutex_);
+    return out_box_.empty() && sends_under_way_ == 0;
+  }
+  void listen(OnMessage receive, std::function<void()> sent) {
+    const std::lock_guard turn(listening_);
+    receive_ = std::move(receive);
+    sent_ = std::move(sent);
+  }
+  /// Bytes that MPI still reads stay for good.
+  void let_go() {
+    const Clock::time_point until = Clock::now() + std::chrono::seconds(2);
+    while (!is_idle() && Clock::now() < until) std::this_thread::sleep_for(kPause);
+    const std::lock_guard lock(mutex_);
+    if (out_box_.empty() && sends_under_way_ == 0) return;
+    static std::vector<std::deque<Outgoing>> kept;  // until the process ends
+    kept.push_back(std::move(out_box_));
+    out_box_.clear();
+  }
+  /// How many ranks have said that they leave.
+  [[nodiscard]] int leaving() const {
+    const std::lock_guard lock(mutex_);
+    return leaving_;
+  }
+
+  int rank = 0;
+  int ranks = 1;
+  int ranks_here = 1;
+
+ private:
+  struct Sending {
+    Outgoing message;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
+  struct Receiving {
+    Message message;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
+
+  std::string start() {
+    int given = 0;
+    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS ||
+        given < MPI_THREAD_FUNNELED) {
+      return "MPI cannot be started";
+    }
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    MPI_Comm here = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &here);
+    MPI_Comm_size(here, &ranks_here);
+    MPI_Comm_free(&here);
+    heard_.assign(static_cast<std::size_t>(ranks), Clock::now());
+    return "";
+  }
+
+  void run() {
+    const std::string error = start();
+    started_.set_value(error);
+    if (!error.empty()) return;
+    while (!is_over()) {
+      bool busy = start_sends();
+      busy |= end_sends();
+      busy |= receive_some();
+      keep_alive();
+      if (!busy) std::this_thread::sleep_for(kPause);
+    }
+    MPI_Finalize();
+  }
+
+  [[nodiscard]] bool is_over() const {
+    const std::lock_guard lock(mutex_);
+    return ending_ && out_box_.empty() && sends_.empty();
+  }
+
+  bool start_sends() {
+    bool any = false;
+    while (sends_.size() < kMaxSends) {
+      std::optional<Outgoing> next;
+      {
+        const std::lock_guard lock(mutex_);
+        if (out_box_.empty()) return any;
+        next = std::move(out_box_.front());
+        out_box_.pop_front();
+        ++sends_under_way_;
+      }
+      start_send(std::move(*next));
+      any = true;
+    }
+    return any;
+  }
+
+  void start_send(Outgoing message) {
+    Sending& sending = sends_.emplace_back(Sending{.message = std::move(message)});
+    const Outgoing& m = sending.message;
+    const bool empty = m.bytes == nullptr || m.bytes->empty();
+    MPI_Datatype type =
+        type_of(m.head, empty ? nullptr : m.bytes->data(), empty ? 0 : m.bytes->size());
+    MPI_Isend(MPI_BOTTOM, 1, type, m.to, kTag, MPI_COMM_WORLD, &sending.request);
+    MPI_Type_free(&type);  // once it is no longer needed
+  }
+
+  bool end_sends() {
+    const std::size_t before = sends_.size();
+    sends_.remove_if([](Sending& s) { return engine::is_over(s.request); });
+    if (sends_.size() == before) return false;
+    {
+      const std::lock_guard lock(mutex_);
+      sends_under_way_ = sends_.size();
+    }
+    const std::lock_guard turn(listening_);
+    if (sent_) sent_();
+    return true;
+  }
+
+  bool receive_some() {
+    bool any = start_receives();
+    for (auto r = receives_.begin(); r != receives_.end();) {
+      if (!engine::is_over(r->request)) {
+        ++r;
+        continue;
+      }
+      pass_on(std::move(r->message));
+      r = receives_.erase(r);
+      any = true;
+    }
+    return any;
+  }
+
+  bool start_receives() {
+    bool any = false;
+    for (;;) {
+      int there = 0;
+      MPI_Message handle = MPI_MESSAGE_NULL;
+      MPI_Status status;
+      MPI_Improbe(MPI_ANY_SOURCE, kTag, MPI_COMM_WORLD, &there, &handle, &status);
+      if (there == 0) return any;
+      int size = 0;
+      MPI_Get_count(&status, MPI_BYTE, &size);
+      Receiving& r = receives_.emplace_back();
+      r.message.from = status.MPI_SOURCE;
+      r.message.bytes.resize(static_cast<std::size_t>(size) - sizeof(MessageHead));
+      MPI_Datatype type = type_of(r.message.head, r.message.bytes.data(), r.message.bytes.size());
+      MPI_Imrecv(MPI_BOTTOM, 1, type, &handle, &r.request);
+      MPI_Type_free(&type);
+      any = true;
+    }
+  }
+
+  void pass_on(Message message) {
+    heard_[static_cast<std::size_t>(message.from)] = Clock::now();
+    if (message.head[0] == kAlive) return;
+    if (message.head[0] == kLeaving) {
+      const std::lock_guard lock(mutex_);
+      ++leaving_;
+      return;
+    }
+    const std::lock_guard turn(listening_);
+    if (!receive_) {
+      waiting_.push_back(std::move(message));
+      return;
+    }
+    for (Message& before : std::exchange(waiting_, {})) receive_(std::move(before));
+    receive_(std::move(message));
+  }
+
+  /// Tells all that this one lives; ends it when another one does not.
+  void keep_alive() {
+    const Clock::time_point now = Clock::now();
+    if (now - last_beat_ < kBeat) return;
+    last_beat_ = now;
+    {
+      // What came before anybody listened.
+      const std::lock_guard turn(listening_);
+      if (receive_) {
+        for (Message& before : std::exchange(waiting_, {})) receive_(std::move(before));
+      }
+    }
+    for (int other = 0; other < ranks; ++other) {
+      if (other == rank) continue;
+      if (now - heard_[static_cast<std::size_t>(other)] > std::chrono::seconds(kSilence)) {
+        std::fprintf(stderr,
+                     "mwmesh: error: rank %d has not heard from rank %d for %d seconds; the "
+                     "network or the process is gone\n",
+                     rank, other, kSilence);
+        ::_exit(1);
+      }
+      if (sends_.size() < kMaxSends) {
+        start_send({.to = other, .head = {kAlive, 0, 0, 0}, .bytes = nullptr});
+        const std::lock_guard lock(mutex_);
+        ++sends_under_way_;
+      }
+    }
+  }
+
+  std::promise<std::string> started_;
+  mutable std::mutex mutex_;  ///< guards the next lines
+  std::deque<Outgoing> out_box_;
+  std::size_t sends_under_way_ = 0;
+  int leaving_ = 0;
+  bool ending_ = false;
+
+  std::mutex listening_;  ///< guards the next lines; never taken inside mutex_
+  OnMessage receive_;
+  std::function<void()> sent_;
+  std::vector<Message> waiting_;
+
+  // The thread's own.
+  std::list<Sending> sends_;
+  std::list<Receiving> receives_;
+  std::vector<Clock::time_point> heard_;
+  Clock::time_point last_beat_{};
+  std::thread thread_;  ///< last: it uses all of the above
+};
+
+MpiExchange::MpiExchange() : transport_(std::make_unique<Transport>()) {}
+MpiExchange::~MpiExchange() = default;
+
+int MpiExchange::rank() const {
+  return transport_->rank;
+}
+int MpiExchange::ranks() const {
+  return transport_->ranks;
+}
+int MpiExchange::ranks_here() const {
+  return transport_->ranks_here;
+}
+void MpiExchange::send(int to, const MessageHead& head, SharedBytes bytes) {
+  transport_->send({to, head, std::move(bytes)});
+}
+bool MpiExchange::is_idle() const {
+  return transport_->is_idle();
+}
+void MpiExchange::let_go() {
+  transport_->let_go();
+}
+void MpiExchange::listen(OnMessage receive, std::function<void()> sent) {
+  transport_->listen(std::move(receive), std::move(sent));
+}
+
+void MpiExchange::leave(int code) {
+  constexpr std::chrono::seconds kPatience{10};
+  constexpr std::chrono::milliseconds kLook{1};
+  if (rank() != 0) {
+    send(0, {kLeaving, 0, 0, 0}, nullptr);
+    // Rank 0 says when its files are done, or tells the user and ends, and mpirun ends this one.
+    const Clock::time_point until = Clock::now() + kPatience;
+    while (transport_->leaving() == 0 && (code == 0 || Clock::now() < until)) {
+      std::this_thread::sleep_for(kLook);
+    }
+    if (code != 0) ::_exit(code);
+  }
+  if (code == 0) {
+    for (int other = 1; rank() == 0 && other < ranks(); ++other) {
+      send(other, {kLeaving, 0, 0, 0}, nullptr);
+    }
+    transport_.reset();
+    std::exit(0);
+  }
+  const Clock::time_point until = Clock::now() + kPatience;
+  while (transport_->leaving() + 1 < ranks() && Clock::now() < until) {
+    std::this_thread::sleep_for(kLook);
+  }
+  std::fflush(nullptr);
+  ::_exit(code);
+}
+
+}  // namespace mw::engine

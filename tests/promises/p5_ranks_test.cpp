@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Promise 5: the mesh does not depend on how many processes share the run, nor on when their
+// messages arrive.  Processes are played by threads here; those of MPI are in tests/mpi.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "engine/labels/prepared_labels.h"
+#include "engine/run.h"
+#include "engine/team_run.h"
+#include "tests/engine/exchange/crowd.h"
+#include "tests/engine/march/watched_march.h"
+#include "tests/engine/memory_run.h"
+#include "tests/engine/store/work_folder.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::test::below;
+using audit::test::random_volume_of;
+using audit::test::VolumeKind;
+using test::expect_same;
+using test::for_ranks;
+using test::random_trial;
+using test::run_in_memory;
+using test::Trial;
+
+Trial trial_of(std::mt19937& random, std::size_t i, Index3 shape) {
+  const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
+  Trial trial = random_trial(
+      random, random_volume_of(random, kind, shape, 2 + static_cast<std::uint32_t>(i % 4)));
+  trial.settings.window = 4;
+  trial.settings.order = i % 2 == 0 ? Order::kRaster : Order::kColour;
+  return trial;
+}
+
+struct Shared {
+  io::MeshData mesh;
+  RunReport report;
+};
+
+/// hooks: of every rank.
+Shared run_shared(const Trial& trial, const ThreadExchangeOptions& options,
+                  const RunHooks& hooks = {}) {
+  Shared out;
+  for_ranks(options, [&](Team& team) {
+    const test::MemoryVolume volume(trial.volume, trial.frame);
+    const io::LabelTable table = io::collect_labels(volume);
+    test::MemorySink sink;
+    RunHooks own = hooks;
+    own.team = &team;
+    const RunReport report = mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, own);
+    if (!team.is_first()) return;
+    out = {sink.mesh(), report};
+  });
+  return out;
+}
+
+TEST(Promise5SameBytes, ForEveryNumberOfProcesses) {
+  std::mt19937 random(311);
+  constexpr std::array<Index3, 4> kShapes{{{12, 12, 12}, {20, 10, 8}, {9, 14, 11}, {6, 30, 18}}};
+  for (std::size_t i = 0; i < 24 && !::testing::Test::HasFailure(); ++i) {
+    const Trial trial = trial_of(random, i, kShapes[i % kShapes.size()]);
+    SCOPED_TRACE(trial.text());
+    const io::MeshData reference = run_in_memory(trial);
+    for (int ranks : {1, 2, 3, 4, 8}) {
+      const int threads = 1 + static_cast<int>(below(random, 3));
+      const ThreadExchangeOptions options{
+          .ranks = ranks,
+          .seed = static_cast<std::uint32_t>(i),
+          .max_delay = std::chrono::microseconds(i % 3 == 0 ? 5000 : 100)};
+      expect_same(run_shared(trial, options, {.threads = threads}).mesh, reference);
+    }
+  }
+}
+
+/// What the routes of this run say.
+std::vector<std::uint64_t> predicted_blocks(const Trial& trial, int ranks) {
+  const test::MemoryVolume volume(trial.volume, trial.frame);
+  const io::LabelTable table = io::collect_labels(volume);
+  const PreparedLabels labels(io::DenseVolume(volume, table), trial.settings);
+  std::vector<WindowGrid> grids;
+  for (int i = 0; i < trial.settings.marches; ++i) {
+    grids.emplace_back(trial.volume.shape, trial.settings.window << i);
+  }
+  const RunLayout layout(grids, trial.settings.order);
+  std::vector<std::uint64_t> out;
+  for_ranks({.ranks = ranks}, [&](Team& team) {
+    const Partition partition = deal_windows(team, layout, trial.settings, labels.faces());
+    if (team.is_first()) out = blocks_sent(layout, partition, ranks);
+  });
+  return out;
+}
+
+/// All ranks visit each window once, between them, and send what the routes say.
+TEST(Promise5SameBytes, ProcessesShareTheWorkAndSendWhatIsPredicted) {
+  std::mt19937 random(312);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Trial trial = trial_of(random, i, {10, 24, 22});
+    RunReport alone;
+    {
+      const test::MemoryVolume volume(trial.volume, trial.frame);
+      test::MemorySink sink;
+      alone =
+          mesh_volume(io::DenseVolume(volume, io::collect_labels(volume)), trial.settings, sink);
+    }
+    constexpr int kRanks = 4;
+    const RunReport shared = run_shared(trial, {.ranks = kRanks}).report;
+    EXPECT_EQ(shared.windows, alone.windows);
+    EXPECT_EQ(shared.vertices, alone.vertices);
+    const std::vector<std::uint64_t> predicted = predicted_blocks(trial, kRanks);
+    EXPECT_EQ(shared.traffic.blocks,
+              std::accumulate(predicted.begin(), predicted.end(), std::uint64_t{0}));
+    EXPECT_GT(shared.traffic.blocks, 0U);
+  }
+}
+
+/// A rank that fails ends all of them with its error.
+TEST(Promise5SameBytes, AFailedProcessEndsTheRun) {
+  std::mt19937 random(313);
+  const Trial trial = trial_of(random, 1, {12, 24, 20});
+  for (int failing : {0, 2}) {
+    std::atomic<int> told = 0;
+    for_ranks({.ranks = 3, .seed = 9, .max_delay = std::chrono::microseconds(500)},
+              [&](Team& team) {
+                const test::MemoryVolume volume(trial.volume, trial.frame);
+                const io::LabelTable table = io::collect_labels(volume);
+                test::MemorySink sink;
+                RunHooks hooks{.threads = 2, .team = &team};
+                std::atomic<int> visits = 0;
+                if (team.rank() == failing) {
+                  hooks.before_visit = [&](Index3) {
+                    if (++visits == 5) throw Error(ErrorKind::kResource, "rank is tired");
+                  };
+                }
+                try {
+                  (void)mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, hooks);
+                  ADD_FAILURE() << "rank " << team.rank() << " thinks that all is well";
+                } catch (const Error& error) {
+                  EXPECT_EQ(error.kind(), ErrorKind::kResource);
+                  EXPECT_THAT(error.what(), ::testing::EndsWith("rank is tired"));
+                  ++told;
+                }
+              });
+    EXPECT_EQ(told, 3);
+  }
+}
+
+TEST(Promise5SameBytes, ProcessesThatWereToldOtherThingsRefuse) {
+  std::mt19937 random(314);
+  const Trial trial = trial_of(random, 0, {8, 8, 8});
+  for_ranks({.ranks = 3}, [&](Team& team) {
+    const test::MemoryVolume volume(trial.volume, trial.frame);
+    const io::LabelTable table = io::collect_labels(volume);
+    test::MemorySink sink;
+    MeshSettings settings = trial.settings;
+    if (team.rank() == 2) settings.quality_floor += 0.01;
+    try {
+      (void)mesh_volume(io::DenseVolume(volume, table), settings, sink, {.team = &team});
+      ADD_FAILURE() << "the settings differ";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      EXPECT_NE(std::string(error.what()).find("rank 2 has 'quality-floor"), std::string::npos)
+          << error.what();
+    }
+  });
+}
+
+}  // namespace
+}  // namespace mw::engine
