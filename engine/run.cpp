@@ -12,6 +12,7 @@
 #include "engine/labels/prepared_labels.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/marches.h"
+#include "engine/shared_run.h"
 #include "engine/store/damaged_work.h"
 #include "engine/store/run_identity.h"
 #include "engine/store/workdir.h"
@@ -57,13 +58,6 @@ class FinishedBlocks : public FinalBlocks {
   RunForecast& forecast_;
   std::uint64_t windows_;
 };
-
-std::unique_ptr<Workdir> open_workdir(const io::VolumeInfo& volume, const MeshSettings& settings,
-                                      const StoreOptions& options) {
-  if (options.workdir.empty()) return nullptr;
-  return std::make_unique<Workdir>(options.workdir, options.resume,
-                                   options.identity + identity_text(volume, settings));
-}
 
 /// program_bytes(), and the names of labels: all, those that are written, and a sink's text of
 /// them.
@@ -146,11 +140,11 @@ void report_shape(FinishedMesh& finished, const PreparedLabels& labels, const La
   }
 }
 
-/// Everything between an open store and a written mesh.  traffic: null where all windows are
+/// Everything between an open store and a written mesh.  shared: null where all windows are
 /// visited here; workers: null without TetGen.
 void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
                      const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
-                     const RunHooks& hooks, BlockTraffic* traffic, codt::WorkerPool* workers,
+                     const RunHooks& hooks, SharedRun* shared, codt::WorkerPool* workers,
                      RunReport& report) {
   Stopwatch watch;
   MemoryBudget::Reservation room;
@@ -159,10 +153,9 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   watch.lap(report.prepare_seconds);
   const Metric metric(lattice.info().space.spacing);
   RunForecast forecast(labels.faces(), layout, settings, report.threads);
-  if (traffic != nullptr) {
-    traffic->deal(deal_windows(*hooks.team, layout, settings, labels.faces()));
-  }
-  Marches marches(hooks, layout, forecast, store.facts().resumed_windows, traffic);
+  if (shared != nullptr) shared->begin(store, settings, labels.faces());
+  Marches marches(hooks, layout, forecast, store.facts().resumed_windows,
+                  shared == nullptr ? nullptr : &shared->traffic());
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
     WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
     if (report.threads > 1) visitor.seed_with(tbb_for);
@@ -174,11 +167,12 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   }
   static_cast<VisitStats&>(report) = marches.stats();
   if (workers != nullptr) report.workers = workers->facts();
-  if (traffic != nullptr) {
+  if (shared != nullptr) {
     static_cast<VisitStats&>(report) = sum_of_all(*hooks.team, report);
-    report.traffic = sum_of_all(*hooks.team, traffic->facts());
+    report.traffic = sum_of_all(*hooks.team, shared->traffic().facts());
+    shared->end_marches();
     if (!hooks.team->is_first()) return;
-    traffic->wait_for_output();
+    shared->traffic().wait_for_output();
   }
   watch.restart();
   FinishedMesh finished = write_mesh(layout, lattice, store, sink, hooks, forecast);
@@ -192,17 +186,30 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   }
 }
 
-/// After an error: what can be saved is, and the first error stays the one that is told.
-void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options) {
-  if (workdir == nullptr) return;
+bool is_damage(const std::exception_ptr& error) {
   try {
-    store.save();
+    std::rethrow_exception(error);
+  } catch (const DamagedWork&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+/// After an error: what can be saved is, and the first error stays the one that is told.
+void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options,
+               const std::exception_ptr& error) {
+  if (workdir == nullptr) return;
+  const bool damaged = is_damage(error);
+  try {
+    if (!damaged) store.save();
   } catch (...) {
     // The disk is full or broken, or memory is out: what was saved before remains.
   }
   if (!store.has_saved_work()) return;
   workdir->keep();
-  if (options.kept) options.kept();
+  // Nobody is told to go on from damage; it stays for whoever wants to know what happened.
+  if (options.kept && !damaged) options.kept();
 }
 
 /// mesh_volume() but for errors.
@@ -222,28 +229,29 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   const auto program = budget.reserve(Purpose::kProgram, always_bytes(volume, report.threads));
   std::optional<codt::WorkerPool> workers;
   if (settings.optimizer == Optimizer::kTetgen) workers.emplace(hooks.workers);
-  const auto workdir = open_workdir(volume.info(), settings, hooks.store);
-  std::optional<BlockTraffic> traffic;
+  const std::string identity = hooks.store.identity + identity_text(volume.info(), settings);
+  std::optional<SharedRun> shared;
+  std::unique_ptr<Workdir> alone;
   if (hooks.team != nullptr) {
-    agree(*hooks.team, hooks.store.identity + identity_text(volume.info(), settings));
-    traffic.emplace(layout, *hooks.team);
+    shared.emplace(*hooks.team, layout, hooks.store, identity);
+  } else if (!hooks.store.workdir.empty()) {
+    alone = std::make_unique<Workdir>(hooks.store.workdir, hooks.store.resume, identity);
   }
-  RunStore store(layout, budget, workdir.get(), hooks.store.group, traffic ? &*traffic : nullptr);
+  Workdir* workdir = shared ? shared->workdir() : alone.get();
+  BlockTraffic* traffic = shared ? &shared->traffic() : nullptr;
+  RunStore store(layout, budget, workdir, hooks.store.group, traffic);
   std::optional<BlockTraffic::Attached> attached;
-  if (traffic) attached.emplace(*traffic, store);
+  if (traffic != nullptr) attached.emplace(*traffic, store);
   try {
-    march_and_write(layout, lattice, settings, store, sink, hooks, traffic ? &*traffic : nullptr,
+    march_and_write(layout, lattice, settings, store, sink, hooks, shared ? &*shared : nullptr,
                     workers ? &*workers : nullptr, report);
-    if (hooks.team != nullptr) wait_for_all(*hooks.team);
-  } catch (const DamagedWork&) {
-    // Nobody is told to go on from it; it stays for whoever wants to know what happened.
-    if (workdir != nullptr && store.has_saved_work()) workdir->keep();
-    throw;
+    if (shared) shared->end();
   } catch (...) {
-    keep_work(store, workdir.get(), hooks.store);
+    if (shared) shared->fail(std::current_exception());
+    keep_work(store, workdir, hooks.store, std::current_exception());
     throw;
   }
-  if (workdir != nullptr) workdir->discard();
+  if (alone != nullptr) alone->discard();
   report.memory_budget_bytes = budget.limit();
   report.peak_accounted_bytes = budget.peak();
   for (std::size_t i = 0; i < kPurposes; ++i) {

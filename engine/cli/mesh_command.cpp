@@ -199,7 +199,6 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   (void)engine::plan_certificate(job_of(request));  // refused before any file is opened
   const report::ResourceMeter meter;
-  const RankFolders folders(request, shared_team());
   MeshFiles files(request);
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "engine/march/march.h"
 #include "kernels/core/error.h"
@@ -35,12 +34,6 @@ int threads_of_rank(int asked, int ranks_here) {
   return own;
 }
 
-std::filesystem::path folder_of_rank(const std::filesystem::path& workdir, int rank) {
-  char name[16];
-  std::snprintf(name, sizeof name, "rank-%04d", rank);
-  return workdir / name;
-}
-
 }  // namespace
 
 engine::Team* shared_team() {
@@ -52,32 +45,15 @@ void share_runs_with(engine::Team* team) {
 }
 
 void take_part(MeshRequest& request, const engine::Team& team) {
-  if (request.resume) {
-    throw Error(ErrorKind::kUsage,
-                "--resume: a run of several processes cannot go on from what it left; start it "
-                "again without --resume, or mesh with mwmesh");
-  }
   const auto here = static_cast<std::uint64_t>(team.ranks_here());
   request.memory = *request.memory / here;
   request.threads = threads_of_rank(request.threads, team.ranks_here());
-  request.workdir = folder_of_rank(request.workdir, team.rank());
   if (team.is_first()) return;
   request.certify = engine::Certify::kOff;
   request.progress = ProgressKind::kNone;
   request.report.clear();
   request.html.clear();
   request.trace.clear();
-}
-
-RankFolders::RankFolders(const MeshRequest& request, const engine::Team* team) {
-  if (team == nullptr) return;
-  folder_ = request.workdir.parent_path();
-  std::filesystem::create_directories(folder_);
-}
-
-RankFolders::~RankFolders() {
-  std::error_code others_are_at_work;
-  if (!folder_.empty()) std::filesystem::remove(folder_, others_are_at_work);
 }
 
 }  // namespace mw::cli

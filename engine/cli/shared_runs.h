@@ -20,17 +20,4 @@ void share_runs_with(engine::Team* team);
 /// writes. ERRORS: mw::Error(kUsage) for what a shared run cannot do.
 void take_part(MeshRequest& request, const engine::Team& team);
 
-/// The folder that holds those of the ranks: the last of them takes it away.
-class RankFolders {
- public:
-  /// REQUIRES: the request of a rank.  team: null where there are no others.
-  RankFolders(const MeshRequest& request, const engine::Team* team);
-  RankFolders(const RankFolders&) = delete;
-  RankFolders& operator=(const RankFolders&) = delete;
-  ~RankFolders();
-
- private:
-  std::filesystem::path folder_;
-};
-
 }  // namespace mw::cli

@@ -26,6 +26,10 @@ BlockTraffic::Attached::Attached(BlockTraffic& traffic, RunStore& store) : team_
                     [to, &store](const Team::Head& head, std::vector<std::byte> bytes) {
                       to->receive(store, head, std::move(bytes));
                     },
+                .signalled =
+                    [to](std::uint64_t number) {
+                      if (to->on_signal_) to->on_signal_(number);
+                    },
                 .sent = [to] { to->arrivals_.wake(); },
                 .failed = [to](const Error& error) { to->end(std::make_exception_ptr(error)); }});
 }
@@ -49,6 +53,7 @@ void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<
     return end(std::current_exception());
   }
   note(version);
+  ++received_;
   arrivals_.wake();
 }
 
@@ -82,11 +87,21 @@ void BlockTraffic::send(const BlockVersion& version, BlockPin block) {
                         layout_.order(version.block.march).rank(version.from.window),
                         block->memory_bytes};
   const std::vector<std::byte>* bytes = &block->bytes;
-  team_.send(next_rank(version), head, SharedBytes(std::move(block), bytes));
+  const int to = next_rank(version);
+  {
+    const std::lock_guard lock(mutex_);
+    ++sent_to_[static_cast<std::size_t>(to)];
+  }
+  team_.send(to, head, SharedBytes(std::move(block), bytes));
 }
 
 void BlockTraffic::committed(std::span<const BlockVersion> versions) {
   for (const BlockVersion& version : versions) note(version);
+}
+
+std::vector<std::uint64_t> BlockTraffic::sent_to() const {
+  const std::lock_guard lock(mutex_);
+  return sent_to_;
 }
 
 void BlockTraffic::wait_for_output() {

@@ -27,7 +27,10 @@ class BlockTraffic : public BlockRouter {
  public:
   /// The references outlive it.
   BlockTraffic(const RunLayout& layout, Team& team)
-      : layout_(layout), route_(layout), team_(team) {}
+      : layout_(layout),
+        route_(layout),
+        team_(team),
+        sent_to_(static_cast<std::size_t>(team.ranks())) {}
 
   /// While it lives, what comes goes into the store.
   class Attached {
@@ -54,6 +57,14 @@ class BlockTraffic : public BlockRouter {
   }
   [[nodiscard]] TrafficFacts facts() const { return {blocks_sent_, bytes_sent_}; }
 
+  /// Signals of other ranks go there; set before anything is received.
+  void on_signal(std::function<void(std::uint64_t number)> use) { on_signal_ = std::move(use); }
+  /// Parcels that were sent to each rank, and those that are in the store here.
+  [[nodiscard]] std::vector<std::uint64_t> sent_to() const;
+  [[nodiscard]] std::uint64_t received() const { return received_; }
+  /// Ends march and output with this error.
+  void end(std::exception_ptr error);
+
   /// Waits until all blocks of the last march are in the store.  REQUIRES: rank 0.
   /// ERRORS: that of the rank that failed.
   void wait_for_output();
@@ -68,19 +79,21 @@ class BlockTraffic : public BlockRouter {
   [[nodiscard]] int next_rank(const BlockVersion& version) const;
   [[nodiscard]] BlockVersion version_of(const Team::Head& head) const;
   void note(const BlockVersion& version);
-  void end(std::exception_ptr error);
 
   const RunLayout& layout_;
   BlockRoute route_;
   Team& team_;
   Partition partition_;
   Arrivals arrivals_;
+  std::function<void(std::uint64_t number)> on_signal_;
+  std::atomic<std::uint64_t> received_ = 0;
   std::atomic<std::uint64_t> blocks_sent_ = 0;
   std::atomic<std::uint64_t> bytes_sent_ = 0;
 
-  std::mutex mutex_;  ///< guards the next lines
+  mutable std::mutex mutex_;  ///< guards the next lines
   std::condition_variable changed_;
   std::int64_t final_blocks_ = 0;  ///< here
+  std::vector<std::uint64_t> sent_to_;
 };
 
 /// Predicts how many blocks each rank sends in a run: a pure function.

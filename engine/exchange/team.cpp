@@ -9,7 +9,7 @@
 namespace mw::engine {
 namespace {
 
-enum Kind : std::uint64_t { kGathered = 1, kParcel, kFailure };
+enum Kind : std::uint64_t { kGathered = 1, kParcel, kSignal, kFailure };
 
 std::vector<std::byte> bytes_of(const std::string& text) {
   std::vector<std::byte> out(text.size());
@@ -39,21 +39,29 @@ Team::~Team() {
   exchange_.listen({}, {});
 }
 
-std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine) {
+std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine, Channel channel) {
   std::unique_lock lock(mutex_);
-  const std::uint64_t number = gathering_++;
+  const Gathering gathering{channel, gatherings_[channel]++};
   lock.unlock();
   const SharedBytes bytes = shared(std::move(mine));
   for (int to = 0; to < ranks(); ++to) {
-    if (to != rank()) exchange_.send(to, {kGathered, number, 0, 0}, bytes);
+    if (to != rank()) {
+      exchange_.send(to, {kGathered, static_cast<std::uint64_t>(channel), gathering.second, 0},
+                     bytes);
+    }
   }
   lock.lock();
   const auto others = static_cast<std::size_t>(ranks() - 1);
-  changed_.wait(lock, [&] { return failure_ || said_[number].size() == others; });
-  if (said_[number].size() < others) throw Error(*failure_);
+  const auto& said = said_[gathering];
+  changed_.wait(lock, [&] { return failure_ || has_failed_ || said.size() == others; });
+  if (said.size() < others) {
+    throw failure_ ? Error(*failure_) : Error(ErrorKind::kInternal, "this process has failed");
+  }
   std::vector<std::vector<std::byte>> out(static_cast<std::size_t>(ranks()));
-  for (auto& [from, said] : said_[number]) out[static_cast<std::size_t>(from)] = std::move(said);
-  said_.erase(number);
+  for (auto& [from, bytes_said] : said_[gathering]) {
+    out[static_cast<std::size_t>(from)] = std::move(bytes_said);
+  }
+  said_.erase(gathering);
   out[static_cast<std::size_t>(rank())] = *bytes;
   return out;
 }
@@ -68,6 +76,12 @@ void Team::send(int to, const Head& head, SharedBytes bytes) {
   exchange_.send(to, {kParcel, head[0], head[1], head[2]}, std::move(bytes));
 }
 
+void Team::signal(std::uint64_t number) {
+  for (int to = 0; to < ranks(); ++to) {
+    if (to != rank()) exchange_.send(to, {kSignal, number, 0, 0}, nullptr);
+  }
+}
+
 void Team::listen(Listener listener) {
   const std::lock_guard turn(listening_);
   listener_ = std::move(listener);
@@ -80,6 +94,10 @@ void Team::listen(Listener listener) {
     failure = failure_;
   }
   for (Message& m : waiting) {
+    if (m.head[0] == kSignal) {
+      if (listener_.signalled) listener_.signalled(m.head[1]);
+      continue;
+    }
     listener_.parcel({m.head[1], m.head[2], m.head[3]}, std::move(m.bytes));
   }
   if (failure) listener_.failed(*failure);
@@ -91,6 +109,7 @@ void Team::fail(const Error& error) {
     if (failure_ || has_failed_) return;
     has_failed_ = true;
   }
+  changed_.notify_all();
   const std::string who = is_first() ? "" : "rank " + std::to_string(rank()) + ": ";
   const SharedBytes text = shared(bytes_of(who + error.what()));
   const auto kind = static_cast<std::uint64_t>(error.kind());
@@ -102,6 +121,11 @@ void Team::fail(const Error& error) {
 std::optional<Error> Team::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
+}
+
+bool Team::has_failed() const {
+  const std::lock_guard lock(mutex_);
+  return failure_.has_value() || has_failed_;
 }
 
 void Team::note_failure(const Error& error) {
@@ -120,7 +144,8 @@ void Team::receive(Message message) {
     case kGathered: {
       {
         const std::lock_guard lock(mutex_);
-        said_[message.head[1]].emplace(message.from, std::move(message.bytes));
+        said_[{static_cast<Channel>(message.head[1]), message.head[2]}].emplace(
+            message.from, std::move(message.bytes));
       }
       changed_.notify_all();
       return;
@@ -130,6 +155,10 @@ void Team::receive(Message message) {
         return listener_.parcel({message.head[1], message.head[2], message.head[3]},
                                 std::move(message.bytes));
       }
+      waiting_.push_back(std::move(message));
+      return;
+    case kSignal:
+      if (listener_.signalled) return listener_.signalled(message.head[1]);
       waiting_.push_back(std::move(message));
       return;
     default:

@@ -15,7 +15,7 @@
 namespace mw::engine {
 
 /// Sorts messages: parcels go to whoever listens, the rest is its own.
-/// Thread safety: send() and fail() from any thread; the others from one.
+/// Thread safety: send(), signal(), fail() and failure() from any thread; the others from one.
 class Team {
  public:
   /// exchange outlives it.
@@ -29,9 +29,13 @@ class Team {
   [[nodiscard]] bool is_first() const { return rank() == 0; }
   [[nodiscard]] int ranks_here() const { return exchange_.ranks_here(); }
 
-  /// What every rank says, by rank.  All ranks call it equally often.
+  /// Two threads of a rank may gather at the same time, each on a channel of its own.
+  enum class Channel : std::uint8_t { kRun, kEpochs };
+
+  /// What every rank says, by rank.  On each channel all ranks call it equally often.
   /// ERRORS: that of the rank that failed.
-  [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine);
+  [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine,
+                                                           Channel channel = Channel::kRun);
   /// The same of texts.
   [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
 
@@ -39,12 +43,15 @@ class Team {
   using Head = std::array<std::uint64_t, 3>;
   using OnParcel = std::function<void(const Head& head, std::vector<std::byte> bytes)>;
   void send(int to, const Head& head, SharedBytes bytes);
+  /// A number for the listeners of all other ranks.
+  void signal(std::uint64_t number);
   [[nodiscard]] bool is_idle() const { return exchange_.is_idle(); }
   void let_go() { exchange_.let_go(); }
 
   /// Who is told: of parcels, one at a time; that bytes have left; that a rank has failed.
   struct Listener {
     OnParcel parcel;
+    std::function<void(std::uint64_t number)> signalled;
     std::function<void()> sent;
     std::function<void(const Error& error)> failed;
   };
@@ -56,6 +63,8 @@ class Team {
   void fail(const Error& error);
   /// The failure of another rank, if that is why this one ends.
   [[nodiscard]] std::optional<Error> failure() const;
+  /// Whether any rank has failed, this one or another.
+  [[nodiscard]] bool has_failed() const;
 
  private:
   void receive(Message message);
@@ -64,8 +73,9 @@ class Team {
   Exchange& exchange_;
   mutable std::mutex mutex_;  ///< guards the rest but listener_
   std::condition_variable changed_;
-  std::map<std::uint64_t, std::map<int, std::vector<std::byte>>> said_;  ///< by gathering, rank
-  std::uint64_t gathering_ = 0;
+  using Gathering = std::pair<Channel, std::uint64_t>;
+  std::map<Gathering, std::map<int, std::vector<std::byte>>> said_;  ///< by rank
+  std::map<Channel, std::uint64_t> gatherings_;
   std::vector<Message> waiting_;  ///< parcels for a listener to come
   std::optional<Error> failure_;
   bool has_failed_ = false;  ///< this rank

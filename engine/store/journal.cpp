@@ -127,6 +127,14 @@ void Journal::replay(const std::function<void(const JournalRecord&)>& use) {
   if (records_ > 0) file_->sync();
 }
 
+void Journal::scan(std::uint64_t count, const std::function<void(const JournalRecord&)>& use) {
+  JournalRecord record;
+  for (; records_ < count; ++records_) {
+    if (!read_next(record)) throw DamagedWork("journal", "it ends before its last epoch");
+    use(record);
+  }
+}
+
 void Journal::make_room(std::uint64_t size) {
   if (end_ + size <= file_->size()) return;
   file_->resize((end_ + size + kGrowBytes - 1) / kGrowBytes * kGrowBytes);

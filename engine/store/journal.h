@@ -55,8 +55,11 @@ class Journal {
   /// ENSURES: the records survive a power cut, even those of a run that was killed before it synced
   /// them; the space of blocks that they replace may be used again.
   void replay(const std::function<void(const JournalRecord&)>& use);
+  /// The same for the first `count` records, of a journal that stays as it is.
+  /// ERRORS: mw::Error(kInput) when there are fewer.
+  void scan(std::uint64_t count, const std::function<void(const JournalRecord&)>& use);
   /// ENSURES: on return the record survives a power cut.
-  /// REQUIRES: replay() was called; what the record points to has been synced.
+  /// REQUIRES: replay() was called, and not scan(); what the record points to has been synced.
   void append(const JournalRecord& record);
 
   /// Number of whole records; after replay().

@@ -85,7 +85,7 @@ RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* fil
   for (std::uint32_t m = 0; m < layout.marches(); ++m) {
     marches_.push_back(std::make_unique<March>(*this, m));
   }
-  if (files == nullptr || router != nullptr) return;
+  if (files == nullptr) return;
   journal_ = std::make_unique<Journal>(files->open(kJournalFile));
   restore();
 }
@@ -237,8 +237,10 @@ bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
   const bool is_sending = router_ != nullptr && router_->is_sending();
   auto room = try_reserve(Purpose::kWindows, bytes);
   const std::lock_guard lock(mutex_);
+  if (paused_) return false;
   if (!room && in_flight_.empty() && !is_sending) budget_.fail(bytes);
   if (!room) return false;
+  ++visiting_;
   in_flight_.emplace(layout_.window(key), std::move(*room));
   return true;
 }
@@ -263,7 +265,7 @@ void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
     const std::lock_guard lock(mutex_);
     replace(key, keys, pins);
     in_flight_.erase(layout_.window(key));  // now all that it held can be spilled
-    full = group_is_full();
+    full = router_ == nullptr && group_is_full();
   }
   if (router_ != nullptr) send_away(key, keys, std::move(pins));
   if (!full) return;
@@ -279,7 +281,10 @@ void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
   for (const BlockKey& block : blocks) {
     slots.push_back(layout_.slot(block));
     if (block.march > 0 && table_.at(slots.back()).empty()) {
-      for (const BlockKey& part : layout_.parts(block)) table_.remove(layout_.slot(part));
+      for (const BlockKey& part : layout_.parts(block)) {
+        table_.remove(layout_.slot(part));
+        if (router_ != nullptr) group_.slots.push_back(layout_.slot(part));
+      }
     }
     table_.remove(slots.back());
   }
@@ -305,6 +310,8 @@ void RunStore::send_away(const WindowKey& key, std::span<const BlockKey> blocks,
     }
   }
   router_->committed(here);
+  const std::lock_guard lock(mutex_);
+  --visiting_;
 }
 
 /// The windows over the block that came before are done, wherever they were: the block's turn is
@@ -320,6 +327,7 @@ void RunStore::receive(const BlockVersion& version, std::vector<std::byte> bytes
     if (order.rank(w) <= from) done_.insert(layout_.window({version.block.march, w}));
   });
   table_.put(layout_.slot(version.block), std::move(pin));
+  if (journal_ != nullptr) group_.slots.push_back(layout_.slot(version.block));
 }
 
 }  // namespace mw::engine

@@ -10,6 +10,7 @@
 
 #include "engine/store/block_route.h"
 #include "engine/store/block_table.h"
+#include "engine/store/saved_run.h"
 #include "engine/window/block_store.h"
 
 namespace mw::engine {
@@ -54,7 +55,7 @@ struct StoreFacts {
 class RunStore {
  public:
   /// Goes on from what the journal among `files` holds.
-  /// router: null where all windows are visited here; with one nothing is journalled.
+  /// router: null where all windows are visited here.  With one, work becomes durable by epochs.
   /// REQUIRES: layout, budget, files (null: none) and router outlive it.
   /// ERRORS: mw::Error(kResource) when the index alone exceeds the budget; kInput when the journal
   /// is damaged.
@@ -75,6 +76,17 @@ class RunStore {
   /// ERRORS: mw::Error(kResource) when there is no room for it.
   void receive(const BlockVersion& version, std::vector<std::byte> bytes,
                std::uint64_t memory_bytes);
+
+  /// Epochs of a run of several processes: no window starts until go_on(), and once none runs and
+  /// nothing is on its way between the processes, each makes what it has durable as one record;
+  /// what older records point to is let go when all of them have.
+  void pause();
+  [[nodiscard]] bool is_quiet() const;
+  void save_epoch();
+  void go_on();
+  /// Takes up what an earlier run's processes left: the blocks that are needed next here, and the
+  /// windows that are visited here.  REQUIRES: nothing was committed or received.
+  void take_up(const SavedRun& saved, const std::function<bool(const WindowKey&)>& is_mine);
 
   /// Makes durable what is finished.  ENSURES: nothing happens without a work folder, or after an
   /// error in an earlier group.
@@ -135,6 +147,9 @@ class RunStore {
   std::unique_ptr<SegmentFile> disk_;
   BlockTable table_;
   std::map<std::uint64_t, MemoryBudget::Reservation> in_flight_;  ///< by window
+  std::uint64_t visiting_ = 0;  ///< windows whose blocks have not all gone where they go
+  bool paused_ = false;
+  std::vector<Extent> retired_;  ///< when this epoch is over
   Group group_;
   Clock::time_point group_since_ = Clock::now();
 

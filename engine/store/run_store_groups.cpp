@@ -22,7 +22,11 @@ JournalRecord RunStore::close_group(std::vector<Extent>& retired) {
   JournalRecord record;
   for (std::uint64_t slot : group.slots) {
     // Empty: it has become a part of a later march's block, which is in this group as well.
-    if (!table_.at(slot).empty()) record.blocks.push_back(table_.record(slot));
+    if (!table_.at(slot).empty()) {
+      record.blocks.push_back(table_.record(slot));
+    } else if (router_ != nullptr) {
+      record.blocks.push_back({.slot = slot, .extent = {}});  // or it has gone elsewhere
+    }
   }
   std::sort(group.windows.begin(), group.windows.end());
   record.windows = std::move(group.windows);
@@ -45,9 +49,56 @@ void RunStore::write_group() {
 }
 
 void RunStore::save() {
-  if (journal_ == nullptr) return;
+  if (journal_ == nullptr || router_ != nullptr) return;
   const std::lock_guard turn(saving_);
   write_group();
+}
+
+void RunStore::pause() {
+  const std::lock_guard lock(mutex_);
+  paused_ = true;
+}
+
+bool RunStore::is_quiet() const {
+  const std::lock_guard lock(mutex_);
+  return visiting_ == 0;
+}
+
+/// Always a record, so that the number of records is that of epochs on every process.
+void RunStore::save_epoch() {
+  const std::lock_guard turn(saving_);
+  const JournalRecord record = close_group(retired_);
+  disk_->sync();
+  journal_->append(record);
+}
+
+void RunStore::go_on() {
+  const std::lock_guard lock(mutex_);
+  for (const Extent& extent : retired_) disk_->release(extent);
+  retired_.clear();
+  paused_ = false;
+}
+
+void RunStore::take_up(const SavedRun& saved,
+                       const std::function<bool(const WindowKey&)>& is_mine) {
+  {
+    const std::lock_guard lock(mutex_);
+    for (std::uint32_t march = 0; march < layout_.marches(); ++march) {
+      for_each_index(layout_.grid(march).windows(), [&](Index3 w) {
+        const WindowKey key{march, w};
+        if (!saved.done().contains(layout_.window(key))) return;
+        done_.insert(layout_.window(key));
+        if (!is_mine(key)) return;
+        group_.windows.push_back(layout_.window(key));
+        ++resumed_windows_;
+      });
+    }
+  }
+  saved.for_each_block([&](const SavedBlock& block) {
+    if (!router_->stays(block.version)) return;
+    receive(block.version, saved.read(block), block.memory_bytes);
+    router_->committed({&block.version, 1});
+  });
 }
 
 bool RunStore::has_saved_work() const {

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/exchange/epochs.h"
+
+#include <cstring>
+#include <utility>
+
+namespace mw::engine {
+namespace {
+
+constexpr std::uint64_t kEnd = ~std::uint64_t{0};  ///< no more epochs
+constexpr std::chrono::milliseconds kLook{1};
+
+std::vector<std::byte> bytes_of(const std::vector<std::uint64_t>& numbers) {
+  std::vector<std::byte> out(numbers.size() * sizeof(std::uint64_t));
+  std::memcpy(out.data(), numbers.data(), out.size());
+  return out;
+}
+
+std::uint64_t number_at(const std::vector<std::byte>& bytes, int index) {
+  std::uint64_t out = 0;
+  std::memcpy(&out, bytes.data() + sizeof out * static_cast<std::size_t>(index), sizeof out);
+  return out;
+}
+
+}  // namespace
+
+Epochs::Epochs(Team& team, BlockTraffic& traffic, RunStore& store, Options options)
+    : team_(team), traffic_(traffic), store_(store), options_(std::move(options)) {
+  traffic_.on_signal([this](std::uint64_t number) { asked_ = number; });
+}
+
+Epochs::~Epochs() {
+  if (thread_.joinable()) thread_.join();
+  traffic_.on_signal({});
+}
+
+void Epochs::start() {
+  thread_ = std::thread([this] {
+    try {
+      if (team_.is_first()) {
+        lead();
+      } else {
+        follow();
+      }
+    } catch (...) {
+      traffic_.end(std::current_exception());
+    }
+  });
+}
+
+void Epochs::end() {
+  ending_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+/// Looks again and again: what it waits for is told in many ways, and an epoch is rare.
+void Epochs::sleep_until(const std::function<bool()>& over) const {
+  while (!over()) {
+    if (team_.has_failed()) {
+      throw team_.failure().value_or(Error(ErrorKind::kInternal, "this process has failed"));
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+void Epochs::lead() {
+  while (!ending_) {
+    const auto due = std::chrono::steady_clock::now() + options_.every;
+    sleep_until([&] { return ending_ || std::chrono::steady_clock::now() >= due; });
+    if (ending_) break;
+    team_.signal(epochs_ + 1);
+    run_one();
+  }
+  team_.signal(kEnd);
+}
+
+void Epochs::follow() {
+  for (;;) {
+    sleep_until([&] { return asked_ > epochs_; });
+    if (asked_ == kEnd) return;
+    run_one();
+  }
+}
+
+void Epochs::run_one() {
+  store_.pause();
+  sleep_until([&] { return store_.is_quiet(); });
+  // Nothing more is sent; what was sent has to come in.
+  std::uint64_t wanted = 0;
+  for (const auto& sent : team_.gather(bytes_of(traffic_.sent_to()), Team::Channel::kEpochs)) {
+    wanted += number_at(sent, team_.rank());
+  }
+  sleep_until([&] { return traffic_.received() == wanted; });
+  store_.save_epoch();
+  (void)team_.gather({}, Team::Channel::kEpochs);
+  ++epochs_;
+  if (team_.is_first()) options_.count(epochs_);
+  (void)team_.gather({}, Team::Channel::kEpochs);
+  store_.go_on();
+  traffic_.arrivals().wake();
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/shared_run.h"
+
+namespace mw::engine {
+
+SharedRun::SharedRun(Team& team, const RunLayout& layout, StoreOptions& options,
+                     const std::string& identity)
+    : team_(team), layout_(layout), every_(options.group.age), traffic_(layout, team) {
+  agree(team, identity);
+  if (options.workdir.empty()) return;
+  work_.emplace(team, options.workdir, options.resume, identity);
+  options.workdir = work_->own_folder();
+}
+
+void SharedRun::begin(RunStore& store, const MeshSettings& settings, const BoundaryFaces& faces) {
+  traffic_.deal(deal_windows(team_, layout_, settings, faces));
+  if (!work_) return;
+  epochs_.emplace(team_, traffic_, store,
+                  Epochs::Options{.every = every_,
+                                  .count = [this](std::uint64_t epochs) { work_->count(epochs); }});
+  const auto folders = work_->folders_before();
+  if (!folders.empty()) {
+    store.take_up(SavedRun(layout_, folders, work_->epochs_before()),
+                  [this](const WindowKey& key) { return traffic_.is_mine(key); });
+    epochs_->save_now();
+  }
+  epochs_->start();
+}
+
+void SharedRun::end_marches() {
+  if (epochs_) epochs_->end();
+}
+
+void SharedRun::fail(const std::exception_ptr& error) {
+  tell(team_, error);
+  epochs_.reset();
+}
+
+void SharedRun::end() {
+  epochs_.reset();
+  if (work_) work_->discard();
+  wait_for_all(team_);
+}
+
+}  // namespace mw::engine

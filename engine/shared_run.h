@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// One process's part in a run of several: traffic, folder and epochs.
+#pragma once
+
+#include <optional>
+
+#include "engine/exchange/epochs.h"
+#include "engine/store/store_options.h"
+#include "engine/team_run.h"
+#include "engine/team_work.h"
+
+namespace mw::engine {
+
+/// Put together before the store, which is given to begin(); the references outlive it.
+class SharedRun {
+ public:
+  /// Makes sure that all ranks mean the same run, and opens the work folder, if there is to be one.
+  /// ERRORS: those of agree() and TeamWork.
+  SharedRun(Team& team, const RunLayout& layout, StoreOptions& options,
+            const std::string& identity);
+
+  [[nodiscard]] BlockTraffic& traffic() { return traffic_; }
+  /// Of this rank; null: none.
+  [[nodiscard]] Workdir* workdir() { return work_ ? &work_->own() : nullptr; }
+
+  /// Deals windows, and takes up what an earlier run left.  From now on there are epochs.
+  void begin(RunStore& store, const MeshSettings& settings, const BoundaryFaces& faces);
+  /// All windows of all ranks are done.
+  void end_marches();
+  /// The output is complete; returns when all ranks know.
+  void end();
+  /// Tells all ranks.  ENSURES: nothing uses the store any more but what comes in.
+  void fail(const std::exception_ptr& error);
+
+ private:
+  Team& team_;
+  const RunLayout& layout_;
+  std::chrono::milliseconds every_;
+  BlockTraffic traffic_;
+  std::optional<TeamWork> work_;
+  std::optional<Epochs> epochs_;
+};
+
+}  // namespace mw::engine

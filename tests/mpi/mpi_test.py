@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""mwmesh-mpi under mpirun: the bytes of mwmesh, errors, killed ranks, and going on from them.
+
+MW_PROGRAM and MW_TEST_MPI_PROGRAM name the programs; skipped (77) where there is no mpirun.
+Its longer form: mpi_test.py --kills 50 [--seed 1]."""
+
+import argparse
+import hashlib
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ.get("MW_PROGRAM", "mwmesh")
+SHARED = os.environ.get("MW_TEST_MPI_PROGRAM", "mwmesh-mpi")
+LIMIT = 120  # seconds, of a run
+KILLS = 6
+SEED = 1
+
+
+def environment():
+    allowed = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    return {**os.environ, **allowed}
+
+
+def mpirun(ranks, *arguments):
+    return ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", str(ranks), SHARED,
+            *map(str, arguments)]
+
+
+def digest(path):
+    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+
+
+def children_of(name, parent):
+    """Process ids of programs of that name below a process."""
+    parents, found = {}, []
+    for entry in pathlib.Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            stat = (entry / "stat").read_text()
+        except OSError:
+            continue
+        command = stat[stat.index("(") + 1:stat.rindex(")")]
+        parents[int(entry.name)] = int(stat[stat.rindex(")") + 2:].split()[1])
+        if command == name[:15]:
+            found.append(int(entry.name))
+
+    def is_below(process):
+        while process > 1:
+            if process == parent:
+                return True
+            process = parents.get(process, 0)
+        return False
+
+    return sorted(p for p in found if is_below(p))
+
+
+class SharedRuns(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="mwmesh-mpi-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        self.volume = self.folder / "v.npy"
+
+    def synth(self, kind, shape, labels):
+        subprocess.run([PROGRAM, "synth", kind, "--shape", shape, "--labels", str(labels),
+                        "--seed", "3", "-o", self.volume], check=True, capture_output=True)
+
+    def alone(self, *options):
+        out = self.folder / "alone.vtkhdf"
+        subprocess.run([PROGRAM, "mesh", self.volume, "-o", out, "--certify", "off", *options],
+                       check=True, capture_output=True)
+        return digest(out)
+
+    def command(self, ranks, *options):
+        return mpirun(ranks, "mesh", self.volume, "-o", self.folder / "shared.vtkhdf", *options)
+
+    def run_shared(self, ranks, *options):
+        return subprocess.run(self.command(ranks, *options), capture_output=True, text=True,
+                              timeout=LIMIT, env=environment())
+
+    def expect_same(self, ranks, expected, *options):
+        with self.subTest(ranks=ranks, options=options):
+            done = self.run_shared(ranks, *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
+            self.assertFalse((self.folder / "shared.vtkhdf.work").exists())
+
+    def test_bytes_are_those_of_one_process(self):
+        self.synth("voronoi", "48,56,64", 30)
+        for order in ("raster", "colour"):
+            expected = self.alone("--order", order)
+            for ranks in (1, 2, 3, 4, 8):
+                self.expect_same(ranks, expected, "--order", order, "--threads", str(2 * ranks),
+                                 "--certify", "off")
+
+    def test_under_a_tight_budget_and_with_epochs(self):
+        self.synth("spheres", "64,64,96", 8)
+        expected = self.alone()
+        for ranks in (2, 4):
+            # A rank's share of the budget is near the least that works.
+            self.expect_same(ranks, expected, "--memory", f"{64 * ranks}MiB", "--certify", "off",
+                             "--save-every", "0.2")
+
+    def test_rank_0_checks_and_reports(self):
+        self.synth("spheres", "40,40,40", 4)
+        report = self.folder / "r.json"
+        done = self.run_shared(3, "--certify", "on", "--report", report)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("radius ratio and distance hold", done.stdout)
+        self.assertEqual(done.stdout.count("vertices"), 1)
+        self.assertTrue(report.exists())
+
+    def test_errors_are_told_once(self):
+        self.volume.write_bytes(b"no volume")
+        done = self.run_shared(3)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(done.stderr.count("mwmesh: error:"), 1, done.stderr)
+        self.assertFalse((self.folder / "shared.vtkhdf").exists())
+
+    def test_only_mesh_is_shared(self):
+        done = subprocess.run(mpirun(2, "info", self.volume), capture_output=True, text=True,
+                              timeout=LIMIT, env=environment())
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("mwmesh-mpi shares out mesh", done.stderr)
+
+    def test_help_is_printed_once(self):
+        done = subprocess.run(mpirun(3, "mesh", "--help"), capture_output=True, text=True,
+                              timeout=LIMIT, env=environment())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("--quality-floor"), 1)
+
+    def kill_a_rank(self, chance, ranks, resume):
+        """Starts a run, kills one of its processes after a while; whether the mesh was done."""
+        options = ["--certify", "off", "--save-every", "0.2"] + (["--resume"] if resume else [])
+        run = subprocess.Popen(self.command(ranks, *options), stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True, env=environment())
+        time.sleep(chance.uniform(0.5, 4))
+        victims = children_of(pathlib.Path(SHARED).name, run.pid)
+        if victims:
+            os.kill(chance.choice(victims), signal.SIGKILL)
+        begun = time.monotonic()
+        _, err = run.communicate(timeout=LIMIT)
+        self.assertLess(time.monotonic() - begun, 60)
+        if run.returncode == 0:
+            return True
+        self.assertNotIn("internal", err)
+        return (self.folder / "shared.vtkhdf").exists()  # then it was complete before the kill
+
+    def test_killed_ranks_lose_nothing_that_counts(self):
+        chance = random.Random(SEED)
+        self.synth("voronoi", "64,64,80", 40)
+        expected = self.alone()
+        kills = went_on = 0
+        while kills < KILLS:
+            shutil.rmtree(self.folder / "shared.vtkhdf.work", ignore_errors=True)
+            (self.folder / "shared.vtkhdf").unlink(missing_ok=True)
+            resume = False
+            for _ in range(3):
+                if self.kill_a_rank(chance, chance.choice([2, 3, 4]), resume):
+                    break
+                kills += 1
+                resume = (self.folder / "shared.vtkhdf.work" / "epochs").exists()
+                went_on += resume
+            else:
+                ranks = chance.choice([1, 2, 3, 4])
+                self.expect_same(ranks, expected, "--certify", "off",
+                                 *(["--resume"] if resume else []))
+                continue
+            self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
+        print(f"{kills} kills, {went_on} times gone on from an epoch", file=sys.stderr)
+        self.assertGreater(went_on, 0)
+
+    def test_saved_work_is_not_overwritten_or_mixed(self):
+        chance = random.Random(SEED)
+        self.synth("voronoi", "64,64,80", 40)
+        epochs = self.folder / "shared.vtkhdf.work" / "epochs"
+        for _ in range(20):
+            if self.kill_a_rank(chance, 2, False):
+                (self.folder / "shared.vtkhdf").unlink()
+                shutil.rmtree(epochs.parent, ignore_errors=True)
+            if epochs.exists():
+                break
+        self.assertTrue(epochs.exists())
+        refused = self.run_shared(2)
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("add --resume", refused.stderr)
+        other = self.run_shared(2, "--resume", "--quality-floor", "0.1")
+        self.assertEqual(other.returncode, 2, other.stderr)
+        self.assertIn("quality-floor was", other.stderr)
+        epochs.write_text("generation = x\n")
+        damaged = self.run_shared(2, "--resume")
+        self.assertEqual(damaged.returncode, 3, damaged.stderr)
+        self.assertIn("delete that folder", damaged.stderr)
+
+
+def main():
+    global KILLS, SEED
+    if shutil.which("mpirun") is None or not os.access(SHARED, os.X_OK):
+        print("skipped: no mpirun or no mwmesh-mpi")
+        return 77
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--kills", type=int, default=KILLS)
+    parser.add_argument("--seed", type=int, default=SEED)
+    arguments, rest = parser.parse_known_args()
+    KILLS, SEED = arguments.kills, arguments.seed
+    result = unittest.main(argv=[sys.argv[0], *rest], exit=False).result
+    return 0 if result.wasSuccessful() else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
