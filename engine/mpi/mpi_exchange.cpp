@@ -4,6 +4,7 @@
 #include "engine/mpi/mpi_exchange.h"
 
 #include <mpi.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <deque>
+#include <fstream>
 #include <future>
 #include <list>
 #include <mutex>
@@ -60,6 +62,14 @@ struct Outgoing {
   MessageHead head{};
   SharedBytes bytes;
 };
+
+/// Whether that is a process of Open MPI that waits for this one.
+bool is_launcher(pid_t process) {
+  std::ifstream in("/proc/" + std::to_string(process) + "/comm");
+  std::string name;
+  return std::getline(in, name) && (name == "mpirun" || name == "mpiexec" || name == "orterun" ||
+                                    name == "orted" || name == "prterun" || name == "prted");
+}
 
 bool is_over(MPI_Request& request) {
   int over = 0;
@@ -272,11 +282,7 @@ class MpiExchange::Transport {
     for (int other = 0; other < ranks; ++other) {
       if (other == rank) continue;
       if (now - heard_[static_cast<std::size_t>(other)] > std::chrono::seconds(kSilence)) {
-        std::fprintf(stderr,
-                     "mwmesh: error: rank %d has not heard from rank %d for %d seconds; the "
-                     "network or the process is gone\n",
-                     rank, other, kSilence);
-        ::_exit(1);
+        end_for_silence(other);
       }
       if (sends_.size() < kMaxSends) {
         start_send({.to = other, .head = {kAlive, 0, 0, 0}, .bytes = nullptr});
@@ -284,6 +290,21 @@ class MpiExchange::Transport {
         ++sends_under_way_;
       }
     }
+  }
+
+  /// Open MPI's own processes wait for ever for those that they cannot reach, so they go first.
+  [[noreturn]] void end_for_silence(int other) const {
+    std::fprintf(stderr,
+                 "mwmesh: error: rank %d has not heard from rank %d for %d seconds; the network or "
+                 "the process is gone\n",
+                 rank, other, kSilence);
+    const pid_t parent = ::getppid();
+    if (is_launcher(parent)) {
+      ::kill(parent, SIGTERM);
+      std::this_thread::sleep_for(std::chrono::seconds(5));
+      if (::getppid() == parent) ::kill(parent, SIGKILL);
+    }
+    ::_exit(1);
   }
 
   std::promise<std::string> started_;
