@@ -4,6 +4,7 @@
 # Builds the Debian packages into build/packages; tests/packages.sh tries them.  Needs what
 # configs/setup.sh installs, and dpkg-dev.
 #   mwmesh  libmwmesh0.1  libmwmesh-dev  python3-mwmesh  mwmesh-codt (AGPL: linked with TetGen)
+#   mwmesh-mpi, where MPI is found
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"

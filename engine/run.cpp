@@ -140,12 +140,12 @@ void report_shape(FinishedMesh& finished, const PreparedLabels& labels, const La
   }
 }
 
-/// Everything between an open store and a written mesh.  shared: null where all windows are
-/// visited here; workers: null without TetGen.
-void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
-                     const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
-                     const RunHooks& hooks, SharedRun* shared, codt::WorkerPool* workers,
-                     RunReport& report) {
+/// Everything between an open store and a written mesh.  Returns how many windows were visited
+/// here.  shared: null where all windows are visited here; workers: null without TetGen.
+std::uint64_t march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
+                              const MeshSettings& settings, RunStore& store, io::MeshSink& sink,
+                              const RunHooks& hooks, SharedRun* shared, codt::WorkerPool* workers,
+                              RunReport& report) {
   Stopwatch watch;
   MemoryBudget::Reservation room;
   const PreparedLabels labels =
@@ -169,9 +169,8 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
   if (workers != nullptr) report.workers = workers->facts();
   if (shared != nullptr) {
     static_cast<VisitStats&>(report) = sum_of_all(*hooks.team, report);
-    report.traffic = sum_of_all(*hooks.team, shared->traffic().facts());
     shared->end_marches();
-    if (!hooks.team->is_first()) return;
+    if (!hooks.team->is_first()) return marches.stats().windows;
     shared->traffic().wait_for_output();
   }
   watch.restart();
@@ -184,6 +183,7 @@ void march_and_write(const RunLayout& layout, const VoxelLattice& lattice,
     report_shape(finished, labels, LabelSelection(hooks.output.wanted, lattice.volume().table()),
                  report);
   }
+  return marches.stats().windows;
 }
 
 bool is_damage(const std::exception_ptr& error) {
@@ -212,6 +212,14 @@ void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options,
   if (options.kept && !damaged) options.kept();
 }
 
+RankFacts rank_facts(const MemoryBudget& budget, std::uint64_t windows) {
+  RankFacts out{.windows = windows, .sent = {}, .peak_accounted_bytes = budget.peak()};
+  for (std::size_t i = 0; i < kPurposes; ++i) {
+    out.peak_bytes_by_purpose[i] = budget.peak(static_cast<Purpose>(i));
+  }
+  return out;
+}
+
 /// mesh_volume() but for errors.
 RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::MeshSink& sink,
               const RunHooks& asked) {
@@ -233,7 +241,7 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   std::optional<SharedRun> shared;
   std::unique_ptr<Workdir> alone;
   if (hooks.team != nullptr) {
-    shared.emplace(*hooks.team, layout, hooks.store, identity);
+    shared.emplace(*hooks.team, layout, hooks, identity);
   } else if (!hooks.store.workdir.empty()) {
     alone = std::make_unique<Workdir>(hooks.store.workdir, hooks.store.resume, identity);
   }
@@ -243,9 +251,10 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   std::optional<BlockTraffic::Attached> attached;
   if (traffic != nullptr) attached.emplace(*traffic, store);
   try {
-    march_and_write(layout, lattice, settings, store, sink, hooks, shared ? &*shared : nullptr,
-                    workers ? &*workers : nullptr, report);
-    if (shared) shared->end();
+    const std::uint64_t own_windows =
+        march_and_write(layout, lattice, settings, store, sink, hooks, shared ? &*shared : nullptr,
+                        workers ? &*workers : nullptr, report);
+    if (shared) report.ranks = shared->end(rank_facts(budget, own_windows));
   } catch (...) {
     if (shared) shared->fail(std::current_exception());
     keep_work(store, workdir, hooks.store, std::current_exception());

@@ -7,11 +7,11 @@
 #include <functional>
 
 #include "engine/codt/worker_pool.h"
-#include "engine/exchange/block_traffic.h"
 #include "engine/march/march.h"
 #include "engine/output/finish.h"
 #include "engine/settings/settings.h"
 #include "engine/store/store_options.h"
+#include "engine/team_run.h"
 #include "engine/window/window_visitor.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
@@ -43,7 +43,7 @@ struct RunReport : VisitStats {
   std::uint64_t peak_accounted_bytes = 0;
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
   StoreFacts store;
-  TrafficFacts traffic;                    ///< of all processes
+  std::vector<RankFacts> ranks;            ///< of a run of several processes, on rank 0
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
 };
 
@@ -84,6 +84,9 @@ struct RunHooks {
   /// mesh_volume() with the same volume and settings; only rank 0 uses its sink, and the others
   /// return when its output is complete.  Store options and threads are each one's own.
   Team* team = nullptr;
+  /// Of such a run, on rank 0, optional; asked often, by a thread of its own: whether to save and
+  /// end, which Epochs::Stopped does.
+  std::function<bool()> stop_after_epoch;
   /// Under a tight budget the allocator is told to give large pieces back at once (mallopt).
   bool owns_process = false;
 };

@@ -4,13 +4,18 @@
 
 namespace mw::engine {
 
-SharedRun::SharedRun(Team& team, const RunLayout& layout, StoreOptions& options,
+SharedRun::SharedRun(Team& team, const RunLayout& layout, RunHooks& hooks,
                      const std::string& identity)
-    : team_(team), layout_(layout), every_(options.group.age), traffic_(layout, team) {
+    : team_(team),
+      layout_(layout),
+      every_(hooks.store.group.age),
+      stop_(hooks.stop_after_epoch),
+      traffic_(layout, team) {
   agree(team, identity);
-  if (options.workdir.empty()) return;
-  work_.emplace(team, options.workdir, options.resume, identity);
-  options.workdir = work_->own_folder();
+  StoreOptions& store = hooks.store;
+  if (store.workdir.empty()) return;
+  work_.emplace(team, store.workdir, store.resume, identity);
+  store.workdir = work_->own_folder();
 }
 
 void SharedRun::begin(RunStore& store, const MeshSettings& settings, const BoundaryFaces& faces) {
@@ -18,7 +23,8 @@ void SharedRun::begin(RunStore& store, const MeshSettings& settings, const Bound
   if (!work_) return;
   epochs_.emplace(team_, traffic_, store,
                   Epochs::Options{.every = every_,
-                                  .count = [this](std::uint64_t epochs) { work_->count(epochs); }});
+                                  .count = [this](std::uint64_t epochs) { work_->count(epochs); },
+                                  .stop = stop_});
   const auto folders = work_->folders_before();
   if (!folders.empty()) {
     store.take_up(SavedRun(layout_, folders, work_->epochs_before()),
@@ -37,10 +43,11 @@ void SharedRun::fail(const std::exception_ptr& error) {
   epochs_.reset();
 }
 
-void SharedRun::end() {
+std::vector<RankFacts> SharedRun::end(RankFacts mine) {
   epochs_.reset();
   if (work_) work_->discard();
-  wait_for_all(team_);
+  mine.sent = traffic_.facts();
+  return facts_of_all(team_, mine);
 }
 
 }  // namespace mw::engine

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/exchange/epochs.h"
-#include "engine/store/store_options.h"
+#include "engine/run.h"
 #include "engine/team_run.h"
 #include "engine/team_work.h"
 
@@ -17,8 +17,8 @@ class SharedRun {
  public:
   /// Makes sure that all ranks mean the same run, and opens the work folder, if there is to be one.
   /// ERRORS: those of agree() and TeamWork.
-  SharedRun(Team& team, const RunLayout& layout, StoreOptions& options,
-            const std::string& identity);
+  /// hooks.store.workdir becomes this rank's.
+  SharedRun(Team& team, const RunLayout& layout, RunHooks& hooks, const std::string& identity);
 
   [[nodiscard]] BlockTraffic& traffic() { return traffic_; }
   /// Of this rank; null: none.
@@ -28,8 +28,8 @@ class SharedRun {
   void begin(RunStore& store, const MeshSettings& settings, const BoundaryFaces& faces);
   /// All windows of all ranks are done.
   void end_marches();
-  /// The output is complete; returns when all ranks know.
-  void end();
+  /// The output is complete; returns when all ranks know, with what each did.
+  [[nodiscard]] std::vector<RankFacts> end(RankFacts mine);
   /// Tells all ranks.  ENSURES: nothing uses the store any more but what comes in.
   void fail(const std::exception_ptr& error);
 
@@ -37,6 +37,7 @@ class SharedRun {
   Team& team_;
   const RunLayout& layout_;
   std::chrono::milliseconds every_;
+  std::function<bool()> stop_;
   BlockTraffic traffic_;
   std::optional<TeamWork> work_;
   std::optional<Epochs> epochs_;

@@ -87,15 +87,6 @@ VisitStats sum_of_all(Team& team, const VisitStats& mine) {
   return sum;
 }
 
-TrafficFacts sum_of_all(Team& team, const TrafficFacts& mine) {
-  TrafficFacts sum;
-  for (const TrafficFacts& one : of_all(team, mine)) {
-    sum.blocks += one.blocks;
-    sum.bytes += one.bytes;
-  }
-  return sum;
-}
-
 void tell(Team& team, const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
@@ -108,8 +99,8 @@ void tell(Team& team, const std::exception_ptr& error) {
   }
 }
 
-void wait_for_all(Team& team) {
-  (void)team.gather(std::vector<std::byte>{});
+std::vector<RankFacts> facts_of_all(Team& team, const RankFacts& mine) {
+  return of_all(team, mine);
 }
 
 }  // namespace mw::engine

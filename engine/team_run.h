@@ -21,12 +21,19 @@ void agree(Team& team, const std::string& identity);
 
 /// What all ranks did.  Every rank gets the sum.
 [[nodiscard]] VisitStats sum_of_all(Team& team, const VisitStats& mine);
-[[nodiscard]] TrafficFacts sum_of_all(Team& team, const TrafficFacts& mine);
 
 /// Tells the others why this one ends, unless it ends because of them.
 void tell(Team& team, const std::exception_ptr& error);
 
-/// Until every rank has come here.
-void wait_for_all(Team& team);
+/// What one rank did and held.
+struct RankFacts {
+  std::uint64_t windows = 0;
+  TrafficFacts sent;
+  std::uint64_t peak_accounted_bytes = 0;
+  std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
+};
+
+/// Those of all, by rank; returns when every rank has come here.
+[[nodiscard]] std::vector<RankFacts> facts_of_all(Team& team, const RankFacts& mine);
 
 }  // namespace mw::engine

@@ -21,6 +21,9 @@ mw_generated(zsh zsh/site-functions _mwmesh ${CMAKE_INSTALL_DATADIR}/zsh/site-fu
 mw_generated(fish fish/vendor_completions.d mwmesh.fish
   ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(TARGETS mwmesh DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+if(TARGET mwmesh-mpi)
+  install(TARGETS mwmesh-mpi DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
+endif()
 if(TARGET mwmesh-codt)
   install(TARGETS mwmesh-codt DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT worker)
 endif()

@@ -13,6 +13,8 @@ namespace {
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
+std::atomic<bool> save_requested = false;
+
 void note_signal(int /*signal*/) {
   interrupted = true;
 }
@@ -28,6 +30,17 @@ void watch_interrupts() {
     action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
     sigaction(signal, &action, nullptr);
   }
+}
+
+void watch_save_requests() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { save_requested = true; };
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGUSR1, &action, nullptr);
+}
+
+bool is_save_requested() {
+  return save_requested;
 }
 
 void stop_if_interrupted() {

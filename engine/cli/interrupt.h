@@ -19,4 +19,8 @@ void watch_interrupts();
 /// ERRORS: Interrupted when a signal has been noted.  Thread-safe.
 void stop_if_interrupted();
 
+/// From now on SIGUSR1, which mpirun passes on, asks a run of several processes to save and end.
+void watch_save_requests();
+[[nodiscard]] bool is_save_requested();
+
 }  // namespace mw::cli

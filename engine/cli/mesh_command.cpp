@@ -16,6 +16,7 @@
 #include "engine/cli/shared_runs.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
+#include "engine/exchange/epochs.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/report/run_report.h"
 #include "engine/report/speck_facts.h"
@@ -117,6 +118,7 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   engine::JobHooks hooks{.stop = stop_if_interrupted};
   hooks.progress = [&](const engine::RunProgress& at) { progress.show(at); };
   if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
+  hooks.stop_after_epoch = is_save_requested;
   hooks.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
   hooks.kept = [&] {
     work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
@@ -124,6 +126,8 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   try {
     return engine::mesh(volume, job_of(request), files.all(), hooks);
   } catch (const Interrupted&) {
+    throw Interrupted{work};
+  } catch (const engine::Epochs::Stopped&) {
     throw Interrupted{work};
   }
 }
@@ -197,6 +201,7 @@ int threads_at_hand(int asked) {
 
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
+  if (shared_team() != nullptr) watch_save_requests();
   (void)engine::plan_certificate(job_of(request));  // refused before any file is opened
   const report::ResourceMeter meter;
   MeshFiles files(request);

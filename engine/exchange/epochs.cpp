@@ -67,10 +67,12 @@ void Epochs::sleep_until(const std::function<bool()>& over) const {
 void Epochs::lead() {
   while (!ending_) {
     const auto due = std::chrono::steady_clock::now() + options_.every;
-    sleep_until([&] { return ending_ || std::chrono::steady_clock::now() >= due; });
+    const auto stops = [&] { return options_.stop && options_.stop(); };
+    sleep_until([&] { return ending_ || stops() || std::chrono::steady_clock::now() >= due; });
     if (ending_) break;
     team_.signal(epochs_ + 1);
     run_one();
+    if (stops()) throw Stopped{};
   }
   team_.signal(kEnd);
 }

@@ -20,11 +20,16 @@ namespace mw::engine {
 /// Thread safety: one thread makes, ends and destroys it.
 class Epochs {
  public:
+  /// What ends a run that was asked to save and stop.
+  struct Stopped {};
+
   struct Options {
     std::chrono::milliseconds every{300'000};
     /// By rank 0, when all ranks have saved their number so-and-so; on return it survives a power
     /// cut.
     std::function<void(std::uint64_t epochs)> count;
+    /// Asked often, on rank 0; true: an epoch, then Stopped.  Optional.
+    std::function<bool()> stop;
   };
 
   /// The references outlive it.  REQUIRES: all ranks make one, and nothing has been committed yet.

@@ -67,6 +67,11 @@ if(TARGET mwmesh-codt)
   mw_package(worker mwmesh-codt "labelled voxels to tetrahedral meshes - TetGen worker"
     "This package has the program that --optimizer tetgen starts. It is linked\nwith TetGen and so under the AGPL, version 3 or later.")
 endif()
+if(TARGET mwmesh-mpi)
+  mw_package(mpi mwmesh-mpi "labelled voxels to tetrahedral meshes - several machines"
+    "This package has the program mwmesh-mpi, which mpirun starts.")
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS openmpi-bin)
+endif()
 if(TARGET mwmesh_python)
   mw_package(python python3-mwmesh "labelled voxels to tetrahedral meshes - Python package"
     "This package has the Python module: numpy arrays in, numpy arrays out.")

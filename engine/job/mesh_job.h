@@ -44,6 +44,7 @@ struct JobHooks {
   OnProgress progress;                                   ///< optional; may throw
   std::function<void(const TraceEvent&)> trace;          ///< optional
   std::function<void(std::size_t labels)> labels_known;  ///< optional: before the marches
+  std::function<bool()> stop_after_epoch;                ///< optional, see RunHooks
   std::function<void()> kept;  ///< optional: a run that ends early left work in the folder
 };
 

@@ -84,21 +84,32 @@ ordered_json codt_json(const engine::RunReport& run) {
           {"seconds", run.codt_seconds}};
 }
 
+ordered_json purposes_json(const std::array<std::uint64_t, engine::kPurposes>& peaks) {
+  ordered_json out;
+  for (std::size_t i = 0; i < engine::kPurposes; ++i) out[engine::kPurposeNames[i]] = peaks[i];
+  return out;
+}
+
+ordered_json rank_json(const engine::RankFacts& rank) {
+  return {{"windows", rank.windows},
+          {"blocks_sent", rank.sent.blocks},
+          {"bytes_sent", rank.sent.bytes},
+          {"peak_accounted_bytes", rank.peak_accounted_bytes},
+          {"peak_bytes_by_purpose", purposes_json(rank.peak_bytes_by_purpose)}};
+}
+
 ordered_json engine_json(const FinishedRun& run) {
   const engine::StoreFacts& store = run.engine.store;
-  ordered_json purposes;
-  for (std::size_t i = 0; i < engine::kPurposes; ++i) {
-    purposes[engine::kPurposeNames[i]] = run.engine.peak_bytes_by_purpose[i];
-  }
   ordered_json out{{"windows", run.engine.windows},
                    {"windows_resumed", store.resumed_windows},
                    {"threads", run.engine.threads},
                    {"memory_budget_bytes", run.engine.memory_budget_bytes},
                    {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
-                   {"peak_bytes_by_purpose", std::move(purposes)},
+                   {"peak_bytes_by_purpose", purposes_json(run.engine.peak_bytes_by_purpose)},
                    {"blocks_spilled", store.blocks_spilled},
                    {"bytes_written", store.bytes_written},
                    {"bytes_read", store.bytes_read}};
+  for (const engine::RankFacts& rank : run.engine.ranks) out["ranks"].push_back(rank_json(rank));
   if (run.engine.workers) out["codt"] = codt_json(run.engine);
   return out;
 }

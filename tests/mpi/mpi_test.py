@@ -181,6 +181,38 @@ class SharedRuns(unittest.TestCase):
         print(f"{kills} kills, {went_on} times gone on from an epoch", file=sys.stderr)
         self.assertGreater(went_on, 0)
 
+    def end_by_signal(self, number, wait):
+        """Starts a run and sends mpirun a signal; its exit code."""
+        run = subprocess.Popen(self.command(3, "--certify", "off", "--save-every", "0.3"),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                               env=environment())
+        time.sleep(wait)
+        ranks = children_of(pathlib.Path(SHARED).name, run.pid)
+        run.send_signal(number)
+        _, err = run.communicate(timeout=60)
+        begun = time.monotonic()
+        while any(pathlib.Path(f"/proc/{r}").exists() for r in ranks):
+            self.assertLess(time.monotonic() - begun, 60, "ranks are left")
+            time.sleep(0.05)
+        return run.returncode, err
+
+    def test_signals_end_all_and_lose_nothing_that_counts(self):
+        self.synth("voronoi", "72,72,96", 60)
+        expected = self.alone()
+        epochs = self.folder / "shared.vtkhdf.work" / "epochs"
+        for number in (signal.SIGUSR1, signal.SIGTERM, signal.SIGKILL):
+            with self.subTest(signal=number):
+                code, err = self.end_by_signal(number, 2.5)
+                if code == 0:
+                    self.skipTest("the run was over before the signal")
+                if number == signal.SIGUSR1:
+                    self.assertEqual(code, 75, err)
+                    self.assertIn("add --resume", err)
+                    self.assertTrue(epochs.exists())
+                resume = ["--resume"] if epochs.exists() else []
+                self.expect_same(2, expected, "--certify", "off", *resume)
+                (self.folder / "shared.vtkhdf").unlink()
+
     def test_saved_work_is_not_overwritten_or_mixed(self):
         chance = random.Random(SEED)
         self.synth("voronoi", "64,64,80", 40)

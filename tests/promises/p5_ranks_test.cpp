@@ -111,9 +111,15 @@ TEST(Promise5SameBytes, ProcessesShareTheWorkAndSendWhatIsPredicted) {
     EXPECT_EQ(shared.windows, alone.windows);
     EXPECT_EQ(shared.vertices, alone.vertices);
     const std::vector<std::uint64_t> predicted = predicted_blocks(trial, kRanks);
-    EXPECT_EQ(shared.traffic.blocks,
-              std::accumulate(predicted.begin(), predicted.end(), std::uint64_t{0}));
-    EXPECT_GT(shared.traffic.blocks, 0U);
+    std::vector<std::uint64_t> sent;
+    std::uint64_t windows = 0;
+    for (const RankFacts& rank : shared.ranks) {
+      sent.push_back(rank.sent.blocks);
+      windows += rank.windows;
+    }
+    EXPECT_EQ(sent, predicted);
+    EXPECT_EQ(windows, alone.windows);
+    EXPECT_GT(std::accumulate(sent.begin(), sent.end(), std::uint64_t{0}), 0U);
   }
 }
 
