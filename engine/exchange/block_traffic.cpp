@@ -26,10 +26,7 @@ BlockTraffic::Attached::Attached(BlockTraffic& traffic, RunStore& store) : team_
                     [to, &store](const Team::Head& head, std::vector<std::byte> bytes) {
                       to->receive(store, head, std::move(bytes));
                     },
-                .signalled =
-                    [to](std::uint64_t number) {
-                      if (to->on_signal_) to->on_signal_(number);
-                    },
+                .signalled = [to](std::uint64_t number) { to->signalled_ = number; },
                 .sent = [to] { to->arrivals_.wake(); },
                 .failed = [to](const Error& error) { to->end(std::make_exception_ptr(error)); }});
 }

@@ -57,8 +57,8 @@ class BlockTraffic : public BlockRouter {
   }
   [[nodiscard]] TrafficFacts facts() const { return {blocks_sent_, bytes_sent_}; }
 
-  /// Signals of other ranks go there; set before anything is received.
-  void on_signal(std::function<void(std::uint64_t number)> use) { on_signal_ = std::move(use); }
+  /// The last number that another rank has signalled; they only grow.
+  [[nodiscard]] std::uint64_t signalled() const { return signalled_; }
   /// Parcels that were sent to each rank, and those that are in the store here.
   [[nodiscard]] std::vector<std::uint64_t> sent_to() const;
   [[nodiscard]] std::uint64_t received() const { return received_; }
@@ -85,7 +85,7 @@ class BlockTraffic : public BlockRouter {
   Team& team_;
   Partition partition_;
   Arrivals arrivals_;
-  std::function<void(std::uint64_t number)> on_signal_;
+  std::atomic<std::uint64_t> signalled_ = 0;
   std::atomic<std::uint64_t> received_ = 0;
   std::atomic<std::uint64_t> blocks_sent_ = 0;
   std::atomic<std::uint64_t> bytes_sent_ = 0;

@@ -26,13 +26,10 @@ std::uint64_t number_at(const std::vector<std::byte>& bytes, int index) {
 }  // namespace
 
 Epochs::Epochs(Team& team, BlockTraffic& traffic, RunStore& store, Options options)
-    : team_(team), traffic_(traffic), store_(store), options_(std::move(options)) {
-  traffic_.on_signal([this](std::uint64_t number) { asked_ = number; });
-}
+    : team_(team), traffic_(traffic), store_(store), options_(std::move(options)) {}
 
 Epochs::~Epochs() {
   if (thread_.joinable()) thread_.join();
-  traffic_.on_signal({});
 }
 
 void Epochs::start() {
@@ -79,8 +76,8 @@ void Epochs::lead() {
 
 void Epochs::follow() {
   for (;;) {
-    sleep_until([&] { return asked_ > epochs_; });
-    if (asked_ == kEnd) return;
+    sleep_until([&] { return traffic_.signalled() > epochs_; });
+    if (traffic_.signalled() == kEnd) return;
     run_one();
   }
 }

@@ -58,7 +58,6 @@ class Epochs {
   RunStore& store_;
   Options options_;
   std::uint64_t epochs_ = 0;
-  std::atomic<std::uint64_t> asked_ = 0;  ///< the number that rank 0 wants
   std::atomic<bool> ending_ = false;
   std::thread thread_;
 };
