@@ -232,7 +232,7 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   report.lattice = {lattice.info().shape, lattice.info().space.spacing, lattice.layers()};
   report.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   const RunLayout layout(march_grids(lattice.info().shape, settings), settings.order);
-  MemoryBudget budget(hooks.store.memory);
+  MemoryBudget budget(hooks.store.memory, hooks.team != nullptr ? hooks.team->ranks_here() : 1);
   require_min(layout, lattice.labels(), settings, sink, report.threads, budget);
   const auto program = budget.reserve(Purpose::kProgram, always_bytes(volume, report.threads));
   std::optional<codt::WorkerPool> workers;

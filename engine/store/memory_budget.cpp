@@ -79,8 +79,12 @@ std::uint64_t MemoryBudget::min_with(std::uint64_t bytes) const {
 }
 
 void MemoryBudget::fail(std::uint64_t bytes) const {
-  throw Error(ErrorKind::kResource, "a memory budget of " + std::to_string(limit_) +
-                                        " bytes is too small; " + io::min_memory(min_with(bytes)));
+  const auto all = static_cast<std::uint64_t>(sharers_);
+  const std::string share =
+      sharers_ > 1 ? ", one of " + std::to_string(sharers_) + " shares of --memory," : "";
+  throw Error(ErrorKind::kResource, "a memory budget of " + std::to_string(limit_) + " bytes" +
+                                        share + " is too small; " +
+                                        io::min_memory(all * min_with(bytes)));
 }
 
 std::uint64_t MemoryBudget::used() const {

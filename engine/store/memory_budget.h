@@ -50,7 +50,9 @@ class MemoryBudget {
     std::uint64_t bytes_ = 0;
   };
 
-  explicit MemoryBudget(std::uint64_t limit = kUnlimited) : limit_(limit) {}
+  /// sharers: processes that --memory was divided by.
+  explicit MemoryBudget(std::uint64_t limit = kUnlimited, int sharers = 1)
+      : limit_(limit), sharers_(sharers) {}
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
@@ -65,7 +67,7 @@ class MemoryBudget {
 
   /// The smallest limit under which `bytes` could be reserved now, blocks all spilled.
   [[nodiscard]] std::uint64_t min_with(std::uint64_t bytes) const;
-  /// ERRORS: mw::Error(kResource) with the limit and min_with(bytes).
+  /// ERRORS: mw::Error(kResource) with the limit, and the --memory that gives each min_with(bytes).
   [[noreturn]] void fail(std::uint64_t bytes) const;
 
   [[nodiscard]] std::uint64_t limit() const { return limit_; }
@@ -85,6 +87,7 @@ class MemoryBudget {
   void release(Purpose purpose, std::uint64_t bytes);
 
   const std::uint64_t limit_;
+  const int sharers_;
   mutable std::mutex mutex_;
   Account total_;
   std::array<Account, kPurposes> accounts_;

@@ -11,6 +11,7 @@ import hashlib
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -111,6 +112,19 @@ class SharedRuns(unittest.TestCase):
             # A rank's share of the budget is near the least that works.
             self.expect_same(ranks, expected, "--memory", f"{64 * ranks}MiB", "--certify", "off",
                              "--save-every", "0.2")
+
+    def test_the_memory_that_is_asked_for_is_that_of_the_machine(self):
+        self.synth("voronoi", "40,40,48", 20)
+        expected = self.alone()
+        budget = "3MiB"
+        for _ in range(8):
+            done = self.run_shared(3, "--memory", budget, "--certify", "off")
+            if done.returncode == 0:
+                break
+            self.assertEqual(done.returncode, 4, done.stderr)
+            budget = re.search(r"--memory (\d+MiB)", done.stderr).group(1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
 
     def test_rank_0_checks_and_reports(self):
         self.synth("spheres", "40,40,40", 4)
