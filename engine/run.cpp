@@ -19,6 +19,7 @@
 #include "engine/system/resident_memory.h"
 #include "engine/system/stopwatch.h"
 #include "engine/system/tbb_for.h"
+#include "engine/team_labels.h"
 #include "engine/team_run.h"
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
@@ -66,36 +67,77 @@ std::uint64_t always_bytes(const io::DenseVolume& volume, int threads) {
   return program_bytes(volume.table().size(), threads) + kCopies * volume.info().names.bytes();
 }
 
-std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings) {
-  return prepared_label_bytes(volume.info().shape, !settings.sizes.labels.empty());
+/// share: null: the labels of the whole volume.
+std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings,
+                             const LabelShare* share) {
+  const Index3 shape = volume.info().shape;
+  const bool sized = !settings.sizes.labels.empty();
+  if (share == nullptr) return prepared_label_bytes(shape, sized);
+  return prepared_label_bytes(bricks_of(*share, shape, settings), shape, sized);
 }
 
 /// Tells at once, before any work, the least that the parts take whose size is known by then.
 /// What windows take depends on the labels, and on what earlier windows leave.
 void require_min(const RunLayout& layout, const io::DenseVolume& volume,
-                 const MeshSettings& settings, const io::MeshSink& sink, int threads,
-                 const MemoryBudget& budget) {
+                 const MeshSettings& settings, const io::MeshSink& sink, const RunHooks& hooks,
+                 int threads, const MemoryBudget& budget) {
+  // Of several processes none knows its share yet.
+  const LabelShare nothing;
+  const LabelShare* const share = hooks.team == nullptr ? nullptr : &nothing;
   const std::uint64_t always =
-      always_bytes(volume, threads) + prepared_bytes(volume, settings) + index_bytes(layout);
+      always_bytes(volume, threads) + prepared_bytes(volume, settings, share) + index_bytes(layout);
   const std::uint64_t reading = preparation_bytes(settings) + volume.raw().buffer_bytes(1);
   const std::uint64_t min = always + std::max(reading, sink.buffer_bytes());
   if (min > budget.limit()) budget.fail(min);
 }
 
-/// Reads and coarsens the labels; their memory is `room`, and more while they are made: on so many
-/// threads that this stays below a quarter of the budget, and what the volume keeps of its file.
-PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settings, int threads,
-                       const StoreOptions& options, RunStore& store,
-                       MemoryBudget::Reservation& room) {
-  room = store.reserve(Purpose::kLabels, prepared_bytes(volume, settings));
-  const std::uint64_t each = preparation_bytes(settings);
-  const std::uint64_t at_once =
-      std::clamp<std::uint64_t>(options.memory / 4 / each, 1, static_cast<std::uint64_t>(threads));
-  const int workers = static_cast<int>(at_once);
-  const auto scratch =
-      store.reserve(Purpose::kLabels, at_once * each + volume.raw().buffer_bytes(workers));
-  const std::filesystem::path& folder = options.workdir;
-  return {volume, settings, workers, folder.empty() ? io::scratch_folder() : folder};
+/// Threads that read labels, and what these hold meanwhile, beside what the volume keeps of its
+/// file: so many that this stays below a quarter of the budget.
+struct Readers {
+  Readers(const io::DenseVolume& volume, const MeshSettings& settings, int most,
+          const StoreOptions& options, RunStore& store) {
+    const std::uint64_t each = preparation_bytes(settings);
+    const auto at_once =
+        std::clamp<std::uint64_t>(options.memory / 4 / each, 1, static_cast<std::uint64_t>(most));
+    threads = static_cast<int>(at_once);
+    scratch = store.reserve(Purpose::kLabels, at_once * each + volume.raw().buffer_bytes(threads));
+  }
+
+  int threads = 1;
+  MemoryBudget::Reservation scratch;
+};
+
+/// Reads and coarsens the labels, or a share of them; their memory is `room`, and more while they
+/// are made.
+PreparedLabels prepare(const io::DenseVolume& volume, const MeshSettings& settings,
+                       const LabelShare* share, int threads, const StoreOptions& options,
+                       RunStore& store, MemoryBudget::Reservation& room) {
+  room = store.reserve(Purpose::kLabels, prepared_bytes(volume, settings, share));
+  const Readers readers(volume, settings, threads, options, store);
+  const std::filesystem::path folder =
+      options.workdir.empty() ? io::scratch_folder() : options.workdir;
+  if (share == nullptr) return {volume, settings, readers.threads, folder};
+  return {volume, settings, *share, readers.threads, folder};
+}
+
+/// What is settled before a process prepares its labels.
+struct Dealt {
+  LabelCounts counts;  ///< of the whole volume
+  Partition partition;
+  LabelShare share;
+};
+
+/// Settles who visits what.
+Dealt deal(Team& team, const RunLayout& layout, const io::DenseVolume& volume,
+           const MeshSettings& settings, int threads, const StoreOptions& options,
+           RunStore& store) {
+  const LabelShare nothing;
+  const auto room = store.reserve(Purpose::kLabels, prepared_bytes(volume, settings, &nothing));
+  const Readers readers(volume, settings, threads, options, store);
+  Dealt out{count_together(team, volume, readers.threads), {}, {}};
+  out.partition = deal_windows(team, layout, settings, out.counts.faces);
+  out.share = share_of(layout, out.partition, team.rank(), settings);
+  return out;
 }
 
 io::MeshPromises promises_of(const MeshSettings& settings) {
@@ -129,12 +171,12 @@ FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, Ru
   return finish(blocks, grid, lattice.volume(), sink, options);
 }
 
-void report_shape(FinishedMesh& finished, const PreparedLabels& labels, const LabelSelection& kept,
+void report_shape(FinishedMesh& finished, const LabelCounts& labels, const LabelSelection& kept,
                   RunReport& report) {
   report.shape = finished.shape;
   report.label_volumes6 = std::move(finished.label_volumes6);
   report.longest_edges = std::move(finished.longest_edges);
-  report.label_voxels = labels.label_voxels();
+  report.label_voxels = labels.voxels;
   for (Label label = 0; label < report.label_voxels.size(); ++label) {
     if (!kept.keeps(label)) report.label_voxels[label] = 0;
   }
@@ -148,12 +190,18 @@ std::uint64_t march_and_write(const RunLayout& layout, const VoxelLattice& latti
                               RunReport& report) {
   Stopwatch watch;
   MemoryBudget::Reservation room;
-  const PreparedLabels labels =
-      prepare(lattice.labels(), settings, report.threads, hooks.store, store, room);
+  std::optional<Dealt> dealt;
+  if (shared != nullptr) {
+    dealt =
+        deal(*hooks.team, layout, lattice.labels(), settings, report.threads, hooks.store, store);
+  }
+  const PreparedLabels labels = prepare(lattice.labels(), settings, dealt ? &dealt->share : nullptr,
+                                        report.threads, hooks.store, store, room);
+  const LabelCounts& counts = dealt ? dealt->counts : labels.counts();
   watch.lap(report.prepare_seconds);
   const Metric metric(lattice.info().space.spacing);
-  RunForecast forecast(labels.faces(), layout, settings, report.threads);
-  if (shared != nullptr) shared->begin(store, settings, labels.faces());
+  RunForecast forecast(counts.faces, layout, settings, report.threads);
+  if (shared != nullptr) shared->begin(store, std::move(dealt->partition));
   Marches marches(hooks, layout, forecast, store.facts().resumed_windows,
                   shared == nullptr ? nullptr : &shared->traffic());
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
@@ -180,7 +228,7 @@ std::uint64_t march_and_write(const RunLayout& layout, const VoxelLattice& latti
   report.tets = finished.tets;
   report.quality = finished.quality;
   if (finished.shape) {
-    report_shape(finished, labels, LabelSelection(hooks.output.wanted, lattice.volume().table()),
+    report_shape(finished, counts, LabelSelection(hooks.output.wanted, lattice.volume().table()),
                  report);
   }
   return marches.stats().windows;
@@ -233,7 +281,7 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   report.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   const RunLayout layout(march_grids(lattice.info().shape, settings), settings.order);
   MemoryBudget budget(hooks.store.memory, hooks.team != nullptr ? hooks.team->ranks_here() : 1);
-  require_min(layout, lattice.labels(), settings, sink, report.threads, budget);
+  require_min(layout, lattice.labels(), settings, sink, hooks, report.threads, budget);
   const auto program = budget.reserve(Purpose::kProgram, always_bytes(volume, report.threads));
   std::optional<codt::WorkerPool> workers;
   if (settings.optimizer == Optimizer::kTetgen) workers.emplace(hooks.workers);

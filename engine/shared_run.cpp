@@ -18,8 +18,9 @@ SharedRun::SharedRun(Team& team, const RunLayout& layout, RunHooks& hooks,
   store.workdir = work_->own_folder();
 }
 
-void SharedRun::begin(RunStore& store, const MeshSettings& settings, const BoundaryFaces& faces) {
-  traffic_.deal(deal_windows(team_, layout_, settings, faces));
+void SharedRun::begin(RunStore& store, Partition partition) {
+  traffic_.deal(std::move(partition));
+  (void)team_.gather(std::vector<std::byte>{});
   if (!work_) return;
   epochs_.emplace(team_, traffic_, store,
                   Epochs::Options{.every = every_,

@@ -24,8 +24,9 @@ class SharedRun {
   /// Of this rank; null: none.
   [[nodiscard]] Workdir* workdir() { return work_ ? &work_->own() : nullptr; }
 
-  /// Deals windows, and takes up what an earlier run left.  From now on there are epochs.
-  void begin(RunStore& store, const MeshSettings& settings, const BoundaryFaces& faces);
+  /// Takes up what an earlier run left, when every rank has the room that its labels take: blocks
+  /// come in then.  From now on there are epochs.
+  void begin(RunStore& store, Partition partition);
   /// All windows of all ranks are done.
   void end_marches();
   /// The output is complete; returns when all ranks know, with what each did.

@@ -2,31 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/team_run.h"
 
-#include <cstring>
 #include <sstream>
-#include <type_traits>
 
+#include "engine/exchange/plain_bytes.h"
 #include "engine/forecast/run_work.h"
 #include "io/file/errors.h"
 
 namespace mw::engine {
 namespace {
-
-/// As bytes: the processes of a run have one program, and machines of one kind.
-template <typename T>
-std::vector<std::byte> bytes_of(const T* first, std::size_t count) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  std::vector<std::byte> out(count * sizeof(T));
-  if (count > 0) std::memcpy(out.data(), first, out.size());
-  return out;
-}
-
-template <typename T>
-std::vector<T> list_of(const std::vector<std::byte>& bytes) {
-  std::vector<T> out(bytes.size() / sizeof(T));
-  if (!out.empty()) std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
-  return out;
-}
 
 template <typename T>
 std::vector<T> of_all(Team& team, const T& mine) {

@@ -4,6 +4,7 @@
 #include "engine/job/mesh_job.h"
 
 #include "engine/job/certificate.h"
+#include "engine/job/shared_scan.h"
 #include "engine/job/stoppable_volume.h"
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
@@ -67,9 +68,11 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   const StoppableVolume stoppable(opened, hooks.stop);
   const io::PreparedInput input(stoppable, job.steps, io::SpeckLimits::of_budget(job.memory));
   return_free_memory_above(0);  // the search for specks has let go of more than is held
-  const FingerprintVolume volume(input.volume());
+  FingerprintVolume volume(input.volume());
   report::FinishedRun run{.volume = volume.info(),
-                          .labels = collect_labels(volume, job.threads),
+                          .labels = job.team == nullptr
+                                        ? collect_labels(volume, job.threads)
+                                        : collect_together(*job.team, volume, job.threads),
                           .sizes = job.settings.sizes,
                           .specks = input.specks()};
   run.labels_seconds = meter.read().wall_seconds;

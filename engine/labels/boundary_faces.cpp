@@ -59,6 +59,13 @@ void BoundaryFaces::count(const LabelBox& labels, Index3 brick, bool uniform) {
   faces_[row(brick)] = static_cast<std::uint16_t>(faces);
 }
 
+void BoundaryFaces::add(std::size_t first, std::span<const std::uint16_t> counts) {
+  for (const std::uint16_t more : counts) {
+    faces_[first] = static_cast<std::uint16_t>(faces_[first] + more);
+    ++first;
+  }
+}
+
 double BoundaryFaces::in(const Box3& box) const {
   const auto below = [](std::int64_t voxel) { return voxel / kBrick; };
   const Box3 inside = intersection(box, {{0, 0, 0}, volume_});

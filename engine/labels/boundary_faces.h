@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernels/core/label_box.h"
@@ -22,6 +23,11 @@ class BoundaryFaces {
   /// uniform: the brick has one label, hence none inside.
   /// REQUIRES: labels cover the brick.  Thread safety: different bricks may be counted at once.
   void count(const LabelBox& labels, Index3 brick, bool uniform);
+
+  /// By brick, x fastest.
+  [[nodiscard]] std::span<const std::uint16_t> counts() const { return faces_; }
+  /// Adds those of the bricks from number `first` on, which were counted elsewhere.
+  void add(std::size_t first, std::span<const std::uint16_t> counts);
 
   /// As if those of each brick were spread evenly over it.
   [[nodiscard]] double in(const Box3& box) const;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdio>
+#include <vector>
 
 #include "kernels/core/for_each_index.h"
 
@@ -18,18 +19,28 @@ std::uint64_t mixed(std::uint64_t v) {
   return v ^ v >> 31;
 }
 
-}  // namespace
-
-void FingerprintVolume::read(const Box3& box, std::span<RawLabel> out) const {
-  below().read(box, out);
-  const Box3 all{{0, 0, 0}, info().shape};
+std::uint64_t sum_over(const Box3& box, std::span<const RawLabel> labels, Index3 volume) {
+  const Box3 all{{0, 0, 0}, volume};
   std::uint64_t sum = 0;
   std::size_t next = 0;
   for_each_index(box, [&](Index3 voxel) {
     const auto position = static_cast<std::uint64_t>(all.offset(voxel));
-    sum += mixed(mixed(out[next++] + 1) + position);
+    sum += mixed(mixed(labels[next++] + 1) + position);
   });
-  sum_ += sum;
+  return sum;
+}
+
+}  // namespace
+
+void FingerprintVolume::read(const Box3& box, std::span<RawLabel> out) const {
+  below().read(box, out);
+  sum_ += sum_over(box, out, info().shape);
+}
+
+std::uint64_t FingerprintVolume::of(const Box3& box) const {
+  std::vector<RawLabel> labels(static_cast<std::size_t>(box.voxels()));
+  below().read(box, labels);
+  return sum_over(box, labels, info().shape);
 }
 
 std::string FingerprintVolume::text() const {

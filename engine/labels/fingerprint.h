@@ -18,7 +18,15 @@ class FingerprintVolume : public io::VolumeView {
   using VolumeView::VolumeView;
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
-  /// 16 hexadecimal digits.  REQUIRES: every voxel has been read exactly once.
+  /// That of a box alone, which is read for it and not added.
+  [[nodiscard]] std::uint64_t of(const Box3& box) const;
+
+  /// Of what was read; add() takes that of what others have read.
+  [[nodiscard]] std::uint64_t sum() const { return sum_; }
+  void add(std::uint64_t sum) { sum_ += sum; }
+
+  /// 16 hexadecimal digits.  REQUIRES: every voxel has been read exactly once, here or
+  /// by others.
   [[nodiscard]] std::string text() const;
 
  private:

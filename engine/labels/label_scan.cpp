@@ -5,10 +5,10 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "engine/labels/reading_tiles.h"
 #include "engine/march/march.h"
 #include "engine/system/tbb_for.h"
 #include "io/labels/label_set.h"
+#include "io/labels/labels_in.h"
 
 namespace mw::engine {
 namespace {
@@ -18,16 +18,28 @@ struct Scan {
   std::vector<RawLabel> tile;
 };
 
+/// Planes of the volume's slowest axis.
+Box3 planes(const io::VolumeInfo& info, const SequencePart& part) {
+  Box3 out{{0, 0, 0}, info.shape};
+  std::int64_t& lo = info.z_fastest ? out.lo.x : out.lo.z;
+  std::int64_t& hi = info.z_fastest ? out.hi.x : out.hi.z;
+  lo = part.begin(hi);
+  hi = part.end(hi);
+  return out;
+}
+
 }  // namespace
 
-io::LabelTable collect_labels(const io::LabelVolume& volume, int threads) {
+std::vector<RawLabel> labels_of_part(const io::LabelVolume& volume, int threads,
+                                     const SequencePart& part) {
   const io::VolumeInfo& info = volume.info();
-  if (info.scaled || is_float(info.type)) return io::collect_labels(volume);
-  const ReadingTiles tiles(info);
+  if (info.scaled || is_float(info.type)) return io::labels_in(volume, planes(info, part));
+  const std::vector<Box3> tiles = ReadingTiles(info).boxes(part);
+  const Index3 count{static_cast<std::int64_t>(tiles.size()), 1, 1};
   tbb::enumerable_thread_specific<Scan> scans;
-  tbb_for_each_index(thread_count(threads), tiles.count(), [&](Index3 tile) {
+  tbb_for_each_index(thread_count(threads), count, [&](Index3 tile) {
     Scan& scan = scans.local();
-    const Box3 box = tiles.box(tile);
+    const Box3& box = tiles[static_cast<std::size_t>(tile.x)];
     scan.tile.resize(static_cast<std::size_t>(box.voxels()));
     volume.read(box, scan.tile);
     scan.labels.insert(scan.tile);
@@ -37,7 +49,11 @@ io::LabelTable collect_labels(const io::LabelVolume& volume, int threads) {
     const std::vector<RawLabel> some = scan.labels.values();
     all.insert(all.end(), some.begin(), some.end());
   }
-  return {std::move(all), has_signed_labels(info)};
+  return all;
+}
+
+io::LabelTable collect_labels(const io::LabelVolume& volume, int threads) {
+  return {labels_of_part(volume, threads, {}), has_signed_labels(volume.info())};
 }
 
 }  // namespace mw::engine

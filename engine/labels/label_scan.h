@@ -3,9 +3,15 @@
 // Which labels a volume has, found by many threads.
 #pragma once
 
+#include "engine/labels/reading_tiles.h"
 #include "io/labels/label_table.h"
 
 namespace mw::engine {
+
+/// The labels of one part of a volume, in no particular order; together the parts have all voxels,
+/// each once, earlier parts those that come earlier in the file.  Otherwise as collect_labels().
+[[nodiscard]] std::vector<RawLabel> labels_of_part(const io::LabelVolume& volume, int threads,
+                                                   const SequencePart& part);
 
 /// As io::collect_labels, on so many threads (0: all cores), which change nothing; volumes whose
 /// voxels may turn out to be no labels (floats, scaled numbers) are read in file order, so that the

@@ -4,10 +4,10 @@
 #include "engine/labels/prepared_labels.h"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 
 #include "engine/labels/reading_tiles.h"
+#include "engine/labels/tile_bricks.h"
 #include "engine/system/tbb_for.h"
 #include "kernels/core/for_each_index.h"
 #include "kernels/start/carrier_faces.h"
@@ -19,8 +19,6 @@ namespace {
 constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 /// Bricks along an axis of a tile that is coarsened at once; the halo is one brick.
 constexpr std::int64_t kBricksPerTile = 4;
-static_assert(kCoarsenHalo <= kBrick);
-static_assert(LevelMap::kCube == kBrick);
 
 Box3 clipped(const Box3& box, Index3 shape) {
   return intersection(box, {{0, 0, 0}, shape});
@@ -30,21 +28,29 @@ Index3 scaled(Index3 v, std::int64_t by) {
   return {v.x * by, v.y * by, v.z * by};
 }
 
+bool is_empty(const Box3& box) {
+  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
+}
+
+bool is_within(const Box3& part, const Box3& whole) {
+  return intersection(part, whole) == part;
+}
+
+/// The same voxels in a larger box, whose others are outside the volume.
+LabelBox padded(const LabelBox& inside, const Box3& box) {
+  if (inside.box == box) return inside;
+  LabelBox out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()), kExterior)};
+  std::size_t next = 0;
+  for_each_index(inside.box, [&](Index3 v) {
+    out.labels[static_cast<std::size_t>(box.offset(v))] = inside.labels[next++];
+  });
+  return out;
+}
+
 LabelBox read(const io::BrickVolume& volume, const Box3& box) {
   LabelBox out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()))};
   volume.read(box, out.labels);
   return out;
-}
-
-/// Copies the voxels of a brick out of a larger box.
-void cut_brick(const LabelBox& from, const Box3& brick, std::vector<Label>& out) {
-  out.clear();
-  for (Index3 v = brick.lo; v.z < brick.hi.z; ++v.z) {
-    for (v.y = brick.lo.y; v.y < brick.hi.y; ++v.y) {
-      const auto row = from.labels.begin() + from.box.offset({brick.lo.x, v.y, v.z});
-      out.insert(out.end(), row, row + brick.shape().x);
-    }
-  }
 }
 
 /// True when each of the bricks has one label, though not all the same.
@@ -78,24 +84,39 @@ std::optional<InnerDemand> inner_demand(const io::LabelTable& table, const SizeS
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                int threads, const std::filesystem::path& folder)
-    : original_(volume.info().shape, volume.table().size(), folder),
-      faces_(volume.info().shape),
+    : PreparedLabels(volume, settings, bricks_of(volume.info().shape),
+                     LabelCounts(volume.info().shape, volume.table().size()), threads, folder) {}
+
+PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
+                               const LabelShare& share, int threads,
+                               const std::filesystem::path& folder)
+    : PreparedLabels(volume, settings, bricks_of(share, volume.info().shape, settings),
+                     std::nullopt, threads, folder) {}
+
+PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
+                               const ShareBricks& bricks, std::optional<LabelCounts> counts,
+                               int threads, const std::filesystem::path& folder)
+    : volume_(volume),
+      counts_(std::move(counts)),
+      original_(volume.info().shape, volume.table().size(), folder, bricks.original),
       sizes_(size_field(volume, settings.sizes)),
-      inner_(inner_demand(volume.table(), settings.sizes)),
-      label_voxels_(volume.table().size()) {
+      inner_(inner_demand(volume.table(), settings.sizes)) {
   read_bricks(volume, threads);
-  volume.raw().drop_buffers();  // it is not read again
+  volume.raw().drop_buffers();  // it is not read again, unless a visit looks beyond its share
   if (sizes_.limits()) sizes_.spread();
-  // Coarsening keeps the topology of labels, not that of interfaces.
-  if (settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels) {
-    coarse_.emplace(original_.shape(), volume.table().size(), folder);
+  if (is_coarsened(settings)) {
+    coarse_.emplace(original_.shape(), volume.table().size(), folder, bricks.shapes);
     coarsen_tiles(settings.max_distance.value_or(kMaxCoarseDistance), threads);
   }
-  if (settings.start != StartMesh::kDense) find_levels(threads);
+  if (settings.start != StartMesh::kDense) find_levels(bricks.levels, threads);
 }
 
 LabelBox PreparedLabels::original(const Box3& box) const {
-  return read(original_, box);
+  const Box3 inside = clipped(box, original_.shape());
+  if (is_empty(inside) || is_within(bricks_over(inside), original_.held())) {
+    return read(original_, box);
+  }
+  return padded(read_labels(volume_, inside), box);
 }
 
 LabelBox PreparedLabels::shape(const Box3& box) const {
@@ -103,48 +124,34 @@ LabelBox PreparedLabels::shape(const Box3& box) const {
 }
 
 void PreparedLabels::read_bricks(const io::DenseVolume& volume, int threads) {
+  const Box3 voxels =
+      clipped({scaled(original_.held().lo, kBrick), scaled(original_.held().hi, kBrick)},
+              original_.shape());
+  if (is_empty(voxels)) return;
   const ReadingTiles tiles(volume.info());
-  tbb_for_each_index(threads, tiles.count(),
-                     [&](Index3 tile) { read_tile(volume, tiles.box(tile)); });
-}
-
-void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) {
-  LabelBox labels{tile, std::vector<Label>(static_cast<std::size_t>(tile.voxels()))};
-  volume.read(tile, labels.labels);
-  const auto bricks = [](std::int64_t voxels) { return (voxels + kBrick - 1) / kBrick; };
-  const Index3 first{tile.lo.x / kBrick, tile.lo.y / kBrick, tile.lo.z / kBrick};
-  const Index3 last{bricks(tile.hi.x), bricks(tile.hi.y), bricks(tile.hi.z)};
-  std::vector<Label> one;
-  for_each_index(Box3{first, last}, [&](Index3 brick) {
-    cut_brick(labels, original_.box_of(brick), one);
-    original_.write(brick, one);
-    count(brick, one);
-    faces_.count(labels, brick, original_.uniform_label(brick).has_value());
-    if (sizes_.limits()) sizes_.add(original_.box_of(brick), one);
+  const Box3 over = tiles.over(voxels);
+  tbb_for_each_index(threads, over.shape(), [&](Index3 i) {
+    read_tile(volume, intersection(tiles.box(over.lo + i), voxels));
   });
 }
 
-/// Sums of whole numbers: the same whichever thread adds first.
-void PreparedLabels::count(Index3 brick, std::span<const Label> voxels) {
-  const auto add = [&](Label label, std::uint64_t more) {
-    std::atomic_ref(label_voxels_[label]).fetch_add(more, std::memory_order_relaxed);
-  };
-  const std::optional<Label> only = original_.uniform_label(brick);
-  if (only) return add(*only, voxels.size());
-  for (auto run = voxels.begin(); run != voxels.end();) {
-    const auto end = std::find_if(run, voxels.end(), [&](Label l) { return l != *run; });
-    add(*run, static_cast<std::uint64_t>(end - run));
-    run = end;
-  }
+void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) {
+  const LabelBox labels = read_labels(volume, tile);
+  for_each_brick(labels, [&](Index3 brick, const Box3& box, std::span<const Label> voxels) {
+    original_.write(brick, voxels);
+    if (counts_) counts_->count(labels, brick, voxels, original_.uniform_label(brick));
+    if (sizes_.limits()) sizes_.add(box, voxels);
+  });
 }
 
 void PreparedLabels::coarsen_tiles(double max_distance, int threads) {
-  const Index3 bricks = original_.bricks();
+  const Box3& bricks = coarse_->held();
   const auto tiles_along = [](std::int64_t n) { return (n + kBricksPerTile - 1) / kBricksPerTile; };
-  const Index3 tiles{tiles_along(bricks.x), tiles_along(bricks.y), tiles_along(bricks.z)};
+  const Index3 shape = bricks.shape();
+  const Index3 tiles{tiles_along(shape.x), tiles_along(shape.y), tiles_along(shape.z)};
   tbb_for_each_index(threads, tiles, [&](Index3 t) {
-    const Index3 lo = scaled(t, kBricksPerTile);
-    coarsen_tile(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
+    const Index3 lo = bricks.lo + scaled(t, kBricksPerTile);
+    coarsen_tile(intersection({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
   });
 }
 
@@ -176,13 +183,14 @@ bool PreparedLabels::all_may_be_large(const Box3& cubes) const {
   return all;
 }
 
-void PreparedLabels::find_levels(int threads) {
+void PreparedLabels::find_levels(const Box3& cubes, int threads) {
   const Index3 volume = original_.shape();
-  levels_ = LevelMap(volume);
+  levels_ = LevelMap(volume, cubes);
   const auto is_whole = [&](Index3 cube) {
     return shapes().box_of(cube).voxels() == kBrick * kBrick * kBrick;
   };
-  tbb_for_each_index(threads, levels_.cubes(), [&](Index3 cube) {
+  tbb_for_each_index(threads, cubes.shape(), [&](Index3 i) {
+    const Index3 cube = cubes.lo + i;
     const Box3 around = clipped(grown({cube, cube + Index3{1, 1, 1}}, 1), levels_.cubes());
     if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) &&
         all_uniform(shapes(), around) && all_may_be_large(around)) {

@@ -3,7 +3,8 @@
 // The labels that windows work from, made once before the march.
 #pragma once
 
-#include "engine/labels/boundary_faces.h"
+#include "engine/labels/label_counts.h"
+#include "engine/labels/label_share.h"
 #include "engine/settings/settings.h"
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
@@ -15,7 +16,8 @@
 namespace mw::engine {
 
 /// The input's labels, the labels that the start mesh takes its shape from, and its large cells.
-/// A pure function of the volume and the settings.
+/// A pure function of the volume and the settings.  One of several processes makes only its share:
+/// there it is told what the whole would tell.
 /// Thread safety: const members may be called from many threads.
 class PreparedLabels {
  public:
@@ -26,37 +28,50 @@ class PreparedLabels {
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
                  const std::filesystem::path& folder = io::scratch_folder());
 
+  /// The same of a share; counts are then those of others (counts_of_part()).
+  /// REQUIRES: the volume outlives this.
+  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
+                 const LabelShare& share, int threads = 1,
+                 const std::filesystem::path& folder = io::scratch_folder());
+
   /// Boxes may reach outside the volume; voxels there are kExterior.
+  /// Beyond the share the volume is read again: how far the tets of a window reach out of it has no
+  /// bound that is as tight as what is usual.
   [[nodiscard]] LabelBox original(const Box3& box) const;
+  /// REQUIRES: a block of the share and kStartHalo around it.
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
-  /// Where there is much to do.
-  [[nodiscard]] const BoundaryFaces& faces() const { return faces_; }
+  /// What is counted on the way.  REQUIRES: they are no share.
+  [[nodiscard]] const LabelCounts& counts() const { return *counts_; }
+  [[nodiscard]] const BoundaryFaces& faces() const { return counts_->faces; }
   /// Limits on edges; null: none.
   [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
   /// Labels whose tets should have an inner vertex; null: none.
   [[nodiscard]] const InnerDemand* inner() const { return inner_ ? &*inner_ : nullptr; }
   /// How many voxels of the input have each dense label.
-  [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return label_voxels_; }
+  [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return counts_->voxels; }
 
  private:
+  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
+                 const ShareBricks& bricks, std::optional<LabelCounts> counts, int threads,
+                 const std::filesystem::path& folder);
+
   void read_bricks(const io::DenseVolume& volume, int threads);
   void read_tile(const io::DenseVolume& volume, const Box3& tile);
-  void count(Index3 brick, std::span<const Label> voxels);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
-  void find_levels(int threads);
+  void find_levels(const Box3& cubes, int threads);
   [[nodiscard]] bool all_may_be_large(const Box3& cubes) const;
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
 
+  io::DenseVolume volume_;  ///< looked at again for shares only
+  std::optional<LabelCounts> counts_;
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;
   LevelMap levels_;
-  BoundaryFaces faces_;
   SizeField sizes_;
   std::optional<InnerDemand> inner_;
-  std::vector<std::uint64_t> label_voxels_;
 };
 
 }  // namespace mw::engine

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "io/labels/brick_volume.h"
+#include "kernels/core/for_each_index.h"
 
 namespace mw::engine {
 namespace {
@@ -46,6 +47,25 @@ Index3 ReadingTiles::count() const {
 Box3 ReadingTiles::box(Index3 tile) const {
   const Index3 lo{tile.x * edges_.x, tile.y * edges_.y, tile.z * edges_.z};
   return intersection({lo, lo + edges_}, {{0, 0, 0}, shape_});
+}
+
+Box3 ReadingTiles::over(const Box3& box) const {
+  const auto after = [](std::int64_t voxel, std::int64_t edge) {
+    return (voxel + edge - 1) / edge;
+  };
+  return {{box.lo.x / edges_.x, box.lo.y / edges_.y, box.lo.z / edges_.z},
+          {after(box.hi.x, edges_.x), after(box.hi.y, edges_.y), after(box.hi.z, edges_.z)}};
+}
+
+std::vector<Box3> ReadingTiles::boxes(const SequencePart& part) const {
+  std::vector<Box3> out;
+  const std::int64_t all = count().product();
+  std::int64_t number = 0;
+  for_each_index(count(), [&](Index3 tile) {
+    if (number >= part.begin(all) && number < part.end(all)) out.push_back(box(tile));
+    ++number;
+  });
+  return out;
 }
 
 }  // namespace mw::engine

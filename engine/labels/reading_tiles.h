@@ -3,9 +3,20 @@
 // In which boxes a whole volume is read.
 #pragma once
 
+#include <vector>
+
 #include "io/volume/label_volume.h"
 
 namespace mw::engine {
+
+/// One of `count` parts that a sequence is cut into, as large as the others but for one thing.
+struct SequencePart {
+  int index = 0;
+  int count = 1;
+
+  [[nodiscard]] std::int64_t begin(std::int64_t things) const { return things * index / count; }
+  [[nodiscard]] std::int64_t end(std::int64_t things) const { return things * (index + 1) / count; }
+};
 
 /// Boxes of whole bricks (io::BrickVolume) that cover a volume, each read at once: as its chunks
 /// are, if it has some, so that no chunk is unpacked twice; otherwise long rows.
@@ -21,6 +32,10 @@ class ReadingTiles {
   /// The part of the volume that a tile is.  ENSURES: it begins at a brick, and ends at one or with
   /// the volume.
   [[nodiscard]] Box3 box(Index3 tile) const;
+  /// The tiles that have voxels of a box.  REQUIRES: it is inside the volume.
+  [[nodiscard]] Box3 over(const Box3& box) const;
+  /// The boxes of a part of all tiles, x fastest: a slab, more or less.
+  [[nodiscard]] std::vector<Box3> boxes(const SequencePart& part) const;
 
  private:
   Index3 shape_;

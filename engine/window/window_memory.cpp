@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "io/labels/brick_volume.h"
 #include "kernels/distance/label_reach.h"
 
 namespace mw::engine {
@@ -31,8 +30,10 @@ constexpr std::uint64_t kBytesPerThread = kMebibyte;
 // The label table, and what is counted of each label in voxels and mesh.
 constexpr std::uint64_t kBytesPerLabel = 96;
 
-// Places of a brick of the input and of a coarsened one, its large cells and faces.
-constexpr std::uint64_t kBytesPerBrick = 22;
+// Places of a brick of the input and of a coarsened one, its large cells.
+constexpr std::uint64_t kBytesPerBrick = 20;
+// Its faces, which every process has of the whole volume.
+constexpr std::uint64_t kBytesPerCountedBrick = 2;
 // Limits on edges in eight cubes, while they are found.
 constexpr std::uint64_t kBytesPerSizedBrick = 8 * 16;
 // A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
@@ -60,12 +61,6 @@ std::uint64_t distance_label_bytes(const WindowGrid& grid, Index3 window,
          along(edges.z, volume.z);
 }
 
-std::uint64_t bricks_of(Index3 shape) {
-  constexpr std::int64_t kEdge = io::BrickVolume::kEdge;
-  const auto along = [](std::int64_t n) { return (n + kEdge - 1) / kEdge; };
-  return static_cast<std::uint64_t>(along(shape.x) * along(shape.y) * along(shape.z));
-}
-
 }  // namespace
 
 std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockStore& store,
@@ -91,6 +86,13 @@ StartSize max_start_size(const WindowGrid& grid, Index3 block) {
   return {.vertices = corners, .tets = 6 * voxels, .samples = 3 * kSamplesPerFace * corners};
 }
 
+/// Content reaches out as above, here to either side.
+std::int64_t content_halo(const WindowGrid& grid, double max_distance) {
+  const Index3 edges = grid.window_box({0, 0, 0}).shape();
+  const std::int64_t longest = std::max({edges.x, edges.y, edges.z});
+  return (longest + 1) / 2 + LabelReach::search_reach(max_distance) + 1;
+}
+
 bool budget_is_ample(std::uint64_t memory, const WindowGrid& grid, int threads) {
   std::uint64_t content = 0;
   for (Index3 block : grid.blocks_of({0, 0, 0})) {
@@ -106,7 +108,13 @@ std::uint64_t program_bytes(std::size_t labels, int threads) {
 }
 
 std::uint64_t prepared_label_bytes(Index3 shape, bool sized) {
-  return (kBytesPerBrick + (sized ? kBytesPerSizedBrick : 0)) * bricks_of(shape);
+  return prepared_label_bytes(bricks_of(shape), shape, sized);
+}
+
+std::uint64_t prepared_label_bytes(const ShareBricks& share, Index3 shape, bool sized) {
+  const auto held = static_cast<std::uint64_t>(share.original.voxels());
+  const auto all = static_cast<std::uint64_t>(bricks_of(shape).original.voxels());
+  return kBytesPerBrick * held + (kBytesPerCountedBrick + (sized ? kBytesPerSizedBrick : 0)) * all;
 }
 
 std::uint64_t preparation_bytes(const MeshSettings& settings) {

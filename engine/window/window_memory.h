@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "engine/labels/label_share.h"
 #include "engine/settings/settings.h"
 #include "engine/window/block_store.h"
 #include "kernels/start/graded_start.h"
@@ -31,6 +32,10 @@ struct WindowNeeds {
 /// The size of a block whatever its labels are.
 [[nodiscard]] StartSize max_start_size(const WindowGrid& grid, Index3 block);
 
+/// Labels for the distance bound are seldom asked for farther from a window of the grid than so
+/// many voxels.
+[[nodiscard]] std::int64_t content_halo(const WindowGrid& grid, double max_distance);
+
 /// Whether this many windows at a time fit many times over, whatever the labels are: then sizes
 /// need not be exact, and freed memory may stay with the allocator.  (Both cost 10 % of the time
 /// on EM 128^3: 28 instead of 25 s.)
@@ -42,6 +47,9 @@ struct WindowNeeds {
 
 /// What PreparedLabels holds of a volume of this shape; sized: with limits on edges.
 [[nodiscard]] std::uint64_t prepared_label_bytes(Index3 shape, bool sized = false);
+/// The same of a share.
+[[nodiscard]] std::uint64_t prepared_label_bytes(const ShareBricks& share, Index3 shape,
+                                                 bool sized = false);
 /// What it takes beside that while it is made.
 [[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings);
 

@@ -33,16 +33,24 @@ void decode_row(const std::byte* in, std::int64_t first, std::int64_t count, Lab
 }  // namespace
 
 BrickVolume::BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder)
+    : BrickVolume(
+          shape, labels, folder,
+          {{0, 0, 0}, {bricks_along(shape.x), bricks_along(shape.y), bricks_along(shape.z)}}) {}
+
+BrickVolume::BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder,
+                         const Box3& held)
     : shape_(shape),
       bricks_{bricks_along(shape.x), bricks_along(shape.y), bricks_along(shape.z)},
+      held_(held),
       label_bytes_(labels <= 0x100     ? 1
                    : labels <= 0x10000 ? 2
                                        : 4),
-      entries_(static_cast<std::size_t>(bricks_.product())),
+      entries_(static_cast<std::size_t>(held.voxels())),
       file_(folder) {}
 
 std::size_t BrickVolume::row(Index3 brick) const {
-  return static_cast<std::size_t>(Box3{{0, 0, 0}, bricks_}.offset(brick));
+  MW_ASSERT(held_.contains(brick));
+  return static_cast<std::size_t>(held_.offset(brick));
 }
 
 Box3 BrickVolume::box_of(Index3 brick) const {

@@ -17,7 +17,7 @@ namespace mw::io {
 ///
 /// Cut into bricks of 16^3 voxels.  A uniform brick costs no file access, which makes the large
 /// empty parts of a CT nearly free; another is one read of 4 to 16 KiB.  In memory it holds 8 bytes
-/// a brick (2 KiB a million voxels).
+/// a brick (2 KiB a million voxels).  It may hold a box of bricks only.
 /// Thread safety: different bricks may be written at once; reading goes on after writing.
 class BrickVolume {
  public:
@@ -26,20 +26,24 @@ class BrickVolume {
   /// folder: where the temporary file goes.
   /// REQUIRES: labels > 0, all labels below it.
   BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder);
+  /// The same, of the bricks `held` of such a volume.
+  BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder,
+              const Box3& held);
 
   [[nodiscard]] Index3 shape() const { return shape_; }
   [[nodiscard]] Index3 bricks() const { return bricks_; }
+  [[nodiscard]] const Box3& held() const { return held_; }
   /// The brick's voxels that are in the volume.
   [[nodiscard]] Box3 box_of(Index3 brick) const;
 
-  /// REQUIRES: voxels of box_of(brick), x fastest; not written before.
+  /// REQUIRES: voxels of box_of(brick), x fastest; held and not written before.
   void write(Index3 brick, std::span<const Label> voxels);
 
-  /// The brick's only label, or none when it has several.
+  /// The brick's only label, or none when it has several.  REQUIRES: held.
   [[nodiscard]] std::optional<Label> uniform_label(Index3 brick) const;
 
   /// Reads a box that may reach outside the volume, where voxels are kExterior.
-  /// REQUIRES: all bricks written; out.size() == box.voxels().
+  /// REQUIRES: its bricks are written; out.size() == box.voxels().
   void read(const Box3& box, std::span<Label> out) const;
 
  private:
@@ -50,6 +54,7 @@ class BrickVolume {
 
   Index3 shape_;
   Index3 bricks_;
+  Box3 held_;
   std::size_t label_bytes_;
   std::vector<std::uint64_t> entries_;  ///< label of a uniform brick, or kInFile + offset
   std::atomic<std::uint64_t> file_size_ = 0;

@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "io/labels/label_set.h"
+#include "io/labels/labels_in.h"
 #include "io/labels/slabs.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/error.h"
@@ -60,20 +61,7 @@ bool LabelTable::contains(RawLabel raw) const {
 
 LabelTable collect_labels(const LabelVolume& volume) {
   const VolumeInfo& info = volume.info();
-  LabelSet set;
-  std::vector<RawLabel> buffer;
-  const auto visit = [&](const Box3& slab) {
-    buffer.resize(static_cast<std::size_t>(slab.voxels()));
-    volume.read(slab, buffer);
-    set.insert(buffer);
-  };
-  const Box3 all{{0, 0, 0}, info.shape};
-  if (info.z_fastest) {
-    for_each_x_slab(all, kSlabVoxels, visit);
-  } else {
-    for_each_z_slab(all, kSlabVoxels, visit);
-  }
-  return {set.values(), has_signed_labels(info)};
+  return {labels_in(volume, {{0, 0, 0}, info.shape}), has_signed_labels(info)};
 }
 
 void DenseVolume::read(const Box3& box, std::span<Label> out) const {

@@ -27,10 +27,24 @@ unsigned eighth_at(Index3 voxel) {
 }  // namespace
 
 LevelMap::LevelMap(Index3 volume)
+    : LevelMap(volume,
+               {{0, 0, 0}, {cubes_along(volume.x), cubes_along(volume.y), cubes_along(volume.z)}}) {
+}
+
+LevelMap::LevelMap(Index3 volume, const Box3& held)
     : volume_(volume),
       cubes_{cubes_along(volume.x), cubes_along(volume.y), cubes_along(volume.z)},
-      eighths_(static_cast<std::size_t>(cubes_.product()), 0),
+      held_(held),
+      eighths_(static_cast<std::size_t>(held.voxels()), 0),
       whole_(eighths_.size(), 0) {}
+
+/// Cubes whose neighbours are all held, or outside the volume.
+Box3 LevelMap::decided() const {
+  const auto lower = [](std::int64_t lo) { return lo == 0 ? 0 : lo + 1; };
+  const auto upper = [](std::int64_t hi, std::int64_t all) { return hi == all ? hi : hi - 1; };
+  return {{lower(held_.lo.x), lower(held_.lo.y), lower(held_.lo.z)},
+          {upper(held_.hi.x, cubes_.x), upper(held_.hi.y, cubes_.y), upper(held_.hi.z, cubes_.z)}};
+}
 
 std::uint8_t LevelMap::allowed_eighths(const LabelBox& labels, Index3 volume, Index3 cube,
                                        const SizeField* sizes) {

@@ -24,8 +24,12 @@ class LevelMap {
   LevelMap() = default;
   /// No cell is allowed yet.
   explicit LevelMap(Index3 volume);
+  /// The same of the cubes `held`: what is known of cells ends one cube inside of where they do,
+  /// and at the volume's sides.
+  LevelMap(Index3 volume, const Box3& held);
 
   [[nodiscard]] Index3 cubes() const { return cubes_; }
+  [[nodiscard]] const Box3& held() const { return held_; }
 
   /// The eight cells of 8 voxels in cube `cube` that are allowed, as bits (x lowest).
   /// REQUIRES: labels cover the cube and kHalo around it.  sizes: null: no limits.
@@ -39,23 +43,25 @@ class LevelMap {
   /// lies inside the volume and inside one label, and may be one cell for its size.
   template <typename IsUniform>
   void find_cubes(IsUniform is_uniform) {
-    for_each_index(cubes_, [&](Index3 c) {
+    for_each_index(decided(), [&](Index3 c) {
       whole_[row(c)] = is_uniform(c) && eighths_around_allowed(c) ? 1 : 0;
     });
   }
 
   /// Is the cell of 2^level voxels that contains the voxel allowed?  Outside the volume: no.
-  /// REQUIRES: level 3 or 4.
+  /// REQUIRES: level 3 or 4; known there.
   [[nodiscard]] bool is_allowed(Index3 voxel, int level) const;
 
  private:
   [[nodiscard]] std::size_t row(Index3 cube) const {
-    return static_cast<std::size_t>((cube.z * cubes_.y + cube.y) * cubes_.x + cube.x);
+    return static_cast<std::size_t>(held_.offset(cube));
   }
+  [[nodiscard]] Box3 decided() const;
   [[nodiscard]] bool eighths_around_allowed(Index3 cube) const;
 
   Index3 volume_;
   Index3 cubes_;
+  Box3 held_;
   std::vector<std::uint8_t> eighths_;
   std::vector<std::uint8_t> whole_;
 };

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "kernels/start/carrier_faces.h"
+#include "tests/engine/labels/counted_volume.h"
 #include "tests/engine/memory_run.h"
 #include "tests/kernels/start/coarse_volume.h"
 #include "tests/kernels/start/large_cells.h"
@@ -78,6 +79,109 @@ TEST(PreparedLabels, AreWhatTheWholeVolumeGivesDirectly) {
     expect_levels(labels.levels(), mw::test::level_map(shape), volume.shape);
   }
   EXPECT_GE(changed, 6);
+}
+
+std::int64_t edge_upto(std::mt19937& random, std::int64_t n) {
+  return 1 + std::int64_t{below(random, static_cast<std::uint32_t>(n))};
+}
+
+/// A box in the volume, now and then an empty one.
+Box3 random_part(std::mt19937& random, Index3 shape) {
+  if (below(random, 8) == 0) return {};
+  const Index3 lo{below(random, static_cast<std::uint32_t>(shape.x)),
+                  below(random, static_cast<std::uint32_t>(shape.y)),
+                  below(random, static_cast<std::uint32_t>(shape.z))};
+  return {lo, lo + Index3{edge_upto(random, shape.x - lo.x), edge_upto(random, shape.y - lo.y),
+                          edge_upto(random, shape.z - lo.z)}};
+}
+
+MeshSettings settings_of(int i) {
+  constexpr std::array<StartMesh, 3> kStarts{StartMesh::kCoarse, StartMesh::kOctree,
+                                             StartMesh::kDense};
+  MeshSettings settings{.start = kStarts[static_cast<std::size_t>(i) % 3]};
+  if (i % 4 == 1) settings.max_distance.reset();
+  if (i % 5 == 2) settings.topology = KeptTopology::kInterfaces;
+  if (i % 7 == 3) settings.sizes.labels = {{test::raw_label(0), 4.0}};
+  return settings;
+}
+
+std::int64_t voxels_of(const Box3& bricks, Index3 shape) {
+  const Box3 box{{16 * bricks.lo.x, 16 * bricks.lo.y, 16 * bricks.lo.z},
+                 {16 * bricks.hi.x, 16 * bricks.hi.y, 16 * bricks.hi.z}};
+  return intersection(box, {{0, 0, 0}, shape}).voxels();
+}
+
+void expect_same_levels(const LevelMap& share, const LevelMap& whole, const Box3& box) {
+  for_each_index(box, [&](Index3 v) {
+    for (int level : {3, 4}) {
+      ASSERT_EQ(share.is_allowed(v, level), whole.is_allowed(v, level));
+    }
+  });
+}
+
+void expect_same_sizes(const SizeField* share, const SizeField* whole, Index3 shape) {
+  ASSERT_EQ(share == nullptr, whole == nullptr);
+  if (whole == nullptr) return;
+  for_each_index(Index3{shape.x / 8, shape.y / 8, shape.z / 8}, [&](Index3 c) {
+    const Point p = lattice_corner({8 * c.x, 8 * c.y, 8 * c.z});
+    ASSERT_EQ(share->at(p), whole->at(p));
+  });
+}
+
+/// Large and odd enough for halos to end inside.
+SmallVolume random_long_volume(std::mt19937& random, int i) {
+  const auto kind = static_cast<mw::test::VolumeKind>(below(random, audit::test::kVolumeKinds));
+  Index3 shape{90 + below(random, 70), 1 + below(random, 40), 1 + below(random, 40)};
+  if (i % 3 == 1) std::swap(shape.x, shape.z);
+  if (i % 3 == 2) std::swap(shape.x, shape.y);
+  SmallVolume volume = mw::test::random_volume_of(random, kind, shape, 1 + below(random, 4));
+  // One label in the middle: large cells.
+  const Box3 all{{0, 0, 0}, shape}, inner = random_part(random, shape);
+  for_each_index(inner, [&](Index3 v) {
+    volume.labels[static_cast<std::size_t>(all.offset(v))] = volume.labels[0];
+  });
+  return ranked(volume);
+}
+
+TEST(PreparedLabels, OfAShareTellWhatThoseOfTheWholeTell) {
+  std::mt19937 random(1074);
+  std::int64_t read = 0, voxels = 0;
+  for (int i = 0; i < 120 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_long_volume(random, i);
+    const MeshSettings settings = settings_of(i);
+    const test::MemoryVolume memory(volume, {});
+    const test::CountedVolume counted(memory);
+    const io::LabelTable table = io::collect_labels(memory);
+    const PreparedLabels whole(io::DenseVolume(memory, table), settings);
+    const LabelShare share{random_part(random, volume.shape), random_part(random, volume.shape)};
+    const PreparedLabels labels(io::DenseVolume(counted, table), settings, share, 1 + i % 3);
+    const Box3 all{{0, 0, 0}, volume.shape};
+    SCOPED_TRACE(volume.text() + " share " + std::to_string(i));
+    const ShareBricks bricks = bricks_of(share, volume.shape, settings);
+    const std::int64_t needed = voxels_of(bricks.original, volume.shape);
+    EXPECT_EQ(counted.voxels(), needed);
+    read += needed;
+    voxels += volume.shape.product();
+    if (share.near != Box3{}) {
+      EXPECT_EQ(labels.original(share.near).labels, whole.original(share.near).labels);
+    }
+    EXPECT_EQ(labels.is_coarse(), whole.is_coarse());
+    expect_same_sizes(labels.sizes(), whole.sizes(), volume.shape);
+    if (share.starts != Box3{}) {
+      const Box3 wide = grown(share.starts, kStartHalo);
+      EXPECT_EQ(labels.original(wide).labels, whole.original(wide).labels);
+      EXPECT_EQ(labels.shape(wide).labels, whole.shape(wide).labels);
+      if (settings.start != StartMesh::kDense) {
+        expect_same_levels(labels.levels(), whole.levels(),
+                           intersection(grown(share.starts, 2), all));
+      }
+    }
+    EXPECT_EQ(counted.voxels(), needed) << "something was read again";
+    // Anywhere else, too, where it is read again.
+    const Box3 any = grown(random_part(random, volume.shape), 3);
+    EXPECT_EQ(labels.original(any).labels, whole.original(any).labels);
+  }
+  EXPECT_LT(read, voxels * 9 / 10);
 }
 
 /// Flips of voxels keep labels, not their meetings.

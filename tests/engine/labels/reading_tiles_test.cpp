@@ -5,13 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <random>
 
 #include "engine/labels/label_scan.h"
 #include "io/labels/brick_volume.h"
-#include "io/volume/volume_view.h"
 #include "kernels/core/for_each_index.h"
+#include "tests/engine/labels/counted_volume.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
@@ -53,24 +52,43 @@ TEST(ReadingTiles, AreChunksOfWholeBricks) {
   EXPECT_EQ(ReadingTiles(info).box({1, 2, 1}), (Box3{{64, 128, 32}, {128, 192, 64}}));
 }
 
-/// Says that it has chunks, and counts reads.
-class CountedVolume : public io::VolumeView {
- public:
-  CountedVolume(const io::LabelVolume& volume, Index3 chunk)
-      : VolumeView(volume), info_(volume.info()) {
-    info_.chunk = chunk;
+/// One after the other, the parts have what the whole has.
+TEST(ReadingTiles, ArePartsOfAllThatFollowOneAnother) {
+  std::mt19937 random(13);
+  for (int round = 0; round < 100; ++round) {
+    io::VolumeInfo info;
+    const auto edge = [&] { return static_cast<std::int64_t>(1 + random() % 150); };
+    info.shape = {edge(), edge(), edge()};
+    if (round % 2 == 0) info.chunk = {edge(), edge(), edge()};
+    const ReadingTiles tiles(info);
+    std::vector<Box3> all, parts;
+    for_each_index(tiles.count(), [&](Index3 tile) { all.push_back(tiles.box(tile)); });
+    const int count = 1 + static_cast<int>(random() % 9);
+    for (int i = 0; i < count; ++i) {
+      for (const Box3& box : tiles.boxes({i, count})) parts.push_back(box);
+    }
+    EXPECT_EQ(parts, all);
   }
-  [[nodiscard]] const io::VolumeInfo& info() const override { return info_; }
-  void read(const Box3& box, std::span<RawLabel> out) const override {
-    voxels_ += box.voxels();
-    below().read(box, out);
-  }
-  [[nodiscard]] std::int64_t voxels() const { return voxels_; }
+}
 
- private:
-  io::VolumeInfo info_;
-  mutable std::atomic<std::int64_t> voxels_ = 0;
-};
+TEST(ReadingTiles, OverABoxAreThoseThatHaveItsVoxels) {
+  std::mt19937 random(14);
+  for (int round = 0; round < 100; ++round) {
+    io::VolumeInfo info;
+    const auto edge = [&] { return static_cast<std::int64_t>(1 + random() % 150); };
+    info.shape = {edge(), edge(), edge()};
+    info.chunk = {edge(), edge(), edge()};
+    const ReadingTiles tiles(info);
+    const Index3 lo{edge() % info.shape.x, edge() % info.shape.y, edge() % info.shape.z};
+    const Box3 box = intersection({lo, lo + Index3{edge(), edge(), edge()}}, {{}, info.shape});
+    const Box3 over = tiles.over(box);
+    for_each_index(tiles.count(), [&](Index3 tile) {
+      const Box3 both = intersection(tiles.box(tile), box);
+      const bool meet = both.lo.x < both.hi.x && both.lo.y < both.hi.y && both.lo.z < both.hi.z;
+      EXPECT_EQ(over.contains(tile), meet);
+    });
+  }
+}
 
 TEST(LabelScan, FindsTheLabelsThatOneThreadFinds) {
   std::mt19937 random(12);
@@ -79,7 +97,7 @@ TEST(LabelScan, FindsTheLabelsThatOneThreadFinds) {
         audit::test::random_volume_of(random, audit::test::VolumeKind::kSpecks, {70, 33, 40},
                                       1 + static_cast<std::uint32_t>(random() % 3000));
     const test::MemoryVolume memory(small, {});
-    const CountedVolume volume(memory, {static_cast<std::int64_t>(random() % 40), 20, 17});
+    const test::CountedVolume volume(memory, {static_cast<std::int64_t>(random() % 40), 20, 17});
     const io::LabelTable one = io::collect_labels(memory);
     for (const int threads : {1, 2, 5}) {
       const io::LabelTable many = collect_labels(volume, threads);

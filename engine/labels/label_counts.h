@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What is counted in a volume's labels before windows are visited; parts may be counted apart.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/labels/boundary_faces.h"
+#include "engine/labels/reading_tiles.h"
+#include "io/labels/label_table.h"
+
+namespace mw::engine {
+
+/// Whole numbers of bricks that are counted once each, so parts add up to the whole.
+struct LabelCounts {
+  /// None yet.
+  LabelCounts(Index3 shape, std::size_t labels) : faces(shape), voxels(labels) {}
+
+  /// Counts a brick of a tile that was read.  mine: the brick's voxels; only: its only label, if it
+  /// has just one.  Thread safety: different bricks may be counted at once.
+  void count(const LabelBox& tile, Index3 brick, std::span<const Label> mine,
+             std::optional<Label> only);
+
+  BoundaryFaces faces;                ///< where there is much to do
+  std::vector<std::uint64_t> voxels;  ///< by dense label
+};
+
+/// Counts one part of the volume's reading tiles, on so many threads, which change nothing; of all
+/// parts together it is what PreparedLabels counts of the whole.
+/// Memory: 4 MiB a thread, 2 bytes a brick of the volume and 8 a label.
+[[nodiscard]] LabelCounts counts_of_part(const io::DenseVolume& volume, int threads,
+                                         const SequencePart& part);
+
+}  // namespace mw::engine
