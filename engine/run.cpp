@@ -94,11 +94,11 @@ void require_min(const RunLayout& layout, const io::DenseVolume& volume,
 /// Threads that read labels, and what these hold meanwhile, beside what the volume keeps of its
 /// file: so many that this stays below a quarter of the budget.
 struct Readers {
-  Readers(const io::DenseVolume& volume, const MeshSettings& settings, int most,
+  Readers(const io::DenseVolume& volume, const MeshSettings& settings, int max_threads,
           const StoreOptions& options, RunStore& store) {
     const std::uint64_t each = preparation_bytes(settings);
-    const auto at_once =
-        std::clamp<std::uint64_t>(options.memory / 4 / each, 1, static_cast<std::uint64_t>(most));
+    const auto at_once = std::clamp<std::uint64_t>(options.memory / 4 / each, 1,
+                                                   static_cast<std::uint64_t>(max_threads));
     threads = static_cast<int>(at_once);
     scratch = store.reserve(Purpose::kLabels, at_once * each + volume.raw().buffer_bytes(threads));
   }
