@@ -94,6 +94,16 @@ MW_LANES unsigned lane_bits(const LaneInts& m) {
   return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
 #endif
 }
+/// The same of four comparisons, the first in the lowest bits.
+MW_LANES unsigned lane_bits(const LaneInts& a, const LaneInts& b, const LaneInts& c,
+                            const LaneInts& d) {
+#ifdef __SSE2__
+  const auto low = __builtin_ia32_packssdw128(a, b), high = __builtin_ia32_packssdw128(c, d);
+  return static_cast<unsigned>(__builtin_ia32_pmovmskb128(__builtin_ia32_packsswb128(low, high)));
+#else
+  return lane_bits(a) | lane_bits(b) << 4 | lane_bits(c) << 8 | lane_bits(d) << 12;
+#endif
+}
 /// In a fixed order.
 MW_LANES double sum(const Lanes& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);

@@ -92,12 +92,24 @@ double Unfolder::misfit(const SurfaceTriangle& t, const Hinge& h) const {
   return sum;
 }
 
+/// Half of the spokes failed from their other end already: what is behind them need not be known.
+bool Unfolder::find_open_spokes() {
+  open_.clear();
+  at_open_.assign(star_.triangles().size(), 0);
+  for (const Spoke& spoke : star_.spokes()) {
+    if (failed_.contains(mesh_, star_.vertex(), star_.triangles()[spoke.first].a)) continue;
+    open_.push_back(spoke);
+    at_open_[spoke.first] = at_open_[spoke.second] = 1;
+  }
+  return !open_.empty();
+}
+
 bool Unfolder::unfold_one(LocalVertex v) {
   star_.collect(mesh_, metric_, v);
-  star_.collect_rims(mesh_, metric_);
-  for (const Spoke& spoke : star_.spokes()) {
+  if (!find_open_spokes()) return false;
+  star_.collect_rims(mesh_, metric_, at_open_);
+  for (const Spoke& spoke : open_) {
     const LocalVertex q = star_.triangles()[spoke.first].a;
-    if (failed_.contains(mesh_, v, q)) continue;
     const Hinge h = hinge(spoke);
     const double gain = h.gain();
     if (gain > kMinGain) {

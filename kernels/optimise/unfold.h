@@ -3,6 +3,9 @@
 // Flips of interface edges that take folds out of interfaces.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/mesh/tet_mesh.h"
@@ -34,6 +37,7 @@ class Unfolder {
   struct Hinge;
 
   bool unfold_one(LocalVertex v);
+  [[nodiscard]] bool find_open_spokes();
   [[nodiscard]] Hinge hinge(const Spoke& spoke) const;
   [[nodiscard]] double misfit(const SurfaceTriangle& t, const Hinge& h) const;
 
@@ -44,6 +48,8 @@ class Unfolder {
   Flipper flipper_;
   FailedPairs failed_;
   SurfaceStar star_;
+  std::vector<Spoke> open_;            ///< spokes that did not fail before
+  std::vector<std::uint8_t> at_open_;  ///< triangles at one of them
 };
 
 }  // namespace mw

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 #include "kernels/surface/bend.h"
 
@@ -98,29 +99,55 @@ void SurfaceStar::collect_rims(const TetMesh& mesh, const Metric& metric) {
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) find_rim(mesh, metric, i);
 }
 
+void SurfaceStar::collect_rims(const TetMesh& mesh, const Metric& metric,
+                               std::span<const std::uint8_t> wanted) {
+  rims_.clear();
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    if (wanted[i] != 0) find_rim(mesh, metric, i);
+  }
+}
+
 void SurfaceStar::find_rim(const TetMesh& mesh, const Metric& metric, std::uint32_t row) {
   const SurfaceTriangle& t = triangles_[row];
-  const bool a_is_smaller = mesh.star(t.a).size() <= mesh.star(t.b).size();
-  const LocalVertex p = a_is_smaller ? t.a : t.b, q = a_is_smaller ? t.b : t.a;
-  if (!collect_ring(mesh, p, q, ring_)) return;
-  LocalVertex other = mesh.infinity();
-  int others = 0, rises = 0;
-  for (std::size_t i = 0; i < ring_.size(); ++i) {
-    const Label before = ring_.labels[(i + ring_.size() - 1) % ring_.size()];
-    const auto [low, high] = std::minmax(before, ring_.labels[i]);
-    if (!t.is_between(low, high)) continue;
-    rises += before == low ? 1 : 0;
-    if (ring_.vertices[i] == vertex_) continue;
-    other = ring_.vertices[i];
-    ++others;
-  }
-  // Around an edge of six regions both may lead from low to high: no surface runs through it.
-  if (others != 1 || rises != 1) return;
+  const std::optional<LocalVertex> other = across(mesh, t);
+  if (!other) return;
   // Across the edge the normal of (b, a, other) points to high, as that of (v, a, b) does.
-  const Vec3 to_other = metric.vector(mesh.position(vertex_), mesh.position(other));
+  const Vec3 to_other = metric.vector(mesh.position(vertex_), mesh.position(*other));
   const Vec3 normal = (t.to_a - t.to_b).cross(to_other - t.to_b);
   const double length = normal.norm();
   if (length > 0.0) rims_.push_back({row, normal / length});
+}
+
+/// The third corner of the triangle across the edge opposite v, if exactly two of its labels meet
+/// there.  Which tets follow each other around the edge is asked only of those that bear the two
+/// labels; where neither end is free, the ring must close before that.
+std::optional<LocalVertex> SurfaceStar::across(const TetMesh& mesh, const SurfaceTriangle& t) {
+  LocalVertex p = t.a, q = t.b;
+  if (mesh.star(q).size() < mesh.star(p).size()) std::swap(p, q);
+  if (!mesh.is_free(p)) std::swap(p, q);
+  if (mesh.is_free(p)) {
+    collect_ring_tets(mesh, p, q, ring_);
+  } else if (!collect_ring(mesh, p, q, ring_)) {
+    return std::nullopt;
+  }
+  LocalVertex other = mesh.infinity();
+  int others = 0, rises = 0;
+  const auto add = [&](LocalVertex w, bool rise) {
+    rises += rise ? 1 : 0;
+    if (w == vertex_) return;
+    other = w;
+    ++others;
+  };
+  for (std::size_t i = 0; i < ring_.size(); ++i) {
+    if (ring_.labels[i] != t.low) continue;
+    for (std::size_t k = 0; k < ring_.size(); ++k) {
+      if (ring_.labels[k] != t.high) continue;
+      if (ring_.ends[i] == ring_.vertices[k]) add(ring_.ends[i], true);
+      if (ring_.ends[k] == ring_.vertices[i]) add(ring_.vertices[i], false);
+    }
+  }
+  // Around an edge of six regions both may lead from low to high: no surface runs through it.
+  return others == 1 && rises == 1 ? std::optional(other) : std::nullopt;
 }
 
 }  // namespace mw

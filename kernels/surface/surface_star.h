@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,9 @@ class SurfaceStar {
   void collect(const TetMesh& mesh, const Metric& metric, LocalVertex v);
   /// Rims as well, of the star collected last: those with all tets around them loaded.
   void collect_rims(const TetMesh& mesh, const Metric& metric);
+  /// Only those of triangles for which wanted[row] is not 0.
+  void collect_rims(const TetMesh& mesh, const Metric& metric,
+                    std::span<const std::uint8_t> wanted);
 
   /// What is left of the stars of two vertices when both become one at a place that is `move` from
   /// the first and `other_move` from the other: the triangles at both vanish.
@@ -81,6 +85,7 @@ class SurfaceStar {
   void add_without(LocalVertex vanishing, const SurfaceStar& star, const Vec3& move);
   void find_spokes();
   void find_rim(const TetMesh& mesh, const Metric& metric, std::uint32_t row);
+  [[nodiscard]] std::optional<LocalVertex> across(const TetMesh& mesh, const SurfaceTriangle& t);
 
   LocalVertex vertex_ = 0;
   InterfaceFan fan_;

@@ -4,8 +4,11 @@
 #include "kernels/topology/edge_ring.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "kernels/core/lanes.h"
@@ -13,45 +16,68 @@
 namespace mw {
 namespace {
 
-/// As t.has(q), in one comparison.
-bool has(const LinkTriangle& t, LocalVertex q) {
+/// Entries that are looked at together: as many as a word has bits for.
+constexpr std::size_t kTogether = 16;
+
+constexpr std::array<std::size_t, 3> kNext{1, 2, 0};
+
+LaneInts is_corner(const LinkTriangle& t, LocalVertex q) {
   static_assert(sizeof t == sizeof(LaneInts) && offsetof(LinkTriangle, label) == 12);
-  constexpr unsigned kCorners = 7;
   LaneInts entry;
   std::memcpy(&entry, &t, sizeof entry);
-  return (lane_bits(entry == static_cast<std::int32_t>(q)) & kCorners) != 0;
+  return entry == static_cast<std::int32_t>(q);
 }
 
-/// The directed link edge (r, s) of a star entry at p that contains q: (p, q, r, s) is positive.
-std::pair<LocalVertex, LocalVertex> opposite(const LinkTriangle& t, LocalVertex q) {
-  if (t.a == q) return {t.b, t.c};
-  if (t.b == q) return {t.c, t.a};
-  return {t.a, t.b};
+/// Four bits an entry: the corners that are q.
+std::uint64_t corners_at(std::span<const LinkTriangle> entries, LocalVertex q) {
+  constexpr std::uint64_t kAllCorners = 0x7777'7777'7777'7777U;  // a label may be q's number
+  std::uint64_t found = 0;
+  std::size_t i = 0;
+  for (; i + 4 <= entries.size(); i += 4) {
+    const LinkTriangle* t = &entries[i];
+    const std::uint64_t bits =
+        lane_bits(is_corner(t[0], q), is_corner(t[1], q), is_corner(t[2], q), is_corner(t[3], q));
+    found |= bits << (4 * i);
+  }
+  for (; i < entries.size(); ++i) {
+    found |= std::uint64_t{lane_bits(is_corner(entries[i], q))} << (4 * i);
+  }
+  return found & kAllCorners;
+}
+
+void resize(EdgeRing& ring, std::size_t n) {
+  ring.vertices.resize(n);
+  ring.ends.resize(n);
+  ring.labels.resize(n);
 }
 
 }  // namespace
 
+/// Which entries have q cannot be foretold, so no branch asks each of them.
+void collect_ring_tets(const TetMesh& mesh, LocalVertex p, LocalVertex q, EdgeRing& ring) {
+  const auto star = mesh.star(p);
+  std::size_t n = 0;
+  for (std::size_t first = 0; first < star.size(); first += kTogether) {
+    const auto entries = star.subspan(first, std::min(kTogether, star.size() - first));
+    for (std::uint64_t found = corners_at(entries, q); found != 0; found &= found - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(found));
+      const auto corners = std::bit_cast<std::array<std::uint32_t, 4>>(entries[bit / 4]);
+      if (n == ring.size()) resize(ring, n + 1);
+      // (p, q, r, s) is positive for the two corners r, s that follow q.
+      ring.vertices[n] = corners[kNext[bit % 4]];
+      ring.ends[n] = corners[kNext[kNext[bit % 4]]];
+      ring.labels[n] = entries[bit / 4].label;
+      ++n;
+    }
+  }
+  if (n != ring.size()) resize(ring, n);
+}
+
 bool collect_ring(const TetMesh& mesh, LocalVertex p, LocalVertex q, EdgeRing& ring) {
-  ring.vertices.clear();
-  ring.labels.clear();
-  ring.ends.clear();
+  collect_ring_tets(mesh, p, q, ring);
   std::vector<LocalVertex>& start = ring.vertices;
   std::vector<LocalVertex>& ends = ring.ends;
-  const auto star = mesh.star(p);
-  // Which entries have q cannot be foretold, so no branch asks.
-  ring.rows.resize(std::max(ring.rows.size(), star.size()));
-  std::size_t n = 0;
-  for (std::uint32_t i = 0; i < star.size(); ++i) {
-    ring.rows[n] = i;
-    n += has(star[i], q) ? 1U : 0U;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const LinkTriangle& t = star[ring.rows[i]];
-    const auto [r, s] = opposite(t, q);
-    start.push_back(r);
-    ends.push_back(s);
-    ring.labels.push_back(t.label);
-  }
+  const std::size_t n = ring.size();
   if (n < 3) return false;
   for (std::size_t i = 0; i + 1 < n; ++i) {
     std::size_t next = i + 1;

@@ -15,11 +15,14 @@ namespace mw {
 struct EdgeRing {
   std::vector<LocalVertex> vertices;
   std::vector<Label> labels;
-  std::vector<LocalVertex> ends;    ///< ends[i] == vertices[i + 1 mod n]
-  std::vector<std::uint32_t> rows;  ///< scratch of collect_ring()
+  std::vector<LocalVertex> ends;  ///< ends[i] == vertices[i + 1 mod n]
 
   [[nodiscard]] std::size_t size() const { return vertices.size(); }
 };
+
+/// Collects the tets around (p, q) into `ring` as its star has them: tet i is (p, q, vertices[i],
+/// ends[i]), positive.  They are a whole ring if p is free.  Cost: O(star(p)).
+void collect_ring_tets(const TetMesh& mesh, LocalVertex p, LocalVertex q, EdgeRing& ring);
 
 /// Collects the ring of (p, q) into `ring`, keeping its capacity.
 /// ENSURES: false when the loaded tets around the edge do not close to one cycle (part of them is

@@ -156,6 +156,38 @@ TEST(SurfaceStar, IsThatOfAllTets) {
   EXPECT_GT(rims, 5000U);
 }
 
+TEST(SurfaceStar, RimsOfSomeTrianglesAreThoseAmongAll) {
+  std::mt19937 random(1122);
+  std::size_t rims = 0;
+  for (int i = 0; i < 20 && !HasFailure(); ++i) {
+    const Metric metric = random_metric(random);
+    const TetMesh mesh = random_mesh(random, metric);
+    SurfaceStar all, some;
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
+      all.collect(mesh, metric, v);
+      all.collect_rims(mesh, metric);
+      some.collect(mesh, metric, v);
+      std::vector<std::uint8_t> wanted;
+      for (std::size_t k = 0; k < some.triangles().size(); ++k) {
+        wanted.push_back(static_cast<std::uint8_t>(below(random, 2)));
+      }
+      some.collect_rims(mesh, metric, wanted);
+      std::size_t found = 0;
+      for (const Rim& r : all.rims()) {
+        if (wanted[r.triangle] == 0) continue;
+        ASSERT_LT(found, some.rims().size());
+        ASSERT_EQ(some.rims()[found].triangle, r.triangle);
+        ASSERT_EQ(some.rims()[found].normal, r.normal);
+        ++found;
+      }
+      ASSERT_EQ(found, some.rims().size());
+      rims += found;
+    }
+  }
+  EXPECT_GT(rims, 1000U);
+}
+
 /// Six tets around edge (0, 1), of labels 0, 1, 2, 0, 1, 2: its triangles between 0 and 1 both run
 /// through it the same way, so that they are no surface there, though they are two.
 TEST(SurfaceStar, HasNoRimWhereTwoTrianglesRunTheSameWay) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/quality/mesh_quality.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::test {
@@ -74,10 +75,42 @@ TEST(EdgeRing, IsTheCycleOfAllTetsAtTheEdgeOrRefused) {
   EXPECT_GT(partial, 100);
 }
 
+/// Every edge of every vertex whose star is whole; the first vertices have the numbers of labels.
+TEST(EdgeRing, TetsInAnyOrderAreAllOfTheRing) {
+  std::mt19937 random(312);
+  std::size_t edges = 0, several_words = 0;
+  for (int i = 0; i < 20 && !HasFailure(); ++i) {
+    const TetMesh mesh = dense_mesh(random_volume(random));
+    const auto all = tets_by_stars(mesh);
+    EdgeRing ring;
+    for (LocalVertex p = 0; p < mesh.vertex_count(); ++p) {
+      if (!mesh.is_free(p)) continue;
+      several_words += mesh.star(p).size() > 16 ? 1U : 0U;
+      for (const LinkTriangle& t : mesh.star(p)) {
+        if (t.a == mesh.infinity()) continue;
+        collect_ring_tets(mesh, p, t.a, ring);
+        std::set<TetKey> tets;
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+          const LocalTet tet{{p, t.a, ring.vertices[k], ring.ends[k]}, ring.labels[k]};
+          tets.insert(tet_key(tet));
+          EXPECT_TRUE(tet.label == kExterior || is_positive(mesh, tet));
+        }
+        ASSERT_EQ(ring.size(), tets.size());
+        ASSERT_TRUE(tets == tets_at(all, p, t.a));
+        ++edges;
+      }
+    }
+  }
+  EXPECT_GT(edges, 5000U);
+  EXPECT_GT(several_words, 200U);
+}
+
 TEST(EdgeRing, VerticesWithoutAnEdgeHaveNone) {
   const TetMesh mesh = dense_mesh(volume_from({3, 3, 3}, 1, [](auto, auto, auto) { return 0; }));
   EdgeRing ring;
   EXPECT_FALSE(collect_ring(mesh, 0, mesh.vertex_count() - 1, ring));
+  collect_ring_tets(mesh, 0, mesh.vertex_count() - 1, ring);
+  EXPECT_EQ(ring.size(), 0U);
 }
 
 }  // namespace
