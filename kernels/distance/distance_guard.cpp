@@ -71,14 +71,20 @@ void DistanceGuard::add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex 
 
 bool DistanceGuard::allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
                                        Point target) {
+  fan_.collect(mesh, keep, triangles_);
+  fan_.collect(mesh, drop, other_triangles_);
+  return allows_contraction(mesh, keep, drop, target, triangles_, other_triangles_);
+}
+
+bool DistanceGuard::allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
+                                       Point target, std::span<const FanTriangle> fan_of_keep,
+                                       std::span<const FanTriangle> fan_of_drop) {
   changed_.clear();
   ring_.clear();
   mesh_ = &mesh;
   ends_ = {keep, drop};
-  fan_.collect(mesh, keep, triangles_);
-  add_changed(mesh, keep, drop, keep, target, triangles_);
-  fan_.collect(mesh, drop, triangles_);
-  add_changed(mesh, drop, keep, keep, target, triangles_);
+  add_changed(mesh, keep, drop, keep, target, fan_of_keep);
+  add_changed(mesh, drop, keep, keep, target, fan_of_drop);
   return keeps_bound();
 }
 

@@ -52,6 +52,10 @@ class DistanceGuard {
   /// REQUIRES: both ends free; not yet contracted.
   [[nodiscard]] bool allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
                                         Point target);
+  /// The same when the interface triangles at both ends are at hand.
+  [[nodiscard]] bool allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
+                                        Point target, std::span<const FanTriangle> fan_of_keep,
+                                        std::span<const FanTriangle> fan_of_drop);
   /// The same for a move of v, whose interface triangles are at hand.
   [[nodiscard]] bool allows_move(const TetMesh& mesh, LocalVertex v,
                                  std::span<const FanTriangle> fan, Point target);
@@ -114,6 +118,7 @@ class DistanceGuard {
   CarriedSamples& samples_;
   InterfaceFan fan_;
   std::vector<FanTriangle> triangles_;
+  std::vector<FanTriangle> other_triangles_;
   const TetMesh* mesh_ = nullptr;      ///< of the change in question; null: a flip
   std::array<LocalVertex, 2> ends_{};  ///< what changes: both ends of an edge, or twice a vertex
   std::vector<LocalVertex> ring_;      ///< the other vertices of the changed triangles

@@ -3,7 +3,7 @@
 // Bends before and after.
 #include "kernels/simplify/bend_filter.h"
 
-#include <utility>
+#include "kernels/core/assert.h"
 
 namespace mw {
 namespace {
@@ -17,26 +17,34 @@ constexpr double kFreeElsewhere = 1.0;
 }  // namespace
 
 bool BendFilter::stays_smooth(const Contraction& c) {
-  collect(c);
-  merged_.merge(keep_, metric_.vector(mesh_.position(c.keep), c.position), drop_,
+  const Gathered &keep = star_of(c.keep, c.drop), &drop = star_of(c.drop, c.keep);
+  merged_.merge(keep.star, metric_.vector(mesh_.position(c.keep), c.position), drop.star,
                 metric_.vector(mesh_.position(c.drop), c.position));
   const bool two = mesh_.order(c.keep) == 2 && mesh_.order(c.drop) == 2;
   const double free = two ? kFreeBetweenTwo : kFreeElsewhere;
   const double after = merged_.bends_at(Vec3::Zero());
   if (after <= free) return true;
-  return after <= kShareOfPresent * present_ + free;
+  return after <= kShareOfPresent * (keep.bends + drop.bends) + free;
 }
 
-void BendFilter::collect(const Contraction& c) {
+std::span<const FanTriangle> BendFilter::fan(LocalVertex end) const {
+  const bool first = gathered_[0].is(end, mesh_.changes() + 1);
+  MW_ASSERT(first || gathered_[1].is(end, mesh_.changes() + 1));
+  return gathered_[first ? 0 : 1].star.fan();
+}
+
+/// Replaces the star of neither v nor other: several candidates of a vertex share its star.
+const BendFilter::Gathered& BendFilter::star_of(LocalVertex v, LocalVertex other) {
   const std::uint64_t now = mesh_.changes() + 1;
-  if (at_ == now && keep_.vertex() == c.keep && drop_.vertex() == c.drop) return;
-  at_ = now;
-  present_ = 0.0;
-  for (const auto& [star, v] : {std::pair{&keep_, c.keep}, std::pair{&drop_, c.drop}}) {
-    star->collect(mesh_, metric_, v);
-    star->collect_rims(mesh_, metric_);
-    present_ += star->bends_at(Vec3::Zero());
+  for (const Gathered& g : gathered_) {
+    if (g.is(v, now)) return g;
   }
+  Gathered& g = gathered_[gathered_[0].is(other, now) ? 1 : 0];
+  g.at = now;
+  g.star.collect(mesh_, metric_, v);
+  g.star.collect_rims(mesh_, metric_);
+  g.bends = g.star.bends_at(Vec3::Zero());
+  return g;
 }
 
 }  // namespace mw

@@ -3,6 +3,10 @@
 // Refuses contractions that fold an interface.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
+
 #include "kernels/simplify/contraction.h"
 #include "kernels/surface/surface_star.h"
 
@@ -20,15 +24,25 @@ class BendFilter {
   /// free.
   [[nodiscard]] bool stays_smooth(const Contraction& c);
 
+  /// The interface triangles at an end of the contraction that was judged last.
+  [[nodiscard]] std::span<const FanTriangle> fan(LocalVertex end) const;
+
  private:
-  void collect(const Contraction& c);
+  /// A star with its rims, as it was after so many changes of the mesh.
+  struct Gathered {
+    SurfaceStar star;
+    double bends = 0.0;
+    std::uint64_t at = 0;  ///< TetMesh::changes(), and 1; 0: nothing gathered
+    [[nodiscard]] bool is(LocalVertex v, std::uint64_t now) const {
+      return star.vertex() == v && at == now;
+    }
+  };
+
+  [[nodiscard]] const Gathered& star_of(LocalVertex v, LocalVertex other);
 
   const TetMesh& mesh_;
   const Metric& metric_;
-  SurfaceStar keep_;
-  SurfaceStar drop_;
-  double present_ = 0.0;  ///< bends of both
-  std::uint64_t at_ = 0;  ///< TetMesh::changes(), and 1, when the stars were collected; 0: never
+  std::array<Gathered, 2> gathered_;
   SurfaceStar merged_;
 };
 

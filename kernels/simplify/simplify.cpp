@@ -181,6 +181,15 @@ class Simplifier {
     return false;
   }
 
+  /// REQUIRES: both ends on boundaries; with keep_smooth: the bends of c were judged.
+  bool keeps_distance(const Contraction& c) {
+    if (!options_.keep_smooth) {
+      return guard_->allows_contraction(mesh_, c.keep, c.drop, c.position);
+    }
+    return guard_->allows_contraction(mesh_, c.keep, c.drop, c.position, bends_.fan(c.keep),
+                                      bends_.fan(c.drop));
+  }
+
   bool try_contraction(Contraction c) {
     ++stats_.tried;
     if (!inner_.allows_contraction(c.keep, c.drop)) {
@@ -210,7 +219,7 @@ class Simplifier {
       return false;
     }
     const bool guarded = guard_ != nullptr && both_on_boundaries;
-    if (guarded && !guard_->allows_contraction(mesh_, c.keep, c.drop, c.position)) {
+    if (guarded && !keeps_distance(c)) {
       ++stats_.distance;
       return false;
     }

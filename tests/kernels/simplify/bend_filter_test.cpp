@@ -5,12 +5,40 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "kernels/simplify/simplify.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/kernels/surface/interface_triangles.h"
 
 namespace mw::test {
 namespace {
+
+using FanRow = std::tuple<LocalVertex, LocalVertex, Label, Label, bool>;
+
+std::vector<FanRow> rows_of(std::span<const FanTriangle> fan) {
+  std::vector<FanRow> out;
+  for (const FanTriangle& t : fan) out.emplace_back(t.a, t.b, t.low, t.high, t.faces_high);
+  return out;
+}
+
+std::vector<FanRow> fan_of(const TetMesh& mesh, LocalVertex v) {
+  InterfaceFan fan;
+  std::vector<FanTriangle> triangles;
+  fan.collect(mesh, v, triangles);
+  return rows_of(triangles);
+}
+
+/// Candidates of one vertex share its star: the answer must not depend on who asked before.
+void ask_about_another(BendFilter& filter, const TetMesh& mesh, LocalVertex p, LocalVertex q,
+                       std::mt19937& random) {
+  const auto star = mesh.star(p);
+  const LocalVertex r = star[below(random, static_cast<std::uint32_t>(star.size()))].b;
+  if (r == mesh.infinity() || r == q || !mesh.is_free(r)) return;
+  const bool keeps_p = below(random, 2) == 0;
+  static_cast<void>(filter.stays_smooth(
+      {.keep = keeps_p ? p : r, .drop = keeps_p ? r : p, .position = mesh.position(p)}));
+}
 
 /// One filter for all questions about a mesh that changes between them.
 TEST(BendFilter, ComparesTheContractedMeshWithThePresentOne) {
@@ -31,7 +59,10 @@ TEST(BendFilter, ComparesTheContractedMeshWithThePresentOne) {
       for (const std::uint32_t at : {0U, 2U, 1U}) {
         const auto target = contraction_target(mesh, p, q, at);
         if (!target || !stays_positive(mesh, p, q, *target)) continue;
+        ask_about_another(filter, mesh, p, q, random);
         const bool verdict = filter.stays_smooth({.keep = p, .drop = q, .position = *target});
+        ASSERT_EQ(rows_of(filter.fan(p)), fan_of(mesh, p));
+        ASSERT_EQ(rows_of(filter.fan(q)), fan_of(mesh, q));
         TetMesh contracted = mesh;
         contracted.contract(p, q, *target, mesh.quadric(p));
         const double present = bends_around(mesh, metric, p) + bends_around(mesh, metric, q);
