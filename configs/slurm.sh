@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+# A batch job of SLURM that meshes a volume on several nodes, one process a node.
+#   sbatch --nodes 16 configs/slurm.sh VOLUME OUT.vtkhdf [OPTION OF mwmesh mesh...]
+# The work folder is beside the output unless MW_WORKDIR names another; all nodes must see both.
+# Before the time is up the job is told, ends, and is queued again; it then goes on from the last
+# epoch.  MW_PROGRAM names mwmesh-mpi where it is not installed; MW_LAUNCHER=mpirun is for
+# machines whose srun starts no MPI.
+#SBATCH --job-name=mwmesh
+#SBATCH --nodes=4
+#SBATCH --ntasks-per-node=1
+#SBATCH --exclusive
+#SBATCH --mem=0
+#SBATCH --time=12:00:00
+#SBATCH --signal=B:USR1@300
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output=mwmesh-%j.log
+set -euo pipefail
+
+die() {
+  echo "slurm: $*" >&2
+  exit 2
+}
+
+# What a process may use of its node's memory: nine tenths, the rest is for the system and MPI.
+node_memory() {
+  if [[ "${SLURM_MEM_PER_NODE:-0}" -gt 0 ]]; then
+    echo "$((SLURM_MEM_PER_NODE * 9 / 10))M"
+  else
+    awk '/^MemTotal:/ { print int($2 * 0.9 / 1024) "M" }' /proc/meminfo
+  fi
+}
+
+cores() {
+  echo "${SLURM_CPUS_ON_NODE:-$(nproc)}"
+}
+
+# One process a node, with all cores of it.
+launch() {
+  local cores
+  cores="$(cores)"
+  if [[ "${MW_LAUNCHER:-srun}" == mpirun ]]; then
+    exec mpirun --map-by "ppr:1:node:PE=$cores" "$@"
+  fi
+  exec srun --ntasks-per-node=1 --cpus-per-task="$cores" --kill-on-bad-exit=1 "$@"
+}
+
+# Ends by the first signal after the last epoch: what came later is done again.
+warned=0
+warn() {
+  warned=1
+  [[ -n "${job:-}" ]] && kill -TERM "$job" 2>/dev/null
+  return 0
+}
+
+# Waits on although signals end a wait early.
+wait_for() {
+  local code=0
+  while true; do
+    code=0
+    wait "$1" || code=$?
+    kill -0 "$1" 2>/dev/null || return "$code"
+  done
+}
+
+# Whether another attempt may come further.  75: interrupted, saved work is there; 137: killed, as
+# by a node that failed; whatever came of a warning.  Others would fail again.
+may_go_on() {
+  [[ -s "$workdir/epochs" ]] || return 1
+  ((warned)) || [[ "$1" == 75 || "$1" == 137 || "$1" == 143 ]]
+}
+
+main() {
+  (($# >= 2)) || die "give VOLUME and OUT.vtkhdf"
+  [[ -n "${SLURM_JOB_ID:-}" ]] || die "start it by sbatch"
+  local volume="$1" output="$2" code=0 resume=()
+  shift 2
+  workdir="${MW_WORKDIR:-$output.work}"
+  [[ -s "$workdir/epochs" ]] && resume=(--resume)
+  trap warn USR1 TERM
+  launch "${MW_PROGRAM:-mwmesh-mpi}" mesh "$volume" -o "$output" --workdir "$workdir" \
+    --memory "$(node_memory)" --threads "$(cores)" "${resume[@]}" --progress none \
+    --report "$output.json" "$@" &
+  job=$!
+  wait_for "$job" || code=$?
+  ((code == 0)) && return 0
+  if may_go_on "$code" && ((${SLURM_RESTART_COUNT:-0} < ${MW_RESTARTS:-20})); then
+    echo "slurm: exit code $code, queued again to go on from $workdir" >&2
+    scontrol requeue "$SLURM_JOB_ID"
+  fi
+  return "$code"
+}
+
+main "$@"
