@@ -3,10 +3,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # A batch job of SLURM that meshes a volume on several nodes, one process a node.
 #   sbatch --nodes 16 configs/slurm.sh VOLUME OUT.vtkhdf [OPTION OF mwmesh mesh...]
-# The work folder is beside the output unless MW_WORKDIR names another; all nodes must see both.
+# The work folder is beside the output unless MESH_WORKDIR names another; all nodes must see both.
 # Before the time is up the job is told, ends, and is queued again; it then goes on from the last
-# epoch.  MW_PROGRAM names mwmesh-mpi where it is not installed; MW_LAUNCHER=mpirun is for
-# machines whose srun starts no MPI.
+# epoch, MESH_RESTARTS times at most (20).  MESH_PROGRAM names mwmesh-mpi where it is not
+# installed; MESH_LAUNCHER=mpirun is for machines whose srun starts no MPI.  (MW_... would be
+# options of the program.)
 #SBATCH --job-name=mwmesh
 #SBATCH --nodes=4
 #SBATCH --ntasks-per-node=1
@@ -41,7 +42,7 @@ cores() {
 launch() {
   local cores
   cores="$(cores)"
-  if [[ "${MW_LAUNCHER:-srun}" == mpirun ]]; then
+  if [[ "${MESH_LAUNCHER:-srun}" == mpirun ]]; then
     exec mpirun --map-by "ppr:1:node:PE=$cores" "$@"
   fi
   exec srun --ntasks-per-node=1 --cpus-per-task="$cores" --kill-on-bad-exit=1 "$@"
@@ -77,16 +78,16 @@ main() {
   [[ -n "${SLURM_JOB_ID:-}" ]] || die "start it by sbatch"
   local volume="$1" output="$2" code=0 resume=()
   shift 2
-  workdir="${MW_WORKDIR:-$output.work}"
+  workdir="${MESH_WORKDIR:-$output.work}"
   [[ -s "$workdir/epochs" ]] && resume=(--resume)
   trap warn USR1 TERM
-  launch "${MW_PROGRAM:-mwmesh-mpi}" mesh "$volume" -o "$output" --workdir "$workdir" \
+  launch "${MESH_PROGRAM:-mwmesh-mpi}" mesh "$volume" -o "$output" --workdir "$workdir" \
     --memory "$(node_memory)" --threads "$(cores)" "${resume[@]}" --progress none \
     --report "$output.json" "$@" &
   job=$!
   wait_for "$job" || code=$?
   ((code == 0)) && return 0
-  if may_go_on "$code" && ((${SLURM_RESTART_COUNT:-0} < ${MW_RESTARTS:-20})); then
+  if may_go_on "$code" && ((${SLURM_RESTART_COUNT:-0} < ${MESH_RESTARTS:-20})); then
     echo "slurm: exit code $code, queued again to go on from $workdir" >&2
     scontrol requeue "$SLURM_JOB_ID"
   fi
