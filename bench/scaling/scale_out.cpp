@@ -113,11 +113,29 @@ void print_predictions(const Job& job, const Play& play) {
   }
 }
 
+/// How many times the work volumes N times as long have: windows are counted, march by march.
+double growth(const Job& job, const Play& play) {
+  const engine::RunLayout& layout = play.flow.layout();
+  const Index3 v = layout.grid(0).volume();
+  const std::int64_t n = job.stand_in;
+  double work = 0.0;
+  for (std::uint32_t march = 0; march < layout.marches(); ++march) {
+    const auto first = play.seconds.begin();
+    const double here =
+        std::accumulate(first + play.flow.first(march), first + play.flow.first(march + 1), 0.0);
+    const engine::WindowGrid grid({v.x * n, v.y * n, v.z * n}, job.window << march);
+    work += here * static_cast<double>(grid.windows().product()) /
+            static_cast<double>(layout.grid(march).windows().product());
+  }
+  return work / sum(play.seconds);
+}
+
 /// N times as long with N * N times the cores: the wave's width, layers of bricks and the windows
 /// of a core along its way grow alike, so efficiency stays; what is within bricks grows with N
-/// cubed, what goes between them with N squared, over a time N times as long.
+/// cubed, what goes between them with N squared, over a time about N times as long.
 void print_plan(const Job& job, const Play& play) {
   const auto n = static_cast<double>(job.stand_in);
+  const double longer = growth(job, play) / (n * n);
   const double voxels =
       static_cast<double>(play.flow.layout().grid(0).volume().product()) * n * n * n;
   std::cout
@@ -135,9 +153,9 @@ void print_plan(const Job& job, const Play& play) {
     const double between = (sum(s.bytes) - s.output_bytes) * n * n;
     const double output = s.output_bytes * n * n * n;
     std::cout << "| " << ranks << " | " << static_cast<double>(machines.cores) * n * n << " | "
-              << s.seconds * n << " | " << 100 * sum(play.seconds) / s.seconds / cores << " % | "
-              << between / 1e12 << " | " << between / ranks / (s.seconds * n) / 1e6 << " | "
-              << most(s.held) * n * n * n / 1e12 << " | " << output / 1e12 << " | "
+              << s.seconds * longer << " | " << 100 * sum(play.seconds) / s.seconds / cores
+              << " % | " << between / 1e12 << " | " << between / ranks / (s.seconds * longer) / 1e6
+              << " | " << most(s.held) * n * n * n / 1e12 << " | " << output / 1e12 << " | "
               << output / job.machines.bandwidth / 3600 << " | " << 8 * voxels / 1e12 << " |"
               << std::endl;
   }
