@@ -81,6 +81,25 @@ TEST(TeamSchedule, OneRankIsTheListScheduleOfEachMarch) {
   }
 }
 
+/// Two slabs, the upper one from layer `cut` on; all windows take a second.
+double seconds_of_slabs(std::size_t cut, std::uint64_t look_ahead) {
+  const RunFlow flow = blocks({12, 12, 18}, 1, Order::kColour);
+  std::vector<std::uint32_t> owners(std::size_t{11} * 17);
+  for (std::size_t row = 0; row < owners.size(); ++row) owners[row] = row / 11 < cut ? 0 : 1;
+  const engine::Partition slabs(flow.layout(), owners);
+  return team_schedule(flow, std::vector<double>(flow.windows(), 1.0), slabs,
+                       {.ranks = 2, .cores = 1, .look_ahead = look_ahead})
+      .seconds;
+}
+
+/// bench/scaling/README.md, "Predictions".
+TEST(TeamSchedule, AnOddFirstLayerWaitsForTheBrickBelow) {
+  const double half = 11.0 * 11.0 * 17.0 / 2.0;
+  EXPECT_LT(seconds_of_slabs(8, 128), 1.1 * half);
+  EXPECT_GT(seconds_of_slabs(9, 128), 1.6 * half);
+  EXPECT_LT(seconds_of_slabs(9, 1000000), 1.1 * half) << "others are visited meanwhile";
+}
+
 TEST(TeamSchedule, BoundsAndParcelsHoldOnAnyRanks) {
   std::mt19937 random(11);
   int sent = 0;
