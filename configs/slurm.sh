@@ -4,8 +4,8 @@
 # A batch job of SLURM that meshes a volume on several nodes, one process a node.
 #   sbatch --nodes 16 configs/slurm.sh VOLUME OUT.vtkhdf [OPTION OF mwmesh mesh...]
 # The work folder is beside the output unless MESH_WORKDIR names another; all nodes must see both.
-# Before the time is up the job is told, ends, and is queued again; it then goes on from the last
-# epoch, MESH_RESTARTS times at most (20).  MESH_PROGRAM names mwmesh-mpi where it is not
+# Before the time is up the job is told, saves, ends, and is queued again; it then goes on from
+# there, MESH_RESTARTS times at most (20).  MESH_PROGRAM names mwmesh-mpi where it is not
 # installed; MESH_LAUNCHER=mpirun is for machines whose srun starts no MPI.  (MW_... would be
 # options of the program.)
 #SBATCH --job-name=mwmesh
@@ -48,11 +48,11 @@ launch() {
   exec srun --ntasks-per-node=1 --cpus-per-task="$cores" --kill-on-bad-exit=1 "$@"
 }
 
-# Ends by the first signal after the last epoch: what came later is done again.
+# Asks for an epoch; the program ends with 75 when it counts.
 warned=0
 warn() {
   warned=1
-  [[ -n "${job:-}" ]] && kill -TERM "$job" 2>/dev/null
+  [[ -n "${job:-}" ]] && kill -USR1 "$job" 2>/dev/null
   return 0
 }
 

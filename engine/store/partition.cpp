@@ -4,6 +4,8 @@
 #include "engine/store/partition.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "kernels/core/assert.h"
@@ -56,24 +58,40 @@ class Halving {
       for (std::int64_t y = rows.y0; y < rows.y1; ++y) owners_[index(y, z)] = rank;
     }
   }
-  /// Where the lower part's cost is nearest to that share; neither part is empty.
+  /// Where the lower part's cost is nearest to that share; neither part is empty.  A brick whose
+  /// first layer is odd waits for the last layer of the brick below, in the colour order of this
+  /// march or, at twice an odd number, of the next, and its look-ahead fills with windows that
+  /// wait: simulated, that costs up to half of the speed (bench/scaling).  So cuts are at multiples
+  /// of 4, else of 2, where that leaves the shares within a tenth.
   [[nodiscard]] std::int64_t best_cut(const Rows& rows, bool across_z, double share) const {
+    const double all = cost(rows), wanted = share * all;
+    for (const std::int64_t step : {4, 2}) {
+      const Cut cut = nearest_cut(rows, across_z, wanted, step);
+      if (cut.off <= 0.1 * std::min(wanted, all - wanted)) return cut.at;
+    }
+    return nearest_cut(rows, across_z, wanted, 1).at;
+  }
+
+  struct Cut {
+    std::int64_t at = 0;
+    double off = std::numeric_limits<double>::infinity();  ///< of the cost that is wanted below
+  };
+
+  /// Among multiples of `step`.
+  [[nodiscard]] Cut nearest_cut(const Rows& rows, bool across_z, double wanted,
+                                std::int64_t step) const {
     const std::int64_t lo = across_z ? rows.z0 : rows.y0, hi = across_z ? rows.z1 : rows.y1;
-    const double wanted = share * cost(rows);
-    double sum = 0, best = 0;
-    std::int64_t cut = lo;
+    Cut best;
+    double sum = 0;
     for (std::int64_t i = lo; i + 1 < hi; ++i) {
       Rows slice = rows;
       (across_z ? slice.z0 : slice.y0) = i;
       (across_z ? slice.z1 : slice.y1) = i + 1;
       sum += cost(slice);
       const double off = std::abs(sum - wanted);
-      if (cut == lo || off < best) {
-        best = off;
-        cut = i + 1;
-      }
+      if ((i + 1) % step == 0 && off < best.off) best = {i + 1, off};
     }
-    return cut;
+    return best;
   }
 
   std::int64_t rows_y_;

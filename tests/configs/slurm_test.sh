@@ -22,7 +22,7 @@ mkdir bin
   stand_in srun 'echo "$@" >>srun.calls; shift 3; exec "$@"'
   stand_in scontrol 'echo "$@" >>scontrol.calls'
   stand_in ends 'exit "$CODE"'
-  stand_in waits 'sleep 60 & trap "kill $!; exit 1" TERM; touch running; wait $!'
+  stand_in waits 'sleep 60 & trap "kill $!; exit 75" USR1; touch running; wait $!'
 }
 export PATH="$folder/bin:$PATH" SLURM_JOB_ID=7
 

@@ -43,7 +43,7 @@ TEST(Partition, BricksShareTheCostEvenly) {
     std::vector<double> loads(static_cast<std::size_t>(ranks));
     for (std::size_t row = 0; row < costs.size(); ++row) loads[p.owners()[row]] += costs[row];
     const double mean = std::accumulate(costs.begin(), costs.end(), 0.0) / ranks;
-    for (double load : loads) EXPECT_NEAR(load / mean, 1.0, 0.15) << ranks << " ranks";
+    for (double load : loads) EXPECT_NEAR(load / mean, 1.0, 0.3) << ranks << " ranks";
   }
 }
 
@@ -63,6 +63,22 @@ TEST(Partition, BricksAreBoxes) {
     for (std::size_t rank = 0; rank < static_cast<std::size_t>(ranks); ++rank) {
       EXPECT_GT(rows[rank], 0U);
       EXPECT_EQ(y[rank].size() * z[rank].size(), rows[rank]);
+    }
+  }
+}
+
+TEST(Partition, BricksBeginAtRowsThatNeedNotWait) {
+  const RunLayout layout = layout_of({2, 127, 127}, Order::kColour);
+  for (int ranks : {2, 4, 16, 64}) {
+    const Partition p(layout, Order::kColour, ranks);
+    for (std::size_t row = 0; row + 1 < p.owners().size(); ++row) {
+      const std::size_t y = row % 127, z = row / 127;
+      if (y + 1 < 127 && p.owners()[row] != p.owners()[row + 1]) {
+        EXPECT_EQ((y + 1) % 4, 0U);
+      }
+      if (z + 1 < 127 && p.owners()[row] != p.owners()[row + 127]) {
+        EXPECT_EQ((z + 1) % 4, 0U);
+      }
     }
   }
 }

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Four processes, each with the labels of its own windows, write the file that one process writes.
 #
-#   tests/engine/mpi/long_volume_test.sh MWMESH MWMESH_MPI [X,Y,Z]     default: 96,96,512
+#   tests/mpi/long_volume_test.sh MWMESH MWMESH_MPI [X,Y,Z]     default: 96,96,512
 set -euo pipefail
 
 mwmesh="$(realpath "$1")"
