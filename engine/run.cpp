@@ -304,9 +304,10 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
                         workers ? &*workers : nullptr, report);
     if (shared) report.ranks = shared->end(rank_facts(budget, own_windows));
   } catch (...) {
-    if (shared) shared->fail(std::current_exception());
-    keep_work(store, workdir, hooks.store, std::current_exception());
-    throw;
+    std::exception_ptr error = std::current_exception();
+    if (shared) error = shared->fail(error);
+    keep_work(store, workdir, hooks.store, error);
+    std::rethrow_exception(error);
   }
   if (alone != nullptr) alone->discard();
   report.memory_budget_bytes = budget.limit();
@@ -338,7 +339,7 @@ RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& setting
   try {
     return run_and_explain(volume, settings, sink, hooks);
   } catch (...) {
-    tell(*hooks.team, std::current_exception());
+    hooks.team->fail(std::current_exception());
     throw;
   }
 }

@@ -39,9 +39,11 @@ void SharedRun::end_marches() {
   if (epochs_) epochs_->end();
 }
 
-void SharedRun::fail(const std::exception_ptr& error) {
-  tell(team_, error);
+std::exception_ptr SharedRun::fail(const std::exception_ptr& error) {
+  team_.fail(error);
   epochs_.reset();
+  const std::exception_ptr first = traffic_.arrivals().error();
+  return first ? first : error;
 }
 
 std::vector<RankFacts> SharedRun::end(RankFacts mine) {

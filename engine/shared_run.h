@@ -31,8 +31,9 @@ class SharedRun {
   void end_marches();
   /// The output is complete; returns when all ranks know, with what each did.
   [[nodiscard]] std::vector<RankFacts> end(RankFacts mine);
-  /// Tells all ranks.  ENSURES: nothing uses the store any more but what comes in.
-  void fail(const std::exception_ptr& error);
+  /// Tells all ranks, and returns what the run ends with: the first error of this one.
+  /// ENSURES: nothing uses the store any more but what comes in.
+  [[nodiscard]] std::exception_ptr fail(const std::exception_ptr& error);
 
  private:
   Team& team_;

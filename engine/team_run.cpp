@@ -70,18 +70,6 @@ VisitStats sum_of_all(Team& team, const VisitStats& mine) {
   return sum;
 }
 
-void tell(Team& team, const std::exception_ptr& error) {
-  try {
-    std::rethrow_exception(error);
-  } catch (const Error& e) {
-    team.fail(e);
-  } catch (const std::exception& e) {
-    team.fail(Error(ErrorKind::kInternal, e.what()));
-  } catch (...) {
-    team.fail(Error(ErrorKind::kInternal, "it was stopped"));
-  }
-}
-
 std::vector<RankFacts> facts_of_all(Team& team, const RankFacts& mine) {
   return of_all(team, mine);
 }

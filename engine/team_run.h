@@ -22,9 +22,6 @@ void agree(Team& team, const std::string& identity);
 /// What all ranks did.  Every rank gets the sum.
 [[nodiscard]] VisitStats sum_of_all(Team& team, const VisitStats& mine);
 
-/// Tells the others why this one ends, unless it ends because of them.
-void tell(Team& team, const std::exception_ptr& error);
-
 /// What one rank did and held.
 struct RankFacts {
   std::uint64_t windows = 0;

@@ -13,7 +13,6 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/shared_runs.h"
 #include "engine/cli/unknown_word.h"
-#include "engine/team_run.h"
 
 namespace mw::cli {
 namespace {
@@ -87,7 +86,7 @@ int run_shared_program(int argc, char** argv, engine::Exchange& exchange) noexce
         try {
           return parse_and_run(argc, argv);
         } catch (...) {
-          tell(team, std::current_exception());
+          team.fail(std::current_exception());
           throw;
         }
       },

@@ -55,6 +55,7 @@ void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<
 }
 
 void BlockTraffic::end(std::exception_ptr error) {
+  team_.fail(error);
   arrivals_.fail(std::move(error));
   const std::lock_guard lock(mutex_);  // whoever waits has looked before, or will after
   changed_.notify_all();

@@ -62,7 +62,7 @@ class BlockTraffic : public BlockRouter {
   /// Parcels that were sent to each rank, and those that are in the store here.
   [[nodiscard]] std::vector<std::uint64_t> sent_to() const;
   [[nodiscard]] std::uint64_t received() const { return received_; }
-  /// Ends march and output with this error.
+  /// Ends march and output of all ranks with this error.
   void end(std::exception_ptr error);
 
   /// Waits until all blocks of the last march are in the store.  REQUIRES: rank 0.

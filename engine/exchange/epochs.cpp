@@ -41,7 +41,8 @@ void Epochs::start() {
         follow();
       }
     } catch (...) {
-      traffic_.end(std::current_exception());
+      // A failure that is known is why this ends, not news.
+      if (!team_.has_failed()) traffic_.end(std::current_exception());
     }
   });
 }

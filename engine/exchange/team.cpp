@@ -53,10 +53,8 @@ std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine, Ch
   lock.lock();
   const auto others = static_cast<std::size_t>(ranks() - 1);
   const auto& said = said_[gathering];
-  changed_.wait(lock, [&] { return failure_ || has_failed_ || said.size() == others; });
-  if (said.size() < others) {
-    throw failure_ ? Error(*failure_) : Error(ErrorKind::kInternal, "this process has failed");
-  }
+  changed_.wait(lock, [&] { return failure_ || own_failure_ || said.size() == others; });
+  if (said.size() < others) throw failure_ ? *failure_ : *own_failure_;
   std::vector<std::vector<std::byte>> out(static_cast<std::size_t>(ranks()));
   for (auto& [from, bytes_said] : said_[gathering]) {
     out[static_cast<std::size_t>(from)] = std::move(bytes_said);
@@ -106,8 +104,8 @@ void Team::listen(Listener listener) {
 void Team::fail(const Error& error) {
   {
     const std::lock_guard lock(mutex_);
-    if (failure_ || has_failed_) return;
-    has_failed_ = true;
+    if (failure_ || own_failure_) return;
+    own_failure_ = error;
   }
   changed_.notify_all();
   const std::string who = is_first() ? "" : "rank " + std::to_string(rank()) + ": ";
@@ -118,6 +116,18 @@ void Team::fail(const Error& error) {
   }
 }
 
+void Team::fail(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const Error& e) {
+    fail(e);
+  } catch (const std::exception& e) {
+    fail(Error(ErrorKind::kInternal, e.what()));
+  } catch (...) {
+    fail(Error(ErrorKind::kInternal, "it was stopped"));
+  }
+}
+
 std::optional<Error> Team::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
@@ -125,7 +135,7 @@ std::optional<Error> Team::failure() const {
 
 bool Team::has_failed() const {
   const std::lock_guard lock(mutex_);
-  return failure_.has_value() || has_failed_;
+  return failure_.has_value() || own_failure_.has_value();
 }
 
 void Team::note_failure(const Error& error) {

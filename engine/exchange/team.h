@@ -4,6 +4,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <exception>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -33,7 +34,7 @@ class Team {
   enum class Channel : std::uint8_t { kRun, kEpochs };
 
   /// What every rank says, by rank.  On each channel all ranks call it equally often.
-  /// ERRORS: that of the rank that failed.
+  /// ERRORS: that of the rank that failed, be it this one.
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine,
                                                            Channel channel = Channel::kRun);
   /// The same of texts.
@@ -61,6 +62,7 @@ class Team {
   /// Tells all ranks that this one cannot go on, and which one that is; only the first failure of a
   /// run is told.
   void fail(const Error& error);
+  void fail(const std::exception_ptr& error);
   /// The failure of another rank, if that is why this one ends.
   [[nodiscard]] std::optional<Error> failure() const;
   /// Whether any rank has failed, this one or another.
@@ -78,7 +80,7 @@ class Team {
   std::map<Channel, std::uint64_t> gatherings_;
   std::vector<Message> waiting_;  ///< parcels for a listener to come
   std::optional<Error> failure_;
-  bool has_failed_ = false;  ///< this rank
+  std::optional<Error> own_failure_;
 
   std::mutex listening_;  ///< guards the next line; never taken inside mutex_
   Listener listener_;

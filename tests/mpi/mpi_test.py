@@ -195,12 +195,13 @@ class SharedRuns(unittest.TestCase):
         print(f"{kills} kills, {went_on} times gone on from an epoch", file=sys.stderr)
         self.assertGreater(went_on, 0)
 
-    def end_by_signal(self, number, wait):
-        """Starts a run and sends mpirun a signal; its exit code."""
-        run = subprocess.Popen(self.command(3, "--certify", "off", "--save-every", "0.3"),
+    def end_by_signal(self, number, epochs):
+        """Starts a run and sends mpirun a signal once an epoch counts; its exit code."""
+        run = subprocess.Popen(self.command(3, "--certify", "off", "--save-every", "0.1"),
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                                env=environment())
-        time.sleep(wait)
+        while run.poll() is None and not epochs.exists():
+            time.sleep(0.01)
         ranks = children_of(pathlib.Path(SHARED).name, run.pid)
         run.send_signal(number)
         _, err = run.communicate(timeout=60)
@@ -211,12 +212,12 @@ class SharedRuns(unittest.TestCase):
         return run.returncode, err
 
     def test_signals_end_all_and_lose_nothing_that_counts(self):
-        self.synth("voronoi", "72,72,96", 60)
+        self.synth("voronoi", "96,96,128", 90)
         expected = self.alone()
         epochs = self.folder / "shared.vtkhdf.work" / "epochs"
         for number in (signal.SIGUSR1, signal.SIGTERM, signal.SIGKILL):
             with self.subTest(signal=number):
-                code, err = self.end_by_signal(number, 2.5)
+                code, err = self.end_by_signal(number, epochs)
                 if code == 0:
                     self.skipTest("the run was over before the signal")
                 if number == signal.SIGUSR1:

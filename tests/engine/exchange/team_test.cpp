@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <set>
+#include <thread>
 
 #include "tests/engine/exchange/crowd.h"
 
@@ -86,6 +87,27 @@ TEST(Team, OneFailureReachesAllAndEndsWhatTheyWaitFor) {
     while (!told) std::this_thread::yield();
     team.listen({});
     EXPECT_TRUE(team.failure().has_value());
+  });
+}
+
+/// A thread of a rank fails while another one waits for what all say.
+TEST(Team, AFailureEndsWhatItsOwnRankWaitsFor) {
+  for_ranks({.ranks = 2, .seed = 6}, [](Team& team) {
+    if (team.rank() == 1) {
+      while (!team.has_failed()) std::this_thread::yield();
+      return;
+    }
+    std::thread other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      team.fail(std::make_exception_ptr(Error(ErrorKind::kResource, "the disk is full")));
+    });
+    try {
+      (void)team.gather(std::string("x"));
+      ADD_FAILURE() << "rank 1 said nothing";
+    } catch (const Error& error) {
+      EXPECT_STREQ(error.what(), "the disk is full");
+    }
+    other.join();
   });
 }
 
