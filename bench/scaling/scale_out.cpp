@@ -216,8 +216,9 @@ void add_machine_options(CLI::App& app, Job& job) {
   app.add_option("--block-bytes", machines.block_bytes, "of a parcel, by march")
       ->delimiter(',')
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--cut-every", job.cut_every,
-                 "colour: bricks end at rows that are a multiple of it; the engine's are at any")
+  app.add_option(
+         "--cut-every", job.cut_every,
+         "colour: bricks end at rows that are a multiple of it; by default as the engine's do")
       ->check(CLI::PositiveNumber);
   app.add_option("--stand-in", job.stand_in,
                  "prints what volumes N times as long would take with N * N times the cores")
@@ -231,12 +232,12 @@ void add_machine_options(CLI::App& app, Job& job) {
 }  // namespace mw::bench
 
 int main(int argc, char** argv) {
-  mw::bench::Job job;
-  CLI::App app("predicts the marches' speed-up on several machines from a trace, as Markdown");
-  mw::bench::add_run_options(app, job);
-  mw::bench::add_machine_options(app, job);
-  CLI11_PARSE(app, argc, argv);
   try {
+    mw::bench::Job job;
+    CLI::App app("predicts the marches' speed-up on several machines from a trace, as Markdown");
+    mw::bench::add_run_options(app, job);
+    mw::bench::add_machine_options(app, job);
+    CLI11_PARSE(app, argc, argv);
     mw::bench::report(job);
   } catch (const std::exception& error) {
     std::cerr << "mw_scale_out: error: " << error.what() << "\n";
