@@ -245,8 +245,8 @@ bool is_damage(const std::exception_ptr& error) {
 }
 
 /// After an error: what can be saved is, and the first error stays the one that is told.
-void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options,
-               const std::exception_ptr& error) {
+void keep_work(RunStore& store, Workdir* workdir, const SharedRun* shared,
+               const StoreOptions& options, const std::exception_ptr& error) {
   if (workdir == nullptr) return;
   const bool damaged = is_damage(error);
   try {
@@ -254,10 +254,10 @@ void keep_work(RunStore& store, Workdir* workdir, const StoreOptions& options,
   } catch (...) {
     // The disk is full or broken, or memory is out: what was saved before remains.
   }
-  if (!store.has_saved_work()) return;
-  workdir->keep();
+  if (store.has_saved_work()) workdir->keep();
   // Nobody is told to go on from damage; it stays for whoever wants to know what happened.
-  if (options.kept && !damaged) options.kept();
+  const bool can_go_on = shared != nullptr ? shared->has_saved_work() : store.has_saved_work();
+  if (can_go_on && options.kept && !damaged) options.kept();
 }
 
 RankFacts rank_facts(const MemoryBudget& budget, std::uint64_t windows) {
@@ -306,7 +306,7 @@ RunReport run(const io::DenseVolume& volume, const MeshSettings& settings, io::M
   } catch (...) {
     std::exception_ptr error = std::current_exception();
     if (shared) error = shared->fail(error);
-    keep_work(store, workdir, hooks.store, error);
+    keep_work(store, workdir, shared ? &*shared : nullptr, hooks.store, error);
     std::rethrow_exception(error);
   }
   if (alone != nullptr) alone->discard();

@@ -27,6 +27,8 @@ class SharedRun {
   /// Takes up what an earlier run left, when every rank has the room that its labels take: blocks
   /// come in then.  From now on there are epochs.
   void begin(RunStore& store, Partition partition);
+  /// Whether another run can go on from what this one leaves; rank 0 knows.
+  [[nodiscard]] bool has_saved_work() const { return work_ && work_->has_saved_work(); }
   /// All windows of all ranks are done.
   void end_marches();
   /// The output is complete; returns when all ranks know, with what each did.

@@ -79,7 +79,6 @@ bool BlockTraffic::stays(const BlockVersion& version) const {
 }
 
 void BlockTraffic::send(const BlockVersion& version, BlockPin block) {
-  ++blocks_sent_;
   bytes_sent_ += block->bytes.size();
   const Team::Head head{layout_.slot(version.block),
                         layout_.order(version.block.march).rank(version.from.window),
@@ -95,6 +94,12 @@ void BlockTraffic::send(const BlockVersion& version, BlockPin block) {
 
 void BlockTraffic::committed(std::span<const BlockVersion> versions) {
   for (const BlockVersion& version : versions) note(version);
+}
+
+TrafficFacts BlockTraffic::facts() const {
+  TrafficFacts out{.blocks = 0, .bytes = bytes_sent_};
+  for (std::uint64_t blocks : sent_to()) out.blocks += blocks;
+  return out;
 }
 
 std::vector<std::uint64_t> BlockTraffic::sent_to() const {

@@ -55,7 +55,7 @@ class BlockTraffic : public BlockRouter {
   [[nodiscard]] std::uint32_t inputs(const WindowKey& key) const {
     return static_cast<std::uint32_t>(route_.inputs(key).size());
   }
-  [[nodiscard]] TrafficFacts facts() const { return {blocks_sent_, bytes_sent_}; }
+  [[nodiscard]] TrafficFacts facts() const;
 
   /// The last number that another rank has signalled; they only grow.
   [[nodiscard]] std::uint64_t signalled() const { return signalled_; }
@@ -87,7 +87,6 @@ class BlockTraffic : public BlockRouter {
   Arrivals arrivals_;
   std::atomic<std::uint64_t> signalled_ = 0;
   std::atomic<std::uint64_t> received_ = 0;
-  std::atomic<std::uint64_t> blocks_sent_ = 0;
   std::atomic<std::uint64_t> bytes_sent_ = 0;
 
   mutable std::mutex mutex_;  ///< guards the next lines

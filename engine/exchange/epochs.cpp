@@ -2,26 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/exchange/epochs.h"
 
-#include <cstring>
 #include <utility>
+
+#include "engine/exchange/plain_bytes.h"
 
 namespace mw::engine {
 namespace {
 
 constexpr std::uint64_t kEnd = ~std::uint64_t{0};  ///< no more epochs
 constexpr std::chrono::milliseconds kLook{1};
-
-std::vector<std::byte> bytes_of(const std::vector<std::uint64_t>& numbers) {
-  std::vector<std::byte> out(numbers.size() * sizeof(std::uint64_t));
-  std::memcpy(out.data(), numbers.data(), out.size());
-  return out;
-}
-
-std::uint64_t number_at(const std::vector<std::byte>& bytes, int index) {
-  std::uint64_t out = 0;
-  std::memcpy(&out, bytes.data() + sizeof out * static_cast<std::size_t>(index), sizeof out);
-  return out;
-}
 
 }  // namespace
 
@@ -88,8 +77,11 @@ void Epochs::run_one() {
   sleep_until([&] { return store_.is_quiet(); });
   // Nothing more is sent; what was sent has to come in.
   std::uint64_t wanted = 0;
-  for (const auto& sent : team_.gather(bytes_of(traffic_.sent_to()), Team::Channel::kEpochs)) {
-    wanted += number_at(sent, team_.rank());
+  const std::vector<std::uint64_t> sent = traffic_.sent_to();
+  const auto me = static_cast<std::size_t>(team_.rank());
+  for (const auto& said :
+       team_.gather(bytes_of(sent.data(), sent.size()), Team::Channel::kEpochs)) {
+    wanted += list_of<std::uint64_t>(said).at(me);
   }
   sleep_until([&] { return traffic_.received() == wanted; });
   store_.save_epoch();

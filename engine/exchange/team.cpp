@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/exchange/team.h"
 
-#include <algorithm>
-#include <cstring>
 #include <utility>
+
+#include "engine/exchange/plain_bytes.h"
 
 namespace mw::engine {
 namespace {
@@ -12,9 +12,7 @@ namespace {
 enum Kind : std::uint64_t { kGathered = 1, kParcel, kSignal, kFailure };
 
 std::vector<std::byte> bytes_of(const std::string& text) {
-  std::vector<std::byte> out(text.size());
-  std::copy_n(reinterpret_cast<const std::byte*>(text.data()), text.size(), out.begin());
-  return out;
+  return engine::bytes_of(text.data(), text.size());
 }
 
 std::string text_of(const std::vector<std::byte>& bytes) {

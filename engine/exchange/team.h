@@ -40,7 +40,7 @@ class Team {
   /// The same of texts.
   [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
 
-  /// A parcel's first number is free for its kind; those of a rank that has no listener wait.
+  /// The numbers are the sender's; parcels for a rank that has no listener wait.
   using Head = std::array<std::uint64_t, 3>;
   using OnParcel = std::function<void(const Head& head, std::vector<std::byte> bytes)>;
   void send(int to, const Head& head, SharedBytes bytes);

@@ -44,13 +44,10 @@ class PreparedLabels {
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
   /// What is counted on the way.  REQUIRES: they are no share.
   [[nodiscard]] const LabelCounts& counts() const { return *counts_; }
-  [[nodiscard]] const BoundaryFaces& faces() const { return counts_->faces; }
   /// Limits on edges; null: none.
   [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
   /// Labels whose tets should have an inner vertex; null: none.
   [[nodiscard]] const InnerDemand* inner() const { return inner_ ? &*inner_ : nullptr; }
-  /// How many voxels of the input have each dense label.
-  [[nodiscard]] const std::vector<std::uint64_t>& label_voxels() const { return counts_->voxels; }
 
  private:
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,

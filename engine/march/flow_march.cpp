@@ -138,16 +138,18 @@ class Dispatcher {
 /// Keeps a graph alive while other processes may bring something to do, and wakes it when they do.
 class Waiting {
  public:
-  Waiting(flow::graph& graph, Keeper& keeper, const Dispatcher& dispatcher, Arrivals* arrivals)
+  Waiting(flow::graph& graph, const Dispatcher& dispatcher, Arrivals* arrivals)
       : graph_(graph), dispatcher_(dispatcher), arrivals_(arrivals) {
-    if (arrivals_ == nullptr) return;
-    graph_.reserve_wait();
-    arrivals_->on_wake([&keeper] { keeper.try_put(Outcome{}); });
+    if (arrivals_ != nullptr) graph_.reserve_wait();
   }
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
   ~Waiting() { end(); }
 
+  /// From now on what comes in wakes the keeper, which may be at work before this returns.
+  void begin(Keeper& keeper) {
+    if (arrivals_ != nullptr) arrivals_->on_wake([&keeper] { keeper.try_put(Outcome{}); });
+  }
   /// By the keeper, after each outcome.
   void release_if_over() {
     if (!dispatcher_.waits()) release();
@@ -174,32 +176,31 @@ void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arriv
   flow::graph graph;
   Visitor visitor(graph, flow::unlimited,
                   [&](Index3 window) { return visit_window(visit, window); });
-  Waiting* waiting = nullptr;
+  Waiting waiting(graph, dispatcher, arrivals);
   Keeper keeper(graph, flow::serial, [&](const Outcome& outcome, Keeper::output_ports_type& out) {
     dispatcher.finish(outcome);
     while (const auto window = dispatcher.next()) std::get<0>(out).try_put(*window);
-    waiting->release_if_over();
+    waiting.release_if_over();
   });
   flow::make_edge(visitor, keeper);
   flow::make_edge(flow::output_port<0>(keeper), visitor);
   // All of the first windows are chosen before one is sent: from then on the keeper may be at work.
   std::vector<Index3> first;
   while (const auto window = dispatcher.next()) first.push_back(*window);
-  Waiting wait(graph, keeper, dispatcher, arrivals);
-  waiting = &wait;
+  waiting.begin(keeper);
   try {
     for (Index3 window : first) visitor.try_put(window);
     // What came in meanwhile, or nothing to do at all.
     if (arrivals != nullptr) arrivals->wake();
   } catch (...) {
     // No memory for a message: those that were sent must be over before the nodes go.
-    wait.end();
+    waiting.end();
     graph.cancel();
     graph.wait_for_all();
     throw;
   }
   graph.wait_for_all();
-  wait.end();
+  waiting.end();
   graph.wait_for_all();
 }
 

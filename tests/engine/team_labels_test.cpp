@@ -34,8 +34,8 @@ TEST(TeamLabels, AreCountedTogetherAsOneCounts) {
     for_ranks({.ranks = ranks, .seed = 5}, [&](Team& team) {
       const test::CountedVolume counted(memory);
       const LabelCounts counts = count_together(team, io::DenseVolume(counted, table), 2);
-      EXPECT_EQ(counts.voxels, whole.label_voxels());
-      EXPECT_TRUE(std::ranges::equal(counts.faces.counts(), whole.faces().counts()));
+      EXPECT_EQ(counts.voxels, whole.counts().voxels);
+      EXPECT_TRUE(std::ranges::equal(counts.faces.counts(), whole.counts().faces.counts()));
       read += counted.voxels();
     });
     EXPECT_EQ(read, shape.product());

@@ -88,7 +88,7 @@ std::vector<std::uint64_t> predicted_blocks(const Trial& trial, int ranks) {
   const RunLayout layout(grids, trial.settings.order);
   std::vector<std::uint64_t> out;
   for_ranks({.ranks = ranks}, [&](Team& team) {
-    const Partition partition = deal_windows(team, layout, trial.settings, labels.faces());
+    const Partition partition = deal_windows(team, layout, trial.settings, labels.counts().faces);
     if (team.is_first()) out = blocks_sent(layout, partition, ranks);
   });
   return out;

@@ -28,7 +28,6 @@ struct Attempt {
   int ranks = 1;
   int threads = 1;
   std::uint64_t fails_after = 0;  ///< visits of all ranks; 0: does not
-  std::uint64_t memory = MemoryBudget::kUnlimited;
 };
 
 class SharedResumeTest : public test::FolderTest {
@@ -44,7 +43,6 @@ class SharedResumeTest : public test::FolderTest {
                 RunHooks hooks{.threads = how.threads, .team = &team};
                 hooks.store.workdir = folder() / "work";
                 hooks.store.resume = true;
-                hooks.store.memory = how.memory;
                 hooks.store.group.age = std::chrono::milliseconds(5);
                 hooks.before_visit = [&](Index3) {
                   if (++visits == how.fails_after) throw Error(ErrorKind::kResource, "enough");

@@ -33,8 +33,8 @@ TEST(LabelCounts, OfPartsAddUpToThoseOfTheWhole) {
       sum.faces.add(0, more.faces.counts());
       for (std::size_t l = 0; l < table.size(); ++l) sum.voxels[l] += more.voxels[l];
     }
-    EXPECT_EQ(sum.voxels, whole.label_voxels());
-    EXPECT_TRUE(std::ranges::equal(sum.faces.counts(), whole.faces().counts()));
+    EXPECT_EQ(sum.voxels, whole.counts().voxels);
+    EXPECT_TRUE(std::ranges::equal(sum.faces.counts(), whole.counts().faces.counts()));
   }
 }
 

@@ -72,8 +72,8 @@ TEST(PreparedLabels, AreWhatTheWholeVolumeGivesDirectly) {
     EXPECT_EQ(labels.original(box).labels, labels_in(volume, box).labels);
     EXPECT_EQ(labels.shape(box).labels, labels_in(shape, box).labels);
     for (Label l = 0; l < volume.label_count; ++l) {
-      EXPECT_EQ(labels.label_voxels()[l], static_cast<std::uint64_t>(std::count(
-                                              volume.labels.begin(), volume.labels.end(), l)));
+      EXPECT_EQ(labels.counts().voxels[l], static_cast<std::uint64_t>(std::count(
+                                               volume.labels.begin(), volume.labels.end(), l)));
     }
     if (settings.start == StartMesh::kDense) continue;
     expect_levels(labels.levels(), mw::test::level_map(shape), volume.shape);
