@@ -21,6 +21,7 @@
 #include "engine/system/tbb_for.h"
 #include "engine/team_labels.h"
 #include "engine/team_run.h"
+#include "engine/window/inner_quality.h"
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
 
@@ -199,13 +200,16 @@ std::uint64_t march_and_write(const RunLayout& layout, const VoxelLattice& latti
                                         report.threads, hooks.store, store, room);
   const LabelCounts& counts = dealt ? dealt->counts : labels.counts();
   watch.lap(report.prepare_seconds);
+  MeshSettings chosen = settings;
+  if (!chosen.inner_quality) chosen.inner_quality = inner_quality_for(counts.faces);
+  report.inner_quality = *chosen.inner_quality;
   const Metric metric(lattice.info().space.spacing);
   RunForecast forecast(counts.faces, layout, settings, report.threads);
   if (shared != nullptr) shared->begin(store, std::move(dealt->partition));
   Marches marches(hooks, layout, forecast, store.facts().resumed_windows,
                   shared == nullptr ? nullptr : &shared->traffic());
   for (std::uint32_t i = 0; i < layout.marches(); ++i) {
-    WindowVisitor visitor(labels, metric, settings, layout.grid(i), store.march(i));
+    WindowVisitor visitor(labels, metric, chosen, layout.grid(i), store.march(i));
     if (report.threads > 1) visitor.seed_with(tbb_for);
     if (i + 1 == layout.marches()) visitor.polish(layout.order(i));
     if (i + 1 == layout.marches() && workers != nullptr) {

@@ -32,6 +32,7 @@ struct RunReport : VisitStats {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
   int threads = 1;
+  double inner_quality = 0.0;    ///< that was kept to, see MeshSettings
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
   double output_seconds = 0.0;
   std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it

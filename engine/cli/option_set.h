@@ -23,6 +23,7 @@ enum class ValueKind {
   kInteger,
   kNumber,
   kNumberOrNone,
+  kNumberOrAuto,
   kNumbers,  ///< X,Y,Z
   kShape,    ///< X,Y,Z, integers
   kBox,      ///< X0,Y0,Z0,X1,Y1,Z1, integers

@@ -12,6 +12,11 @@ namespace {
 
 constexpr const char* kNone = "none";
 
+/// What an option takes beside numbers.
+const char* word_of(ValueKind kind) {
+  return kind == ValueKind::kNumberOrAuto ? "auto" : kNone;
+}
+
 std::string joined(const std::array<std::string, 3>& parts) {
   return parts[0] + "," + parts[1] + "," + parts[2];
 }
@@ -71,7 +76,8 @@ std::string canonical_text(ValueKind kind, const std::string& text) {
     case ValueKind::kNumber:
       return format_number(parse_number(text));
     case ValueKind::kNumberOrNone:
-      return text == kNone ? text : format_number(parse_number(text));
+    case ValueKind::kNumberOrAuto:
+      return text == word_of(kind) ? text : format_number(parse_number(text));
     case ValueKind::kNumbers:
       return canonical_numbers(text);
     case ValueKind::kShape:
@@ -102,7 +108,8 @@ std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) 
     case ValueKind::kNumber:
       return number_of_toml(node);
     case ValueKind::kNumberOrNone:
-      return string_of_toml(node) == kNone ? string_of_toml(node) : number_of_toml(node);
+    case ValueKind::kNumberOrAuto:
+      return string_of_toml(node) == word_of(kind) ? word_of(kind) : number_of_toml(node);
     case ValueKind::kNumbers:
     case ValueKind::kShape:
     case ValueKind::kBox:
@@ -127,6 +134,8 @@ const char* toml_type(ValueKind kind) {
       return "a number";
     case ValueKind::kNumberOrNone:
       return "a number or \"none\"";
+    case ValueKind::kNumberOrAuto:
+      return "a number or \"auto\"";
     case ValueKind::kNumbers:
       return "three numbers [X, Y, Z]";
     case ValueKind::kShape:
@@ -152,7 +161,8 @@ std::string toml_of_text(ValueKind kind, const std::string& text) {
     case ValueKind::kSwitch:
       return text;
     case ValueKind::kNumberOrNone:
-      return text == kNone ? "\"none\"" : text;
+    case ValueKind::kNumberOrAuto:
+      return text == word_of(kind) ? "\"" + text + "\"" : text;
     case ValueKind::kNumbers:
     case ValueKind::kShape:
     case ValueKind::kBox:

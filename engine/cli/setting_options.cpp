@@ -18,6 +18,8 @@ ValueKind value_kind(SettingKind kind) {
       return ValueKind::kNumber;
     case SettingKind::kNumberOrNone:
       return ValueKind::kNumberOrNone;
+    case SettingKind::kNumberOrAuto:
+      return ValueKind::kNumberOrAuto;
     case SettingKind::kSwitch:
       return ValueKind::kSwitch;
     case SettingKind::kChoice:

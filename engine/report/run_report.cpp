@@ -103,6 +103,7 @@ ordered_json engine_json(const FinishedRun& run) {
   ordered_json out{{"windows", run.engine.windows},
                    {"windows_resumed", store.resumed_windows},
                    {"threads", run.engine.threads},
+                   {"inner_quality", run.engine.inner_quality},
                    {"memory_budget_bytes", run.engine.memory_budget_bytes},
                    {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
                    {"peak_bytes_by_purpose", purposes_json(run.engine.peak_bytes_by_purpose)},

@@ -22,10 +22,12 @@ using Text = std::string;
 
 constexpr int kMaxMarches = 4;
 constexpr double kMaxQualityFloor = 0.5;
+constexpr double kMaxInnerQuality = 0.8;
 constexpr double kMaxDistance = 16.0;
 constexpr int kMaxOdtIterations = 1000;
 constexpr double kMaxGradation = 10.0;
 constexpr const char* kNone = "none";
+constexpr const char* kAuto = "auto";
 
 /// The names of an enum's values.
 template <class T, std::size_t N>
@@ -70,12 +72,12 @@ int parse_int(const Text& text) {
       std::clamp<std::int64_t>(parse_integer(text), Limits::min(), Limits::max()));
 }
 
-std::optional<double> parse_bound(const Text& text) {
-  return text == kNone ? std::nullopt : std::optional(parse_number(text));
+std::optional<double> parse_bound(const Text& text, const char* no_bound = kNone) {
+  return text == no_bound ? std::nullopt : std::optional(parse_number(text));
 }
 
-Text bound_text(const std::optional<double>& bound) {
-  return bound ? format_number(*bound) : kNone;
+Text bound_text(const std::optional<double>& bound, const char* no_bound = kNone) {
+  return bound ? format_number(*bound) : no_bound;
 }
 
 Text range_text(double min, double max) {
@@ -155,6 +157,20 @@ std::vector<Setting> bound_settings() {
        .read = [](Settings& s, const Text& t) { s.quality_floor = parse_number(t); },
        .is_allowed =
            [](const Settings& s) { return is_within(s.quality_floor, 0, kMaxQualityFloor); }},
+      {.name = "inner-quality",
+       .value = "R|auto",
+       .help =
+           "contractions inside labels leave no tet below this radius ratio, if it is above the "
+           "quality floor: less is fewer tets, of lower quality; auto: 0.465, where most of "
+           "the volume is far from any interface 0.38",
+       .kind = SettingKind::kNumberOrAuto,
+       .allowed = range_text(0, kMaxInnerQuality) + ", or auto",
+       .text = [](const Settings& s) { return bound_text(s.inner_quality, kAuto); },
+       .read = [](Settings& s, const Text& t) { s.inner_quality = parse_bound(t, kAuto); },
+       .is_allowed =
+           [](const Settings& s) {
+             return !s.inner_quality || is_within(*s.inner_quality, 0, kMaxInnerQuality);
+           }},
       {.name = "max-distance",
        .value = "D|none",
        .help =

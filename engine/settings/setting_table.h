@@ -15,6 +15,7 @@ enum class SettingKind {
   kInteger,
   kNumber,
   kNumberOrNone,
+  kNumberOrAuto,
   kChoice,
   kSwitch,  ///< "true" or "false"
   kSizes,   ///< parse_sizes()

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/system/stopwatch.h"
+#include "engine/window/inner_quality.h"
 #include "kernels/inner/inner_vertices.h"
 #include "kernels/start/carrier_faces.h"
 
@@ -15,6 +16,7 @@ namespace {
 /// Without a floor nothing is asked of shapes, not around inner vertices either.
 SimplifyOptions simplify_options(const MeshSettings& settings) {
   SimplifyOptions options{.quality_floor = settings.quality_floor,
+                          .inner_quality = settings.inner_quality.value_or(kInnerQuality),
                           .edge_variance = settings.edge_variance,
                           .topology = settings.topology,
                           .keep_smooth = settings.surface == Surface::kSmooth};

@@ -36,6 +36,7 @@ struct VisitStats {
 };
 
 /// Visits windows of one march.  Blocks that were never stored are made from voxels.
+/// settings: inner_quality none is kInnerQuality.
 /// REQUIRES: windows are visited in an order that respects predecessors; the references outlive it.
 /// Thread safety: windows that share no block may be visited at the same time.
 class WindowVisitor {

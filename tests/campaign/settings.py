@@ -105,6 +105,7 @@ def draw_flags(random, settings):
     at_times("target-reduction", 0.15, ["0.001", "0.05", "0.3"])
     at_times("edge-variance", 0.15, ["0.05", "0.1", "1"])
     at_times("quality-floor", 0.4, ["0", "0.01", "0.1", "0.25", "0.3"])
+    at_times("inner-quality", 0.2, ["0", "0.3", "0.6"])
     if not settings.is_smooth():
         flags["quality-floor"] = random.choice(["0", "0", "0.01", "0.05", "0.2"])
 

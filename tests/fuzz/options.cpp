@@ -42,8 +42,8 @@ void fuzz_values(Bytes bytes) {
   const std::string text(text_of(bytes).substr(0, text_of(bytes).find('\0')));
   for (const ValueKind kind :
        {ValueKind::kText, ValueKind::kInteger, ValueKind::kNumber, ValueKind::kNumberOrNone,
-        ValueKind::kNumbers, ValueKind::kShape, ValueKind::kBox, ValueKind::kLabels,
-        ValueKind::kSize, ValueKind::kSwitch, ValueKind::kIntegerOrText}) {
+        ValueKind::kNumberOrAuto, ValueKind::kNumbers, ValueKind::kShape, ValueKind::kBox,
+        ValueKind::kLabels, ValueKind::kSize, ValueKind::kSwitch, ValueKind::kIntegerOrText}) {
     std::string once;
     if (!ends_well([&] { once = cli::canonical_text(kind, text); })) continue;
     require(cli::canonical_text(kind, once) == once, "canonical text stays as it is");

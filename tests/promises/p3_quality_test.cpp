@@ -95,5 +95,24 @@ TEST(Promise3Quality, WithoutAFloorNothingIsAskedOfShapes) {
   EXPECT_LT(2 * without, run_in_memory(trial).vertices.size());
 }
 
+/// More inside labels is better tets, less is fewer; the floor and all labels stay.
+TEST(Promise3Quality, InnerQualityTradesVerticesForShape) {
+  std::mt19937 random(113);
+  for (int i = 0; i < 5 && !HasFailure(); ++i) {
+    Trial trial{.volume = random_volume_of(random, VolumeKind::kBlobs, {26, 24, 22}, 2),
+                .settings = {.window = 16},
+                .frame = {}};
+    const auto quality = [&] {
+      return measure_quality(small_mesh(run_in_memory(trial)).view()).radius_ratio_mean;
+    };
+    trial.settings.inner_quality = 0.25;
+    const std::size_t few = expect_promises(trial, Counter::kAudit);
+    const double low = quality();
+    trial.settings.inner_quality = 0.55;
+    EXPECT_GT(expect_promises(trial, Counter::kAudit), few);
+    EXPECT_GT(quality(), low);
+  }
+}
+
 }  // namespace
 }  // namespace mw::engine

