@@ -26,7 +26,8 @@ nlohmann::ordered_json value_json(const engine::Setting& setting, const std::str
   using Kind = engine::SettingKind;
   if (setting.kind == Kind::kChoice || setting.kind == Kind::kSizes) return text;
   if (text == "none") return nullptr;
-  return nlohmann::ordered_json::parse(text, nullptr, false);
+  if (text == "auto") return text;
+  return nlohmann::ordered_json::parse(text);
 }
 
 }  // namespace
