@@ -86,7 +86,8 @@ void require_min(const RunLayout& layout, const io::DenseVolume& volume,
   const LabelShare nothing;
   const LabelShare* const share = hooks.team == nullptr ? nullptr : &nothing;
   const std::uint64_t always =
-      always_bytes(volume, threads) + prepared_bytes(volume, settings, share) + index_bytes(layout);
+      always_bytes(volume, threads) + prepared_bytes(volume, settings, share) +
+      (share == nullptr ? index_bytes(layout) : shared_index_bytes(layout));
   const std::uint64_t reading = preparation_bytes(settings) + volume.raw().buffer_bytes(1);
   const std::uint64_t min = always + std::max(reading, sink.buffer_bytes());
   if (min > budget.limit()) budget.fail(min);

@@ -3,6 +3,8 @@
 // Where each block of a run is: in memory, on disk, or both; and which one leaves memory next.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <set>
 #include <utility>
@@ -36,23 +38,29 @@ struct StoredBlock {
   [[nodiscard]] bool empty() const { return cached == nullptr && size == 0; }
 };
 
-/// The blocks of a run by slot.  Copy on write: an extent that a record points to is not used again
-/// before a later record is durable, see take_retired().
+/// Memory for so many bytes of a table, which may evict blocks from it.
+using TableRoom = std::function<MemoryBudget::Reservation(std::uint64_t bytes)>;
+
+/// The blocks of a run by slot, in pages that are there as long as one of their blocks is: a
+/// process that has a part of a run's blocks has that part of the table.  Copy on write: an extent
+/// that a record points to is not used again before a later record is durable, see take_retired().
 /// Thread safety: none; but pins, and extents of blocks that nobody replaces, may be read at any
 /// time.
 class BlockTable {
  public:
-  /// Without a disk nothing can be evicted.  The references outlive it.
-  BlockTable(const RunLayout& layout, const DoneWindows& done, SegmentFile* disk);
+  /// Without a disk nothing can be evicted.  room: asked for each page; null: there is room for all
+  /// of them.  The references outlive it.
+  BlockTable(const RunLayout& layout, const DoneWindows& done, SegmentFile* disk,
+             TableRoom room = {});
 
-  [[nodiscard]] const StoredBlock& at(std::uint64_t slot) const { return blocks_[slot]; }
+  [[nodiscard]] const StoredBlock& at(std::uint64_t slot) const;
 
   /// Forgets the block, if there is one.
   void remove(std::uint64_t slot);
-  /// REQUIRES: no block there.
+  /// REQUIRES: no block there.  ERRORS: those of the room; then nothing has changed.
   void put(std::uint64_t slot, BlockPin block);
   /// A block that the journal tells of replaces the one that is there; the extents are not yet
-  /// taken.
+  /// taken.  ERRORS: those of the room.
   void restore(const JournalBlock& block);
   /// Takes the extents of all restored blocks.
   /// ERRORS: mw::Error(kInput) when they overlap or lie outside the file.
@@ -72,7 +80,20 @@ class BlockTable {
 
  private:
   using Turn = std::pair<std::uint64_t, std::uint64_t>;  ///< next use, slot
+  static constexpr std::uint64_t kPageBlocks = 256;
+  struct Page {
+    MemoryBudget::Reservation room;
+    std::uint64_t held = 0;  ///< blocks that are not empty
+    std::array<StoredBlock, kPageBlocks> blocks;
+  };
+  friend std::uint64_t index_bytes(const RunLayout& layout);
+  friend std::uint64_t shared_index_bytes(const RunLayout& layout);
 
+  /// REQUIRES: there is one.
+  [[nodiscard]] StoredBlock& held(std::uint64_t slot);
+  /// Of an empty block, which must be filled next.
+  [[nodiscard]] StoredBlock& fresh(std::uint64_t slot);
+  void clear(std::uint64_t slot);
   [[nodiscard]] Turn turn(std::uint64_t slot) const;
   void forget_parts(const BlockKey& key);
   void write(StoredBlock& block);
@@ -80,15 +101,18 @@ class BlockTable {
   const RunLayout& layout_;
   const DoneWindows& done_;
   SegmentFile* disk_;
-  std::vector<StoredBlock> blocks_;
+  TableRoom room_;
+  std::vector<std::unique_ptr<Page>> pages_;
   std::set<Turn> cached_;  ///< a block's turn changes only when a window over it is done
   std::vector<Extent> retired_;
   std::uint64_t evicted_ = 0;
   std::uint64_t bytes_written_ = 0;
 };
 
-/// Memory that the tables of a run take, blocks apart.
+/// Memory that the tables of a run take, blocks apart, with all their pages.
 [[nodiscard]] std::uint64_t index_bytes(const RunLayout& layout);
+/// The same without any page, for a table that asks for room.
+[[nodiscard]] std::uint64_t shared_index_bytes(const RunLayout& layout);
 
 /// What identifies the bytes of a version: the checksum that its encoding holds.
 [[nodiscard]] std::uint32_t sum_of(std::span<const std::byte> encoded);

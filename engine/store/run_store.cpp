@@ -78,10 +78,11 @@ RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* fil
       budget_(budget),
       limits_(group),
       router_(router),
-      index_room_(budget.reserve(Purpose::kIndex, index_bytes(layout))),
+      index_room_(budget.reserve(
+          Purpose::kIndex, router == nullptr ? index_bytes(layout) : shared_index_bytes(layout))),
       done_(layout.windows()),
       disk_(open_disk(files)),
-      table_(layout, done_, disk_.get()) {
+      table_(layout, done_, disk_.get(), router == nullptr ? TableRoom() : room_for_index()) {
   for (std::uint32_t m = 0; m < layout.marches(); ++m) {
     marches_.push_back(std::make_unique<March>(*this, m));
   }
@@ -214,6 +215,15 @@ MemoryBudget::Reservation RunStore::reserve(Purpose purpose, std::uint64_t bytes
   auto reserved = try_reserve(purpose, bytes);
   if (!reserved) budget_.fail(bytes);
   return std::move(*reserved);
+}
+
+TableRoom RunStore::room_for_index() {
+  return [this](std::uint64_t bytes) {
+    for (;;) {
+      if (auto reserved = budget_.try_reserve(Purpose::kIndex, bytes)) return std::move(*reserved);
+      if (!table_.evict_one()) budget_.fail(bytes);
+    }
+  };
 }
 
 BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh,

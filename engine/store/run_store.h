@@ -114,6 +114,8 @@ class RunStore {
 
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   void restore();
+  /// Of one process of several, whose table grows with its blocks.
+  [[nodiscard]] TableRoom room_for_index();
   /// Where the block is: itself, or its parts.  REQUIRES: locked.
   void find(const BlockKey& key, std::vector<Source>& out) const;
   [[nodiscard]] BlockMesh read(const Source& source) const;

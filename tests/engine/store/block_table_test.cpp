@@ -101,5 +101,56 @@ TEST_F(BlockTableTest, RefusesExtentsThatOverlap) {
   EXPECT_THROW(table_.take_extents(), Error);
 }
 
+/// A table that asks for room has as many pages as its blocks lie in, whatever came and went.
+TEST_F(BlockTableTest, HasThePagesOfItsBlocks) {
+  const RunLayout layout = fake_layout({60, 40, 30}, 2);
+  const DoneWindows done(layout.windows());
+  MemoryBudget budget;
+  std::uint64_t page_bytes = 0;
+  BlockTable table(layout, done, nullptr, [&](std::uint64_t bytes) {
+    page_bytes = bytes;
+    return budget.reserve(Purpose::kIndex, bytes);
+  });
+  constexpr std::uint64_t kPageBlocks = 256;
+  ASSERT_GT(layout.slots(), 10 * kPageBlocks);
+  const BlockPin any = block(0);
+  std::set<std::uint64_t> there;
+  for (int i = 0; i < 3000 && !HasFailure(); ++i) {
+    // Few pages at a time, so that some become empty.
+    const std::uint64_t page = static_cast<std::uint64_t>(i) / 150 % 10;
+    const std::uint64_t slot = page * kPageBlocks + random_() % 3;
+    if (there.insert(slot).second) {
+      table.put(slot, any);
+    } else {
+      table.remove(slot);
+      there.erase(slot);
+    }
+    std::set<std::uint64_t> pages;
+    for (const std::uint64_t s : there) {
+      pages.insert(s / kPageBlocks);
+      EXPECT_FALSE(table.at(s).empty());
+    }
+    EXPECT_TRUE(table.at(slot + 3).empty());
+    EXPECT_EQ(budget.used(Purpose::kIndex), pages.size() * page_bytes);
+  }
+  EXPECT_GE(index_bytes(layout), layout.slots() / kPageBlocks * page_bytes);
+  EXPECT_LT(shared_index_bytes(layout), index_bytes(layout) / 100);
+}
+
+TEST_F(BlockTableTest, StaysAsItIsWithoutRoomForAPage) {
+  bool has_room = false;
+  MemoryBudget budget;
+  BlockTable table(layout_, done_, &disk_, [&](std::uint64_t bytes) {
+    if (!has_room) throw Error(ErrorKind::kResource, "no room");
+    return budget.reserve(Purpose::kIndex, bytes);
+  });
+  EXPECT_THROW(table.put(3, block(3)), Error);
+  EXPECT_TRUE(table.at(3).empty());
+  EXPECT_FALSE(table.evict_one());
+  has_room = true;
+  table.put(3, block(3));
+  EXPECT_FALSE(table.at(3).empty());
+}
+
 }  // namespace
 }  // namespace mw::engine
