@@ -5,6 +5,7 @@
 # configs/setup.sh installs, and dpkg-dev.
 #   mwmesh  libmwmesh0.1  libmwmesh-dev  python3-mwmesh  mwmesh-codt (AGPL: linked with TetGen)
 #   mwmesh-mpi, where MPI is found
+# DEBFULLNAME and DEBEMAIL say who made them.
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"

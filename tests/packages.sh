@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-# Tries the packages of configs/package.sh: program, manual page, worker, and Python.
+# Tries the packages of configs/package.sh: programs, worker, Python, and the texts about them.
 #
 #   bash tests/packages.sh           unpacked into a folder; libraries are those of this machine
 #   bash tests/packages.sh --fresh   installed with apt into a new Debian 12 (as root; debootstrap, and
 #                                    the package mirror of this machine; some minutes)
+#   bash tests/packages.sh --lint    no error that lintian knows, but that nobody is their maintainer
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -31,6 +32,43 @@ unpack() {
 
 mirror() {
   apt-cache policy | sed -n 's/^ *[0-9]* \(http[^ ]*\) bookworm\/main.*/\1/p' | head -n 1
+}
+
+has() {
+  dpkg-deb --fsys-tarfile "$packages/$1"_*.deb | tar --list | grep -x "./usr/$2" >/dev/null || fail "$1 has no $2"
+}
+
+needs() {
+  dpkg-deb --field "$packages/$1"_*.deb Depends | tr ',' '\n' | grep "^ *$2\b" >/dev/null
+}
+
+# What is in which package, and that only mwmesh-mpi brings MPI.
+look_inside() {
+  local program
+  for program in mwmesh mwmesh-mpi; do
+    has "$program" "share/bash-completion/completions/$program"
+    has "$program" "share/zsh/vendor-completions/_$program"
+    has "$program" "share/fish/vendor_completions.d/$program.fish"
+  done
+  for program in mwmesh mwmesh-mpi mwmesh-codt; do
+    has "$program" "bin/$program"
+    has "$program" "share/man/man1/$program.1.gz"
+    has "$program" "share/doc/$program/copyright"
+  done
+  for program in mwmesh mwmesh-codt libmwmesh0.1 libmwmesh-dev python3-mwmesh; do
+    needs "$program" libopenmpi3 && fail "$program needs MPI"
+    needs "$program" openmpi-bin && fail "$program needs mpirun"
+  done
+  needs mwmesh-mpi libopenmpi3 || fail "mwmesh-mpi does not need MPI"
+  needs mwmesh-mpi openmpi-bin || fail "mwmesh-mpi does not need mpirun"
+  needs mwmesh-codt libtet1.5 || fail "mwmesh-codt does not need TetGen"
+}
+
+lint() {
+  local found
+  found="$(lintian --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog \
+    --fail-on error,warning "$packages"/*.deb 2>&1)" || fail "lintian: $found"
+  echo "packages: lintian has nothing to say"
 }
 
 install_fresh() {
@@ -63,18 +101,27 @@ assert sorted(mesh.volumes()) == numpy.unique(voxels).tolist() and mesh.verify(v
 print(mesh.digest)
 print(mwmesh.mesh("v.npy", optimizer="tetgen").digest)
 PYTHON
-gzip -cd "$ROOT/usr/share/man/man1/mwmesh.1.gz" | grep -q '^\.TH'
-for file in bash-completion/completions/mwmesh doc/mwmesh/copyright doc/mwmesh-codt/copyright; do
-  [[ -s "$ROOT/usr/share/$file" ]]
+mpirun --oversubscribe --bind-to none -n 2 mwmesh-mpi mesh v.npy -o shared.vtu >/dev/null
+mwmesh digest shared.vtu
+for program in mwmesh mwmesh-mpi mwmesh-codt; do
+  gzip -cd "$ROOT/usr/share/man/man1/$program.1.gz" | grep -q '^\.TH'
 done
 END
 
 ls "$packages"/*.deb >/dev/null 2>&1 || fail "no packages; run configs/package.sh"
+look_inside
+if [[ "${1:-}" == --lint ]]; then
+  lint
+  exit
+fi
 mkdir "$system"
 if [[ "${1:-}" == --fresh ]]; then install_fresh; else unpack; fi
 unset MW_CODT_WORKER
+# Open MPI asks before it starts as root, which one is in a container.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 mapfile -t digests < <("${run[@]}" || echo failed)
-((${#digests[@]} == 4)) || fail "the smoke test: ${digests[*]}"
+((${#digests[@]} == 5)) || fail "the smoke test: ${digests[*]}"
 [[ "${digests[0]}" == "${digests[2]}" ]] || fail "Python made another mesh: ${digests[*]}"
 [[ "${digests[1]}" == "${digests[3]}" ]] || fail "Python made another mesh with TetGen: ${digests[*]}"
+[[ "${digests[0]}" == "${digests[4]}" ]] || fail "mwmesh-mpi made another mesh: ${digests[*]}"
 echo "packages: ${digests[0]}"

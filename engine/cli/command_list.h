@@ -28,6 +28,16 @@ struct CommandFacts {
   std::string footer;
 };
 
+/// A program as its manual page and shells have it.
+struct ProgramFacts {
+  std::string name;    ///< "mwmesh"
+  std::string does;    ///< in a few words
+  std::string called;  ///< what a line begins with that runs it: "mpirun -n N mwmesh-mpi"
+  std::string about;   ///< a paragraph
+  std::vector<CommandFacts> commands;  ///< none: nobody starts it by hand
+  std::vector<std::string> examples;
+};
+
 /// Every subcommand that help lists, in its order.
 [[nodiscard]] std::vector<CommandFacts> list_commands(const CLI::App& program);
 

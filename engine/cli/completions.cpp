@@ -31,6 +31,11 @@ std::string zsh_text(const std::string& text) {
   return out;
 }
 
+/// The function that completes.
+std::string function_of(const ProgramFacts& program) {
+  return "_" + program.name;
+}
+
 /// What bash does for a subcommand: the values of a flag, else flags, or the first positional.
 std::string bash_case(const CommandFacts& command) {
   std::string out = "    " + command.name + ")\n      case $previous in\n";
@@ -66,8 +71,13 @@ std::string zsh_case(const CommandFacts& command) {
   return out + "      && return ;;\n";
 }
 
-std::string fish_flag(const CommandFacts& command, const FlagFacts& flag) {
-  std::string out = "complete -c mwmesh -n '__fish_seen_subcommand_from " + command.name + "'";
+/// How a line of fish begins that is about a subcommand.
+std::string fish_within(const ProgramFacts& program, const CommandFacts& command) {
+  return "complete -c " + program.name + " -n '__fish_seen_subcommand_from " + command.name + "'";
+}
+
+std::string fish_flag(const FlagFacts& flag) {
+  std::string out;
   for (const std::string& name : flag.names) {
     out += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   }
@@ -76,18 +86,26 @@ std::string fish_flag(const CommandFacts& command, const FlagFacts& flag) {
   return out + " -d " + fish_quoted(flag.help) + "\n";
 }
 
-std::string fish_positional(const CommandFacts& command, const FlagFacts& flag) {
-  if (flag.words.empty()) return "";
-  return "complete -c mwmesh -n '__fish_seen_subcommand_from " + command.name + "' -a " +
-         fish_quoted(joined(flag.words, " ")) + " -d " + fish_quoted(flag.help) + "\n";
+std::string fish_positional(const FlagFacts& flag) {
+  return " -a " + fish_quoted(joined(flag.words, " ")) + " -d " + fish_quoted(flag.help) + "\n";
+}
+
+std::string fish_case(const ProgramFacts& program, const CommandFacts& command) {
+  std::string out;
+  for (const FlagFacts& flag : command.flags) {
+    if (flag.positional && flag.words.empty()) continue;
+    out += fish_within(program, command);
+    out += flag.positional ? fish_positional(flag) : fish_flag(flag);
+  }
+  return out;
 }
 
 }  // namespace
 
-std::string bash_completion(const std::vector<CommandFacts>& commands) {
+std::string bash_completion(const ProgramFacts& program) {
   std::string out =
-      "# bash completion of mwmesh\n"
-      "_mwmesh() {\n"
+      "# bash completion of " + program.name + "\n" + function_of(program) +
+      "() {\n"
       "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
       "  local words= flags= positional= flag_value=\n"
       "  COMPREPLY=()\n"
@@ -98,9 +116,9 @@ std::string bash_completion(const std::vector<CommandFacts>& commands) {
       "    previous=${COMP_WORDS[COMP_CWORD - 2]}\n"
       "  fi\n"
       "  if ((COMP_CWORD == 1)); then\n";
-  out += "    COMPREPLY=($(compgen -W '" + joined(names_of(commands), " ") +
+  out += "    COMPREPLY=($(compgen -W '" + joined(names_of(program.commands), " ") +
          " -h --help --version' -- \"$current\"))\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n";
-  for (const CommandFacts& command : commands) out += bash_case(command);
+  for (const CommandFacts& command : program.commands) out += bash_case(command);
   return out +
          "  esac\n"
          "  if [[ -z $flag_value ]]; then\n"
@@ -109,19 +127,19 @@ std::string bash_completion(const std::vector<CommandFacts>& commands) {
          "  fi\n"
          "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
          "}\n"
-         "complete -o bashdefault -o default -F _mwmesh mwmesh\n";
+         "complete -o bashdefault -o default -F " +
+         function_of(program) + " " + program.name + "\n";
 }
 
-std::string zsh_completion(const std::vector<CommandFacts>& commands) {
-  std::string out =
-      "#compdef mwmesh\n"
-      "# zsh completion of mwmesh\n"
-      "_mwmesh() {\n"
-      "  local context state state_descr line\n"
-      "  typeset -A opt_args\n"
-      "  local -a commands\n"
-      "  commands=(\n";
-  for (const CommandFacts& command : commands) {
+std::string zsh_completion(const ProgramFacts& program) {
+  std::string out = "#compdef " + program.name + "\n# zsh completion of " + program.name + "\n" +
+                    function_of(program) +
+                    "() {\n"
+                    "  local context state state_descr line\n"
+                    "  typeset -A opt_args\n"
+                    "  local -a commands\n"
+                    "  commands=(\n";
+  for (const CommandFacts& command : program.commands) {
     out += "    " + quoted(command.name + ":" + replaced(command.about, ":", "\\:")) + "\n";
   }
   out +=
@@ -133,21 +151,17 @@ std::string zsh_completion(const std::vector<CommandFacts>& commands) {
       "    return\n"
       "  fi\n"
       "  case $words[1] in\n";
-  for (const CommandFacts& command : commands) out += zsh_case(command);
-  return out + "  esac\n}\n_mwmesh \"$@\"\n";
+  for (const CommandFacts& command : program.commands) out += zsh_case(command);
+  return out + "  esac\n}\n" + function_of(program) + " \"$@\"\n";
 }
 
-std::string fish_completion(const std::vector<CommandFacts>& commands) {
-  std::string out =
-      "# fish completion of mwmesh\n"
-      "complete -c mwmesh -n __fish_use_subcommand -s h -l help -d 'help'\n"
-      "complete -c mwmesh -n __fish_use_subcommand -l version -d 'version'\n";
-  for (const CommandFacts& command : commands) {
-    out += "complete -c mwmesh -n __fish_use_subcommand -f -a " + command.name + " -d " +
-           fish_quoted(command.about) + "\n";
-    for (const FlagFacts& flag : command.flags) {
-      out += flag.positional ? fish_positional(command, flag) : fish_flag(command, flag);
-    }
+std::string fish_completion(const ProgramFacts& program) {
+  const std::string complete = "complete -c " + program.name + " -n __fish_use_subcommand";
+  std::string out = "# fish completion of " + program.name + "\n" + complete +
+                    " -s h -l help -d 'help'\n" + complete + " -l version -d 'version'\n";
+  for (const CommandFacts& command : program.commands) {
+    out += complete + " -f -a " + command.name + " -d " + fish_quoted(command.about) + "\n";
+    out += fish_case(program, command);
   }
   return out;
 }

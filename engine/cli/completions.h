@@ -4,15 +4,14 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "engine/cli/command_list.h"
 
 namespace mw::cli {
 
 /// Scripts for bash 4, zsh and fish: subcommands, flags, values that are words; files elsewhere.
-[[nodiscard]] std::string bash_completion(const std::vector<CommandFacts>& commands);
-[[nodiscard]] std::string zsh_completion(const std::vector<CommandFacts>& commands);
-[[nodiscard]] std::string fish_completion(const std::vector<CommandFacts>& commands);
+[[nodiscard]] std::string bash_completion(const ProgramFacts& program);
+[[nodiscard]] std::string zsh_completion(const ProgramFacts& program);
+[[nodiscard]] std::string fish_completion(const ProgramFacts& program);
 
 }  // namespace mw::cli

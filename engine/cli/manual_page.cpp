@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The manual page, from the program's own options.
+// Manual pages, from the program's own options.
 #include "engine/cli/manual_page.h"
+
+#include <algorithm>
+#include <cctype>
 
 namespace mw::cli {
 namespace {
@@ -28,14 +31,15 @@ std::string flag_entry(const FlagFacts& flag) {
   return ".TP\n" + head + "\n" + plain(flag.help) + "\n";
 }
 
-std::string synopsis(const CommandFacts& command) {
-  std::string out = bold("mwmesh " + command.name);
+std::string synopsis(const ProgramFacts& program, const CommandFacts& command) {
+  std::string out = bold(program.called + " " + command.name);
   for (const FlagFacts& flag : positionals_of(command)) out += " " + italic(flag.names.front());
   return out + " [" + italic("OPTIONS") + "]\n.br\n";
 }
 
-std::string section(const CommandFacts& command) {
-  std::string out = ".SS " + plain("mwmesh " + command.name) + "\n" + plain(command.about) + ".\n";
+std::string section(const ProgramFacts& program, const CommandFacts& command) {
+  std::string out =
+      ".SS " + plain(program.name + " " + command.name) + "\n" + plain(command.about) + ".\n";
   for (const FlagFacts& flag : command.flags) out += flag_entry(flag);
   if (!command.footer.empty()) out += ".PP\n" + plain(command.footer) + "\n";
   return out;
@@ -58,25 +62,35 @@ constexpr const char* kExitStatus =
     ".TP\n75\ninterrupted, and \\fB\\-\\-resume\\fR can go on\n"
     ".TP\n130\ninterrupted\n";
 
-constexpr const char* kExamples =
-    ".SH EXAMPLES\n"
-    ".nf\n"
-    "mwmesh mesh brain.nii.gz \\-o brain.vtu \\-\\-report brain.json\n"
-    "mwmesh verify brain.nii.gz brain.vtu\n"
-    "mwmesh info brain.vtu\n"
-    ".fi\n";
+std::string examples(const ProgramFacts& program) {
+  std::string out = ".SH EXAMPLES\n.nf\n";
+  for (const std::string& line : program.examples) out += plain(line) + "\n";
+  return out + ".fi\n";
+}
+
+/// "MWMESH\-MPI", the title of a page.
+std::string title(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return plain(name);
+}
+
+std::string head(const ProgramFacts& program, const std::string& version) {
+  return ".TH " + title(program.name) + " 1 \"\" \"mwmesh " + version + "\" \"User Commands\"\n" +
+         ".SH NAME\n" + plain(program.name) + " \\- " + plain(program.does) + "\n.SH SYNOPSIS\n";
+}
 
 }  // namespace
 
-std::string manual_page(const std::vector<CommandFacts>& commands, const std::string& version) {
-  std::string out = ".TH MWMESH 1 \"\" \"mwmesh " + version + "\" \"User Commands\"\n" +
-                    ".SH NAME\nmwmesh \\- labelled voxel volumes to verified tetrahedral meshes\n" +
-                    ".SH SYNOPSIS\n";
-  for (const CommandFacts& command : commands) out += synopsis(command);
-  out += ".SH DESCRIPTION\nFrom a labelled voxel volume to a verified tetrahedral mesh.\n";
+std::string manual_page(const ProgramFacts& program, const std::string& version) {
+  std::string out = head(program, version);
+  for (const CommandFacts& command : program.commands) out += synopsis(program, command);
+  if (program.commands.empty()) out += bold(program.called) + "\n";
+  out += ".SH DESCRIPTION\n" + plain(program.about) + "\n";
+  if (program.commands.empty()) return out;
   out += ".SH SUBCOMMANDS\n";
-  for (const CommandFacts& command : commands) out += section(command);
-  return out + kEnvironment + kExitStatus + kExamples;
+  for (const CommandFacts& command : program.commands) out += section(program, command);
+  return out + kEnvironment + kExitStatus + examples(program);
 }
 
 }  // namespace mw::cli

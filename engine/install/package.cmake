@@ -1,20 +1,26 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 # `cpack`: Debian packages, one a component.  configs/package.sh configures, builds and tests them.
-option(MW_PACKAGING "Install also what Debian wants in its packages; for configs/package.sh" OFF)
-set(MW_MAINTAINER "The mwmesh authors <mwmesh@localhost>" CACHE STRING "Who made the packages")
+set(MW_MAINTAINER "" CACHE STRING
+  "Who made the packages (empty: DEBFULLNAME and DEBEMAIL of the environment)")
+# Whoever makes packages answers for them; without an address lintian will not have them.
+if(MW_MAINTAINER)
+  set(mw_maintainer ${MW_MAINTAINER})
+elseif(DEFINED ENV{DEBEMAIL} AND DEFINED ENV{DEBFULLNAME})
+  set(mw_maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+else()
+  set(mw_maintainer "The mwmesh authors <mwmesh@localhost>")
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME mwmesh)
-set(CPACK_PACKAGE_CONTACT ${MW_MAINTAINER})
+set(CPACK_PACKAGE_CONTACT ${mw_maintainer})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 set(CPACK_COMPONENTS_ALL)
 
 set(mw_what [[
@@ -22,16 +28,22 @@ A window marches over a volume of labelled voxels (EM connectomics, CT and
 MRI segmentations, polycrystals) and leaves one conforming tetrahedral mesh in
 which every label keeps its topology, whatever the size of the volume.]])
 
-# Paths that only a package has: copyright, changelog, a packed manual page.
+# What only the library's package has: how others come to depend on it, and that the linker's cache is
+# renewed when it comes and goes.
+set(mw_control ${CMAKE_BINARY_DIR}/package/control)
+file(WRITE ${mw_control}/shlibs
+  "libmwmesh ${mw_soversion} libmwmesh${mw_soversion} (= ${PROJECT_VERSION})\n")
+file(WRITE ${mw_control}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${mw_control}/shlibs ${mw_control}/triggers)
+set(CPACK_POST_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/drop_scripts.cmake)
+
+# Paths that only a package has: copyright and changelog.
 set(folder ${CMAKE_BINARY_DIR}/package)
 if(MW_PACKAGING)
   string(TIMESTAMP mw_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
   configure_file(engine/install/changelog.in ${folder}/changelog @ONLY)
   execute_process(COMMAND gzip -9nc ${folder}/changelog OUTPUT_FILE ${folder}/changelog.gz
     COMMAND_ERROR_IS_FATAL ANY)
-  install(CODE "execute_process(COMMAND gzip -9nf
-      \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1/mwmesh.1\"
-    COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
 endif()
 
 # component, name of the package, its first line, and what else there is to say.
@@ -69,8 +81,10 @@ if(TARGET mwmesh-codt)
 endif()
 if(TARGET mwmesh-mpi)
   mw_package(mpi mwmesh-mpi "labelled voxels to tetrahedral meshes - several machines"
-    "This package has the program mwmesh-mpi, which mpirun starts.")
+    "This package has the program mwmesh-mpi, which mpirun starts on each of them.")
   set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS openmpi-bin)
+  set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS mwmesh)
+  set(CPACK_DEBIAN_MPI_PACKAGE_SUGGESTS mwmesh-codt)
 endif()
 if(TARGET mwmesh_python)
   mw_package(python python3-mwmesh "labelled voxels to tetrahedral meshes - Python package"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""The manual page and the completions hold every flag of every subcommand, and shells take them."""
+"""Manual pages and completions hold every flag of every subcommand, and shells take them."""
 import os
 import re
 import shutil
@@ -11,6 +11,8 @@ import unittest
 
 PROGRAM = os.environ["MW_PROGRAM"]
 KINDS = ("man", "bash", "zsh", "fish")
+# Those that have subcommands.
+PROGRAMS = ("mwmesh", "mwmesh-mpi")
 
 
 def run(*arguments, **options):
@@ -19,8 +21,8 @@ def run(*arguments, **options):
     return done.stdout
 
 
-def generated(kind):
-    return run(PROGRAM, "generate", kind)
+def generated(kind, program="mwmesh"):
+    return run(PROGRAM, "generate", kind, program)
 
 
 def listed(text, heading):
@@ -40,14 +42,18 @@ FLAGS = {
 }
 
 
-def offers(*words):
+def commands_of(program):
+    return COMMANDS if program == "mwmesh" else ["mesh"]
+
+
+def offers(*words, program="mwmesh"):
     """What bash offers for the last of the words."""
     split = [part for word in words for part in re.split("(=)", word) if part or word == ""]
-    script = 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _mwmesh; printf "%s\\n" "${COMPREPLY[@]}"'
+    script = 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_$1"; printf "%s\\n" "${COMPREPLY[@]}"'
     with tempfile.NamedTemporaryFile("w", suffix=".bash") as file:
-        file.write(generated("bash"))
+        file.write(generated("bash", program))
         file.flush()
-        out = run("bash", "--norc", "-c", script, "bash", file.name, "mwmesh", *split)
+        out = run("bash", "--norc", "-c", script, "bash", file.name, program, *split)
     return sorted(out.split())
 
 
@@ -61,42 +67,54 @@ class Manual(unittest.TestCase):
         self.assertTrue(all(len(flags) >= 3 for flags in FLAGS.values()), FLAGS)
 
     def test_same_bytes_each_time_and_plain(self):
-        for kind in KINDS:
-            text = generated(kind)
-            self.assertEqual(text, generated(kind))
-            self.assertTrue(text.isascii(), kind)
-            self.assertNotRegex(text, r"\b20[2-9]\d\b", kind)
+        for program in PROGRAMS:
+            for kind in KINDS:
+                text = generated(kind, program)
+                self.assertEqual(text, generated(kind, program))
+                self.assertTrue(text.isascii(), kind)
+                self.assertNotRegex(text, r"\b20[2-9]\d\b", kind)
+        self.assertEqual(run(PROGRAM, "generate", "man"), generated("man"))
+
+    def test_other_programs_are_refused(self):
+        done = subprocess.run([PROGRAM, "generate", "man", "mwmesh-x"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("expected mwmesh, mwmesh-mpi or mwmesh-codt", done.stderr)
 
     def test_help_no_longer_promises(self):
         for command in COMMANDS:
             self.assertNotIn("comes later", run(PROGRAM, command, "--help"))
 
     def test_manual_page_has_every_flag(self):
-        text = generated("man").replace("\\-", "-")
-        for command, flags in FLAGS.items():
-            section = text.split(f".SS mwmesh {command}\n", 1)[1].split("\n.S", 1)[0]
-            heads = set(re.findall(r"\\fB(-[-\w]*)\\fR", section))
-            self.assertEqual(heads, set(flags), command)
+        for program in PROGRAMS:
+            text = generated("man", program).replace("\\-", "-")
+            sections = re.findall(rf"^\.SS {program} (\w+)$", text, re.MULTILINE)
+            self.assertEqual(sections, commands_of(program))
+            for command in sections:
+                section = text.split(f".SS {program} {command}\n", 1)[1].split("\n.S", 1)[0]
+                heads = set(re.findall(r"\\fB(-[-\w]*)\\fR", section))
+                self.assertEqual(heads, set(FLAGS[command]), command)
 
-    def test_man_takes_the_page(self):
-        groff = shutil.which("groff")
-        man = shutil.which("man")
-        if not groff and not man:
+    def test_man_takes_the_pages(self):
+        if not shutil.which("groff") and not shutil.which("man"):
             self.skipTest("neither groff nor man")
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "mwmesh.1")
-            with open(path, "w", encoding="ascii") as file:
-                file.write(generated("man"))
-            if groff:
-                done = subprocess.run(
-                    [groff, "-man", "-ww", "-z", "-Tascii", path], capture_output=True, text=True, check=False
-                )
-                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
-            else:
-                page = subprocess.run(
-                    [man, "-l", path], capture_output=True, text=True, check=False, env={**os.environ, "MANWIDTH": "80"}
-                )
-                self.assertIn("--edge-variance", page.stdout)
+        for program in (*PROGRAMS, "mwmesh-codt"):
+            with self.subTest(program), tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, program + ".1")
+                with open(path, "w", encoding="ascii") as file:
+                    file.write(generated("man", program))
+                self.take_page(path, program)
+
+    def take_page(self, path, program):
+        if shutil.which("groff"):
+            done = subprocess.run(
+                ["groff", "-man", "-ww", "-z", "-Tascii", path], capture_output=True, text=True, check=False
+            )
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        else:
+            page = subprocess.run(
+                ["man", "-l", path], capture_output=True, text=True, check=False, env={**os.environ, "MANWIDTH": "80"}
+            )
+            self.assertIn(program + " - ", page.stdout)
 
     def test_bash_offers_every_flag(self):
         self.assertEqual(offers(""), sorted([*COMMANDS, "-h", "--help", "--version"]))
@@ -104,6 +122,9 @@ class Manual(unittest.TestCase):
         for command, flags in FLAGS.items():
             self.assertEqual(offers(command, "-"), flags)
         self.assertEqual(offers("mesh", "v.npy", "--win"), ["--window"])
+        self.assertEqual(offers("m", program="mwmesh-mpi"), ["mesh"])
+        self.assertEqual(offers("verify", "-", program="mwmesh-mpi"), [])
+        self.assertEqual(offers("mesh", "-", program="mwmesh-mpi"), FLAGS["mesh"])
 
     def test_bash_offers_values(self):
         self.assertEqual(offers("mesh", "--start", ""), ["coarse", "dense", "octree"])
@@ -117,26 +138,30 @@ class Manual(unittest.TestCase):
         self.assertEqual(offers("mesh", "-o", ""), [])
 
     def test_other_shells_have_every_flag(self):
-        zsh, fish = generated("zsh"), generated("fish")
-        for command, flags in FLAGS.items():
-            part = zsh.split(f"    {command})\n", 1)[1].split(";;", 1)[0]
-            self.assertEqual(sorted(re.findall(r"^ +'(-[-\w]*)\[", part, re.MULTILINE)), flags)
-            rows = [row for row in fish.splitlines() if f"__fish_seen_subcommand_from {command}'" in row]
-            names = []
-            for row in rows:
-                names += ["-" + name for name in re.findall(r" -s (\S+)", row.split(" -d ")[0])]
-                names += ["--" + name for name in re.findall(r" -l (\S+)", row.split(" -d ")[0])]
-            self.assertEqual(sorted(names), flags)
+        for program in PROGRAMS:
+            zsh, fish = generated("zsh", program), generated("fish", program)
+            self.assertTrue(zsh.startswith(f"#compdef {program}\n"))
+            for command in commands_of(program):
+                part = zsh.split(f"    {command})\n", 1)[1].split(";;", 1)[0]
+                self.assertEqual(sorted(re.findall(r"^ +'(-[-\w]*)\[", part, re.MULTILINE)), FLAGS[command])
+                start = f"complete -c {program} -n '__fish_seen_subcommand_from {command}'"
+                rows = [row.split(" -d ")[0] for row in fish.splitlines() if row.startswith(start)]
+                names = []
+                for row in rows:
+                    names += ["-" + name for name in re.findall(r" -s (\S+)", row)]
+                    names += ["--" + name for name in re.findall(r" -l (\S+)", row)]
+                self.assertEqual(sorted(names), FLAGS[command])
 
     def test_shells_parse_their_scripts(self):
         for shell in ("bash", "zsh", "fish"):
             if not shutil.which(shell):
                 print(f"skipped: no {shell}")
                 continue
-            with tempfile.NamedTemporaryFile("w") as file:
-                file.write(generated(shell))
-                file.flush()
-                run(shell, "-n", file.name)
+            for program in PROGRAMS:
+                with tempfile.NamedTemporaryFile("w") as file:
+                    file.write(generated(shell, program))
+                    file.flush()
+                    run(shell, "-n", file.name)
 
     def test_generates_whatever_the_environment(self):
         run(PROGRAM, "generate", "man", env={**os.environ, "MW_FOO": "1"})
