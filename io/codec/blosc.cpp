@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks Blosc 1 by its library.
-#include "io/codec/blosc.h"
+#include "io/codec/unpackers.h"
 
 #include <blosc.h>
 

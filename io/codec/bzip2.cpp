@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks bzip2 by libbz2.
-#include "io/codec/bzip2.h"
+#include "io/codec/unpackers.h"
 
 #include <bzlib.h>
 

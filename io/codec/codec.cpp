@@ -3,13 +3,8 @@
 // The ways in which chunks of stores are packed.
 #include "io/codec/codec.h"
 
-#include "io/codec/blosc.h"
-#include "io/codec/bzip2.h"
 #include "io/codec/damage.h"
-#include "io/codec/deflate.h"
-#include "io/codec/lz4.h"
-#include "io/codec/xz.h"
-#include "io/codec/zstd.h"
+#include "io/codec/unpackers.h"
 
 namespace mw::io {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // CRC-32C by a table of one byte.
-#include "io/codec/crc32c.h"
+#include "io/codec/checksums.h"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks gzip and zlib by zlib.
-#include "io/codec/deflate.h"
+#include "io/codec/unpackers.h"
 
 #include <zlib.h>
 

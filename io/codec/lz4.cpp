@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks LZ4 in two framings by liblz4.
 #include "io/codec/lz4.h"
+#include "io/codec/unpackers.h"
 
 #include <lz4.h>
 
 #include <algorithm>
 #include <cstring>
 
+#include "io/codec/checksums.h"
 #include "io/codec/damage.h"
-#include "io/codec/xxhash32.h"
 #include "io/file/byte_order.h"
 
 namespace mw::io {

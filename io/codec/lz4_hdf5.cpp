@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks LZ4 in the framing of HDF5's registered filter (32004).
-#include "io/codec/lz4_hdf5.h"
+#include "io/codec/unpackers.h"
 
 #include <algorithm>
 #include <cstdint>

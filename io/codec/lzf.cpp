@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // LZF: runs of literal bytes, and copies of what came up to 8 KiB before.
-#include "io/codec/lzf.h"
+#include "io/codec/unpackers.h"
 
 #include "io/codec/damage.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // XXH32 by its specification: four lanes over stripes of 16 bytes, then the rest word by word.
-#include "io/codec/xxhash32.h"
+#include "io/codec/checksums.h"
 
 #include <array>
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks .xz by liblzma.
-#include "io/codec/xz.h"
+#include "io/codec/unpackers.h"
 
 #include <lzma.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks Zstandard by libzstd.
-#include "io/codec/zstd.h"
+#include "io/codec/unpackers.h"
 
 #include <zstd.h>
 #include <zstd_errors.h>

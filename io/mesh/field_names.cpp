@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Names of labels from three arrays of field data.
+// Which array holds labels, and names of labels from three arrays of field data.
 #include "io/mesh/field_names.h"
+
+#include <algorithm>
 
 #include "io/file/errors.h"
 
@@ -19,6 +21,14 @@ std::optional<Colour> colour_of(const FieldNames& fields, std::size_t row) {
 }
 
 }  // namespace
+
+const std::string* choose_label(const std::vector<std::string>& names) {
+  for (const char* known : {"label", "Label", "labels", "material", "medit:ref"}) {
+    const auto found = std::find(names.begin(), names.end(), known);
+    if (found != names.end()) return &*found;
+  }
+  return names.size() == 1 ? &names.front() : nullptr;
+}
 
 LabelNames names_of(const FieldNames& fields, std::string_view file) {
   const std::size_t count = fields.ids.size();

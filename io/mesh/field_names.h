@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Names of labels as three arrays of field data, which VTK and ParaView show.
+// Arrays of mesh files that are about labels: the labels of cells, and names as three arrays of
+// field data, which VTK and ParaView show.
 #pragma once
 
 #include <string>
@@ -9,6 +10,10 @@
 #include "io/names/label_names.h"
 
 namespace mw::io {
+
+/// The labels, among the names of integer cell arrays: `label`, else `Label`, `labels`, `material`
+/// or `medit:ref`, else the only one, else null.
+[[nodiscard]] const std::string* choose_label(const std::vector<std::string>& names);
 
 inline constexpr const char* kLabelId = "label_id";          ///< as the cell array of labels
 inline constexpr const char* kLabelName = "label_name";      ///< strings

@@ -5,8 +5,7 @@
 #include <array>
 
 #include "io/codec/codec.h"
-#include "io/codec/lz4_hdf5.h"
-#include "io/codec/lzf.h"
+#include "io/codec/unpackers.h"
 #include "io/volume/precomputed/compressed_segmentation.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/choices.h"

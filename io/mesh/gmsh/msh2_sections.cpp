@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The sections of .msh 2.2, in which many tools still write.
-#include "io/mesh/gmsh/msh2_sections.h"
+#include "io/mesh/gmsh/msh_sections.h"
 
 #include <cstdlib>
 

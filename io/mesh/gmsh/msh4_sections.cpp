@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The sections of .msh 4.1.
-#include "io/mesh/gmsh/msh4_sections.h"
+#include "io/mesh/gmsh/msh_sections.h"
 
 #include <cstdlib>
 

@@ -6,8 +6,7 @@
 #include "io/file/errors.h"
 #include "io/file/open_bytes.h"
 #include "io/file/text_numbers.h"
-#include "io/mesh/gmsh/msh2_sections.h"
-#include "io/mesh/gmsh/msh4_sections.h"
+#include "io/mesh/gmsh/msh_sections.h"
 #include "io/mesh/grouped/label_numbers.h"
 
 namespace mw::io {

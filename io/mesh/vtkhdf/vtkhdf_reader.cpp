@@ -11,7 +11,7 @@
 #include "io/file/file_source.h"
 #include "io/mesh/apart_mesh.h"
 #include "io/mesh/element.h"
-#include "io/mesh/label_names.h"
+#include "io/mesh/field_names.h"
 #include "io/mesh/vtkhdf/hdf5_mesh.h"
 #include "io/mesh/vtkhdf/vtkhdf_names.h"
 

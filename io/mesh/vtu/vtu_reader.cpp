@@ -7,8 +7,8 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/element.h"
+#include "io/mesh/field_names.h"
 #include "io/mesh/kept_rows.h"
-#include "io/mesh/label_names.h"
 #include "io/mesh/vtu/vtu_names.h"
 #include "io/vtk_xml/vtk_document.h"
 

@@ -8,8 +8,8 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/apart_mesh.h"
+#include "io/mesh/field_names.h"
 #include "io/mesh/grouped/label_numbers.h"
-#include "io/mesh/label_names.h"
 #include "io/mesh/vtkhdf/hdf5_mesh.h"
 #include "io/mesh/xdmf/xdmf_grid.h"
 

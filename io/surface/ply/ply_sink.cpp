@@ -8,8 +8,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/medit/medit_names.h"
-#include "io/surface/append_little.h"
-#include "io/surface/surface_limits.h"
+#include "io/surface/binary_numbers.h"
 
 namespace mw::io {
 namespace {

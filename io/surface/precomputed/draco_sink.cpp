@@ -10,8 +10,7 @@
 #include <limits>
 
 #include "io/file/errors.h"
-#include "io/surface/append_little.h"
-#include "io/surface/surface_limits.h"
+#include "io/surface/binary_numbers.h"
 
 namespace mw::io {
 namespace {

@@ -5,8 +5,7 @@
 
 #include <limits>
 
-#include "io/surface/append_little.h"
-#include "io/surface/surface_limits.h"
+#include "io/surface/binary_numbers.h"
 
 namespace mw::io {
 

@@ -5,7 +5,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/vtu/vtu_names.h"
-#include "io/surface/append_little.h"
+#include "io/surface/binary_numbers.h"
 
 namespace mw::io {
 namespace {

@@ -10,7 +10,7 @@
 #include "io/hdf5/library_errors.h"
 #include "io/hdf5/source_driver.h"
 #include "io/volume/hdf5/catalogue.h"
-#include "io/volume/hdf5/describe_data_set.h"
+#include "io/volume/hdf5/describe_apart.h"
 
 namespace mw::io {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Asks the HDF5 library for shape, type, storage and chunks of a data set.
-#include "io/volume/hdf5/describe_data_set.h"
+#include "io/volume/hdf5/describe_apart.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include "io/file/apart.h"
 #include "io/file/errors.h"
 #include "io/hdf5/library_errors.h"
-#include "io/volume/hdf5/describe_geometry.h"
 #include "io/volume/hdf5/number_type.h"
 
 namespace mw::io {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads the attributes and small data sets that tell spacing and origin.
-#include "io/volume/hdf5/describe_geometry.h"
+#include "io/volume/hdf5/describe_apart.h"
 
 #include <algorithm>
 #include <string>

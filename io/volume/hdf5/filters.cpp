@@ -7,11 +7,10 @@
 #include <array>
 #include <string>
 
+#include "io/codec/checksums.h"
 #include "io/codec/codec.h"
-#include "io/codec/lz4_hdf5.h"
-#include "io/codec/lzf.h"
+#include "io/codec/unpackers.h"
 #include "io/file/errors.h"
-#include "io/volume/hdf5/fletcher32.h"
 
 namespace mw::io {
 namespace {

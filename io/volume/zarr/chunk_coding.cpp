@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "io/chunks/chunk_bytes.h"
-#include "io/codec/crc32c.h"
+#include "io/codec/checksums.h"
 #include "io/codec/damage.h"
 #include "io/file/errors.h"
 

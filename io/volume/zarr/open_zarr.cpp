@@ -11,9 +11,8 @@
 #include "io/volume/zarr/multiscale.h"
 #include "io/volume/zarr/store_contents.h"
 #include "io/volume/zarr/zarr_chunks.h"
+#include "io/volume/zarr/zarr_metadata.h"
 #include "io/volume/zarr/zarr_node.h"
-#include "io/volume/zarr/zarr_v2.h"
-#include "io/volume/zarr/zarr_v3.h"
 
 namespace mw::io {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Parses .zarray.
-#include "io/volume/zarr/zarr_v2.h"
+#include "io/volume/zarr/zarr_metadata.h"
 
 #include <array>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Parses zarr.json of an array.
-#include "io/volume/zarr/zarr_v3.h"
+#include "io/volume/zarr/zarr_metadata.h"
 
 #include <algorithm>
 #include <array>

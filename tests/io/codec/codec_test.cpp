@@ -6,8 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "io/codec/crc32c.h"
-#include "io/codec/xxhash32.h"
+#include "io/codec/checksums.h"
 #include "tests/io/codec/packers.h"
 #include "tests/peak_growth.h"
 #include "tests/sanitizers.h"

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // LZF and HDF5's framing of LZ4, by hand.
-#include "io/codec/lzf.h"
+#include "io/codec/unpackers.h"
 
-#include "io/codec/lz4_hdf5.h"
 #include "tests/io/codec/packers.h"
 
 namespace mw::io {

@@ -3,7 +3,7 @@
 // A writer of N5 arrays, after the format's description and by no code of the reader.
 #pragma once
 
-#include "io/codec/xxhash32.h"
+#include "io/codec/checksums.h"
 #include "tests/io/codec/packers.h"
 #include "tests/io/volume/store_checks.h"
 

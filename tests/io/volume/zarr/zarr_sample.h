@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "io/codec/crc32c.h"
+#include "io/codec/checksums.h"
 #include "tests/io/codec/packers.h"
 #include "tests/io/volume/store_checks.h"
 

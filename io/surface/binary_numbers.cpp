@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // What formats with numbers of 32 bits can hold.
-#include "io/surface/surface_limits.h"
+#include "io/surface/binary_numbers.h"
 
 #include "io/file/errors.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Fletcher's checksum: a sum, and a sum of sums, in ones' complement.
-#include "io/volume/hdf5/fletcher32.h"
+#include "io/codec/checksums.h"
 
 namespace mw::io {
 namespace {

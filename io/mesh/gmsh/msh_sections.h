@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What the two versions of .msh have in common once they are read.
+// The sections of .msh files in both versions, and what they have in common once they are read.
 #pragma once
 
 #include <map>
@@ -19,5 +19,17 @@ struct MshContent {
   std::map<std::int64_t, std::string> names;         ///< of physical volumes
   std::uint64_t elements = 0;                        ///< of all types
 };
+
+// ERRORS of all: see MshInput.
+
+/// Version 4.1: all from behind the line "$Entities" to that of "$EndEntities"; the others alike.
+void read_msh4_entities(MshInput& in, MshContent& out);
+void read_msh4_nodes(MshInput& in, MshContent& out);
+void read_msh4_elements(MshInput& in, MshContent& out);
+
+/// Version 2.2, in which many tools still write; marks are physical groups, or entities where there
+/// is none.
+void read_msh2_nodes(MshInput& in, MshContent& out);
+void read_msh2_elements(MshInput& in, MshContent& out);
 
 }  // namespace mw::io

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What the HDF5 library tells of a data set.  To be called apart (io/file/apart.h) only: damage
+// makes the library crash.
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <string_view>
+
+#include "io/hdf5/source_driver.h"
+#include "io/volume/hdf5/description.h"
+
+namespace mw::io {
+
+/// hdf5: the file, opened through source.
+/// ERRORS: mw::Error(kInput) for damage, and for types and storage that cannot be read.
+[[nodiscard]] Hdf5Description describe_data_set(Hdf5Source& source, hid_t hdf5,
+                                                const std::string& path);
+
+/// Where the data set `set` of the file `hdf5` lies: fills `numbers` and `axistags` of its
+/// description.  The geometry is that of the nearest group above the data set which has one.  What
+/// is there but not numbers, or more than a few, is left out, and so is what links of the file lead
+/// to elsewhere.
+/// ERRORS: mw::Error(kInput) naming file and what cannot be read: a look-up that fails does not say
+/// that there is nothing.
+void find_geometry(hid_t hdf5, hid_t set, std::string_view file, Hdf5Description& description);
+
+}  // namespace mw::io
