@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 # Builds the Debian packages into build/packages; tests/packages.sh tries them.  Needs what
-# configs/setup.sh installs, and dpkg-dev.
+# configs/setup.sh installs, dpkg-dev and file.
 #   mwmesh  libmwmesh0.1  libmwmesh-dev  python3-mwmesh  mwmesh-codt (AGPL: linked with TetGen)
 #   mwmesh-mpi, where MPI is found
 # DEBFULLNAME and DEBEMAIL say who made them.
@@ -13,10 +13,12 @@ tree="$root/build/packaging"
 out="$root/build/packages"
 cd "$root"
 
-command -v dpkg-shlibdeps >/dev/null || {
-  echo "package: needs dpkg-shlibdeps: apt-get install dpkg-dev" >&2
-  exit 2
-}
+for tool in dpkg-shlibdeps file; do
+  command -v "$tool" >/dev/null || {
+    echo "package: needs $tool: apt-get install dpkg-dev file" >&2
+    exit 2
+  }
+done
 # Packages of one commit are of one date.
 SOURCE_DATE_EPOCH="${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}"
 export SOURCE_DATE_EPOCH
