@@ -95,12 +95,8 @@ class History:
     def run(self, state, place, kill_at=0, each=True):
         """A run, cut after each event; the state is that of its end."""
         entries = self.subject.recorded(place, kill_at)
-        call = "the start"
-        for entry in entries:
-            if isinstance(entry, watched.Call):
-                call = f"{entry.number} {entry.name} {Path(entry.path).name}"
-                continue
-            state.apply(entry)
+        for call, event in watched.events(entries):
+            state.apply(event)
             if each:
                 self.cut(state, f"after call {call}")
         return entries

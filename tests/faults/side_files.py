@@ -98,12 +98,8 @@ class Sets:
 def states(folder, entries, old, draw):
     """(after which call, what a kill or a cut leaves), for each event."""
     out = disk.Disk(folder / "out", old)
-    call = "the start"
-    for entry in entries:
-        if isinstance(entry, watched.Call):
-            call = f"{entry.number} {entry.name} {Path(entry.path).name}"
-            continue
-        out.apply(entry)
+    for call, event in watched.events(entries):
+        out.apply(event)
         start = len(out.folder) + 1
         yield f"killed after {call}", {path[start:]: bytes(file.now)
                                        for path, file in out.names.items()}

@@ -82,6 +82,16 @@ def read_calls(path):
     return [entry for entry in read_log(path) if isinstance(entry, Call)]
 
 
+def events(entries):
+    """(the call before it, event), for each event."""
+    call = "the start"
+    for entry in entries:
+        if isinstance(entry, Call):
+            call = f"{entry.number} {entry.name} {Path(entry.path).name}"
+        else:
+            yield call, entry
+
+
 def files(folder):
     """Relative path -> bytes."""
     folder = Path(folder)

@@ -17,12 +17,7 @@ namespace mw::fuzz {
 namespace {
 
 using test::SmallVolume;
-
-double worst_ratio(const TetMesh& mesh, const Metric& metric) {
-  double worst = 1.0;
-  for (const LocalTet& t : mesh.tets()) worst = std::min(worst, radius_ratio(mesh, metric, t));
-  return worst;
-}
+using test::worst_ratio;
 
 std::int64_t positive_volume6(const TetMesh& mesh) {
   std::int64_t sum = 0;

@@ -35,9 +35,10 @@ class TempDir : public test::TempFolder {
   }
 };
 
-inline std::string gzip(const std::string& plain) {
+/// Deflated in the framing that zlib means by these bits: 31, gzip; 15, zlib; -15, none.
+inline std::string deflated(const std::string& plain, int bits) {
   z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 31, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, bits, 8, Z_DEFAULT_STRATEGY), Z_OK);
   std::string packed(deflateBound(&stream, static_cast<uLong>(plain.size())) + 64, '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(plain.data()));
   stream.avail_in = static_cast<uInt>(plain.size());
@@ -47,6 +48,10 @@ inline std::string gzip(const std::string& plain) {
   packed.resize(stream.total_out);
   deflateEnd(&stream);
   return packed;
+}
+
+inline std::string gzip(const std::string& plain) {
+  return deflated(plain, 31);
 }
 
 /// The low `size` bytes of value.

@@ -10,10 +10,11 @@ import csv
 import itertools
 import json
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
+
+from program import run
 
 try:
     import dolfinx
@@ -28,19 +29,12 @@ except Exception as missing:  # an MPI that does not start is no ImportError
     print(f"skipped: {missing}")
     sys.exit(77)
 
-PROGRAM = os.environ["MW_PROGRAM"]
 SHAPE = (12, 8, 6)  # x, y, z
 SPACING = (0.5, 1.0, 1.25)
 ENDS = [5, 8, 12]  # of the layers, voxels
 LABELS = [7, 2**40 + 1, 3]
 CONDUCTIVITY = {7: 1.0, 2**40 + 1: 10.0, 3: 0.25}
 HOT, COLD = 300.0, 100.0
-
-
-def run(*arguments):
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
-    return done.stdout
 
 
 def layers():

@@ -9,12 +9,13 @@ vtk where they are installed, and bytes laid out by hand after the specification
 import gzip
 import json
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
 import warnings
 import zlib
+
+from program import run
 
 try:
     import numpy
@@ -22,19 +23,12 @@ except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
-PROGRAM = os.environ["MW_PROGRAM"]
 SPACING = numpy.array([1.25, 1.0, 1.5])  # x, y, z
 CORNER = numpy.array([-20.5, 7.25, 100.0])
 CENTRE = CORNER + SPACING / 2
 PLACE = [
     "--spacing", ",".join(map(str, SPACING)), "--origin=" + ",".join(map(str, CORNER))
 ]
-
-
-def run(*arguments):
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
-    return done.stdout
 
 
 def needs(module):

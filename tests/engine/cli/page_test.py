@@ -14,27 +14,18 @@ import sys
 import tempfile
 import unittest
 
+from program import run, start
+
 try:
     import numpy
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
-PROGRAM = os.environ["MW_PROGRAM"]
 CHROMIUM = shutil.which("chromium")
 ADDRESSES = ("src", "href", "action", "data", "srcset")
 VOID = {"meta", "br", "img", "input", "link", "hr"}
 EVIL = "</script><script>alert(1)</script> <b>&\"quoted\""
-
-
-def start(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-
-
-def run(*arguments):
-    done = start(*arguments)
-    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
-    return done.stdout
 
 
 class Page(html.parser.HTMLParser):

@@ -4,11 +4,12 @@
 """Pictures of meshes show what they should where they should, as another PNG reader sees them."""
 import os
 import struct
-import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
+
+from program import run, start
 
 try:
     import numpy
@@ -16,21 +17,10 @@ except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
-PROGRAM = os.environ["MW_PROGRAM"]
 # The colours of the labels 1 and 2 in the palette.
 BLUE = (78, 121, 167)
 ORANGE = (242, 142, 43)
 WHITE = (255, 255, 255)
-
-
-def start(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-
-
-def run(*arguments):
-    done = start(*arguments)
-    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
-    return done.stdout
 
 
 def draw(mesh, picture, *arguments):

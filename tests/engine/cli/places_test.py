@@ -8,10 +8,11 @@ positive in the world; and verify accepts it there and nowhere else.
 """
 import itertools
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
+
+from program import run
 
 try:
     import nibabel
@@ -20,14 +21,7 @@ except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
-PROGRAM = os.environ["MW_PROGRAM"]
 SPACING = numpy.array([1.25, 1.0, 1.5])
-
-
-def run(*arguments, code=0):
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
-    return done.stdout
 
 
 def read_medit(path):

@@ -4,10 +4,11 @@
 """VTK, meshio and numpy read the surfaces of `mwmesh surface`, and find them whole."""
 import json
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
+
+from program import run
 
 try:
     import meshio
@@ -21,7 +22,6 @@ except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
-PROGRAM = os.environ["MW_PROGRAM"]
 READERS = {
     ".stl": vtkSTLReader,
     ".ply": vtkPLYReader,
@@ -34,12 +34,6 @@ NAMES = {
     3: ("Größe 漢字", None),
 }
 PLAIN = (160, 160, 160)
-
-
-def run(*arguments):
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
-    return done.stdout
 
 
 def read(path):

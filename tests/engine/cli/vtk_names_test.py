@@ -5,10 +5,11 @@
 import csv
 import json
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
+
+from program import run
 
 try:
     from vtkmodules.vtkIOHDF import vtkHDFReader
@@ -17,7 +18,6 @@ except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
-PROGRAM = os.environ["MW_PROGRAM"]
 NAMES = {
     1: ('Left "big" one', (255, 0, 10, 255)),
     2: ("<grain> & 'grain'; ]]>", (1, 2, 3, 128)),
@@ -25,12 +25,6 @@ NAMES = {
     4: ("", (9, 8, 7, 6)),
     99: ("not in the volume", (1, 1, 1, 1)),
 }
-
-
-def run(*arguments):
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-    assert done.returncode == 0, (arguments, done.returncode, done.stdout, done.stderr)
-    return done.stdout
 
 
 def grid_of(reader, path):

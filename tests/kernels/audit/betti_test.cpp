@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/core/error.h"
+#include "tests/kernels/audit/random_labels.h"
 #include "tests/oracle/cell_complex.h"
 #include "tests/oracle/small_volumes.h"
 
@@ -70,11 +71,7 @@ TEST(MeshBetti, AgreesWithRanksOnRandomlyLabelledTets) {
     SmallMesh mesh = five_tet_mesh(v);
     const std::uint32_t labels = 1 + below(random, 6);
     const std::uint32_t runs = 1 + below(random, 4);
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      const bool again = t > 0 && below(random, runs) != 0;
-      const Label fresh = below(random, labels + 1);
-      mesh.labels[t] = again ? mesh.labels[t - 1] : fresh < labels ? fresh : kUnknown;
-    }
+    test::paint_in_runs(random, labels, runs, mesh);
     const auto expected = betti_of(complex_of(mesh.view(), labels), labels);
     ASSERT_EQ(mesh_betti(mesh.view(), labels), expected) << trial;
   }

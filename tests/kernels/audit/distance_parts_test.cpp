@@ -10,26 +10,18 @@
 
 #include "kernels/audit/distance_mesh.h"
 #include "kernels/audit/distance_trees.h"
+#include "tests/kernels/audit/points.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::audit {
 namespace {
 
+using test::along;
 using test::below;
+using test::distance;
+using test::Point;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-using Point = VoxelPoint;
-
-Point along(const Point& a, const Point& b, double t) {
-  Point p{};
-  for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + t * (b[k] - a[k]);
-  return p;
-}
-
-double distance(const Point& a, const Point& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 /// Smallest value of a convex function on [0, 1].
 template <class Function>

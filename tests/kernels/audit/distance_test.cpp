@@ -15,16 +15,20 @@
 #include "kernels/audit/distance_input.h"
 #include "kernels/audit/distance_mesh.h"
 #include "kernels/audit/distance_tile.h"
+#include "tests/kernels/audit/points.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/oracle/whole_audit.h"
 
 namespace mw::audit {
 namespace {
 
+using test::along;
 using test::audit;
 using test::below;
+using test::distance;
 using test::five_tet_mesh;
 using test::kVolumeKinds;
+using test::Point;
 using test::random_volume;
 using test::random_volume_of;
 using test::SmallMesh;
@@ -33,18 +37,6 @@ using test::volume_from;
 using test::VolumeKind;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-using Point = std::array<double, 3>;
-
-Point along(const Point& a, const Point& b, double t) {
-  Point p{};
-  for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + t * (b[k] - a[k]);
-  return p;
-}
-
-double distance(const Point& a, const Point& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 /// From the distance to the plane and to the edges.
 double plain_distance(const Point& p, const std::array<Point, 3>& t) {

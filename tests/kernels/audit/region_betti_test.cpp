@@ -9,6 +9,7 @@
 
 #include "kernels/audit/regions.h"
 #include "tests/kernels/audit/mesh_parts_by_owner.h"
+#include "tests/kernels/audit/random_labels.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::audit {
@@ -70,11 +71,7 @@ TEST(RegionBetti, AgreesWithTheWholeMeshOfRandomlyLabelledTets) {
     SmallMesh mesh = five_tet_mesh(v, {.spacing = {1, 0.7, 2.3}, .origin = {0.1, -5, 3}});
     const std::uint32_t labels = 1 + below(random, 6);
     const std::uint32_t runs = 1 + below(random, 6);
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      const bool again = t > 0 && below(random, runs) != 0;
-      const Label fresh = below(random, labels + 1);
-      mesh.labels[t] = again ? mesh.labels[t - 1] : fresh < labels ? fresh : kUnknown;
-    }
+    test::paint_in_runs(random, labels, runs, mesh);
     ASSERT_EQ(region_betti(mesh.view(), labels), without_exterior(mesh_betti(mesh.view(), labels)))
         << trial;
   }

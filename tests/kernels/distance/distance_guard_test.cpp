@@ -104,21 +104,8 @@ LocalVertex random_move(GuardedMesh& guarded, std::mt19937& random) {
   TetMesh& mesh = guarded.mesh;
   const LocalVertex v = below(random, mesh.vertex_count());
   if (!mesh.is_alive(v) || !mesh.is_free(v) || !mesh.on_interface(v)) return mesh.infinity();
-  const unsigned fixed = fixed_axes(mesh.planes(v));
-  const auto step = [&](unsigned axis) {
-    const auto d = static_cast<std::int32_t>(below(random, 1201)) - 600;
-    return (fixed >> axis & 1U) != 0 ? 0 : d;
-  };
-  Point x = mesh.position(v);
-  x.x += step(0);
-  x.y += step(1);
-  x.z += step(2);
-  for (const LinkTriangle& t : mesh.star(v)) {
-    if (t.label == kExterior) continue;
-    if (volume6(x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c)) <= 0) {
-      return mesh.infinity();
-    }
-  }
+  const Point x = point_near(mesh, v, random, 600);
+  if (!is_positive_at(mesh, v, x)) return mesh.infinity();
   std::vector<FanTriangle> fan;
   InterfaceFan().collect(mesh, v, fan);
   if (!guarded.guard.allows_move(mesh, v, fan, x)) return mesh.infinity();

@@ -67,12 +67,6 @@ std::map<Label, std::int64_t> volumes(const TetMesh& mesh) {
   return out;
 }
 
-double worst_ratio(const TetMesh& mesh, const Metric& metric) {
-  double worst = 1.0;
-  for (const LocalTet& t : mesh.tets()) worst = std::min(worst, radius_ratio(mesh, metric, t));
-  return worst;
-}
-
 struct Case {
   SmallVolume volume;
   Metric metric;

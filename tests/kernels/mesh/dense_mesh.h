@@ -9,6 +9,7 @@
 #include <set>
 
 #include "kernels/mesh/tet_mesh.h"
+#include "kernels/quality/mesh_quality.h"
 #include "kernels/start/graded_start.h"
 #include "tests/kernels/start/level_maps.h"
 #include "tests/oracle/cell_complex.h"
@@ -99,25 +100,51 @@ inline void add_global(GlobalTets& out, const BlockMesh& block) {
   return std::find(t.vertices.begin(), t.vertices.end(), v) != t.vertices.end();
 }
 
+/// Of all tets.
+[[nodiscard]] inline std::int64_t volume6_sum(const TetMesh& mesh) {
+  std::int64_t sum = 0;
+  for (const LocalTet& t : mesh.tets()) sum += volume6_of(mesh, t);
+  return sum;
+}
+
+/// The least radius ratio of a mesh.
+[[nodiscard]] inline double worst_ratio(const TetMesh& mesh, const Metric& metric) {
+  double worst = 1.0;
+  for (const LocalTet& t : mesh.tets()) worst = std::min(worst, radius_ratio(mesh, metric, t));
+  return worst;
+}
+
+/// A point near the vertex, within its planes: up to `reach` units away along each axis.
+[[nodiscard]] inline Point point_near(const TetMesh& mesh, LocalVertex v, std::mt19937& random,
+                                      std::int32_t reach) {
+  const unsigned fixed = fixed_axes(mesh.planes(v));
+  const auto step = [&](unsigned axis) {
+    const auto choices = static_cast<std::uint32_t>(2 * reach + 1);
+    const std::int32_t d = static_cast<std::int32_t>(below(random, choices)) - reach;
+    return (fixed >> axis & 1U) != 0 ? 0 : d;
+  };
+  Point x = mesh.position(v);
+  x.x += step(0);
+  x.y += step(1);
+  x.z += step(2);
+  return x;
+}
+
+/// Whether the tets around the vertex are positive when it is there.
+[[nodiscard]] inline bool is_positive_at(const TetMesh& mesh, LocalVertex v, const Point& x) {
+  for (const LinkTriangle& t : mesh.star(v)) {
+    if (t.label == kExterior) continue;
+    if (volume6(x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c)) <= 0) return false;
+  }
+  return true;
+}
+
 /// Moves free vertices about at random, within their planes, tets staying positive.
 inline void disturb(TetMesh& mesh, std::mt19937& random) {
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
-    const unsigned fixed = fixed_axes(mesh.planes(v));
-    const auto step = [&](unsigned axis) {
-      const auto d = static_cast<std::int32_t>(below(random, 801)) - 400;
-      return (fixed >> axis & 1U) != 0 ? 0 : d;
-    };
-    Point x = mesh.position(v);
-    x.x += step(0);
-    x.y += step(1);
-    x.z += step(2);
-    bool positive = true;
-    for (const LinkTriangle& t : mesh.star(v)) {
-      if (t.label == kExterior) continue;
-      positive &= volume6(x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c)) > 0;
-    }
-    if (positive) mesh.move(v, x, mesh.quadric(v));
+    const Point x = point_near(mesh, v, random, 400);
+    if (is_positive_at(mesh, v, x)) mesh.move(v, x, mesh.quadric(v));
   }
 }
 

@@ -90,18 +90,6 @@ TEST(Smoothing, LowersTheEnergyWithinPlanesAndQuadrics) {
   EXPECT_GT(on_interface, 100);
 }
 
-double worst_ratio(const TetMesh& mesh, const Metric& metric) {
-  double worst = 1.0;
-  for (const LocalTet& t : mesh.tets()) worst = std::min(worst, radius_ratio(mesh, metric, t));
-  return worst;
-}
-
-std::int64_t volume6_sum(const TetMesh& mesh) {
-  std::int64_t sum = 0;
-  for (const LocalTet& t : mesh.tets()) sum += volume6_of(mesh, t);
-  return sum;
-}
-
 TEST(Promise3Quality, OptimisingMakesNoTetBad) {
   std::mt19937 random(812);
   OptimiseStats stats;

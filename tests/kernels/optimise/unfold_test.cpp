@@ -14,12 +14,6 @@ namespace {
 constexpr double kBound = 3.0;
 constexpr double kFloor = 0.1;
 
-std::int64_t volume6_sum(const TetMesh& mesh) {
-  std::int64_t sum = 0;
-  for (const LocalTet& t : mesh.tets()) sum += volume6_of(mesh, t);
-  return sum;
-}
-
 /// Moves nothing, keeps tets positive, and each flip takes bends away.
 std::uint64_t expect_less_bends(GuardedMesh& guarded, const Metric& metric) {
   TetMesh& mesh = guarded.mesh;

@@ -9,20 +9,6 @@ namespace {
 
 constexpr Index3 kShape{5, 4, 3};
 
-std::string deflated(const std::string& plain) {
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string packed(deflateBound(&stream, static_cast<uLong>(plain.size())) + 64, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(plain.data()));
-  stream.avail_in = static_cast<uInt>(plain.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
-
 struct Member {
   std::string name;
   std::string content;
@@ -41,7 +27,7 @@ std::string le(std::uint64_t value, int size) {
 class ZipMaker {
  public:
   void add(const Member& m) {
-    const std::string packed = m.pack ? deflated(m.content) : m.content;
+    const std::string packed = m.pack ? deflated(m.content, -15) : m.content;
     const auto crc = crc32(0, reinterpret_cast<const Bytef*>(m.content.data()),
                            static_cast<uInt>(m.content.size()));
     const std::uint64_t bytes = m.claimed_bytes != 0 ? m.claimed_bytes : m.content.size();

@@ -129,16 +129,7 @@ class TiffWriter {
 
   [[nodiscard]] std::string packed(const std::string& plain) const {
     if (sample_.packing == TiffPacking::kNone) return plain;
-    if (sample_.packing == TiffPacking::kDeflate) {
-      uLongf length = compressBound(static_cast<uLong>(plain.size()));
-      std::string out(length, '\0');
-      EXPECT_EQ(
-          compress(reinterpret_cast<Bytef*>(out.data()), &length,
-                   reinterpret_cast<const Bytef*>(plain.data()), static_cast<uLong>(plain.size())),
-          Z_OK);
-      out.resize(length);
-      return out;
-    }
+    if (sample_.packing == TiffPacking::kDeflate) return deflated(plain, 15);
     if (sample_.packing == TiffPacking::kLzw) return lzw(plain);
     // PackBits packs each row apart; all bytes literal is a valid packing.
     std::string out;

@@ -31,19 +31,11 @@ enum class Packing { kNone, kZlib, kLz4 };
 
 std::string packed(const std::string& plain, Packing packing) {
   if (packing == Packing::kNone) return plain;
+  if (packing == Packing::kZlib) return deflated(plain, 15);
   std::string out(plain.size() + 1000, '\0');
-  if (packing == Packing::kLz4) {
-    const int length = LZ4_compress_default(
-        plain.data(), out.data(), static_cast<int>(plain.size()), static_cast<int>(out.size()));
-    out.resize(static_cast<std::size_t>(length));
-  } else {
-    uLongf length = out.size();
-    EXPECT_EQ(
-        compress(reinterpret_cast<Bytef*>(out.data()), &length,
-                 reinterpret_cast<const Bytef*>(plain.data()), static_cast<uLong>(plain.size())),
-        Z_OK);
-    out.resize(length);
-  }
+  const int length = LZ4_compress_default(plain.data(), out.data(), static_cast<int>(plain.size()),
+                                          static_cast<int>(out.size()));
+  out.resize(static_cast<std::size_t>(length));
   return out;
 }
 

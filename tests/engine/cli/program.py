@@ -1,0 +1,18 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""The program under test, MW_PROGRAM, for the scripts of this folder."""
+import os
+import subprocess
+
+PROGRAM = os.environ["MW_PROGRAM"]
+
+
+def start(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+
+def run(*arguments, code=0):
+    """What it prints; it has to end with that exit code."""
+    done = start(*arguments)
+    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout
