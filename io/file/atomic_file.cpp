@@ -14,6 +14,7 @@
 #include "io/file/errors.h"
 #include "io/file/partial_file.h"
 #include "io/file/sync_folder.h"
+#include "io/file/whole_calls.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -73,26 +74,15 @@ void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes
 
 void AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
   MW_ASSERT(!committed_);
-  while (!bytes.empty()) {
-    const ssize_t wrote =
-        ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (wrote < 0 && errno == EINTR) continue;
-    if (wrote < 0) fail_output(target_.string(), "write", errno);
-    offset += static_cast<std::uint64_t>(wrote);
-    bytes = bytes.subspan(static_cast<std::size_t>(wrote));
-  }
+  const Transfer done = write_all(file_.get(), offset, bytes);
+  if (done.error != 0) fail_output(target_.string(), "write", done.error);
 }
 
 void AtomicFile::read_at(std::uint64_t offset, std::span<std::byte> out) const {
-  while (!out.empty()) {
-    const ssize_t got = ::pread(file_.get(), out.data(), out.size(), static_cast<off_t>(offset));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail_output(target_.string(), "read back", errno);
-    if (got == 0) break;
-    offset += static_cast<std::uint64_t>(got);
-    out = out.subspan(static_cast<std::size_t>(got));
-  }
-  std::fill(out.begin(), out.end(), std::byte{0});
+  const Transfer done = read_all(file_.get(), offset, out);
+  if (done.error != 0) fail_output(target_.string(), "read back", done.error);
+  const std::span<std::byte> behind = out.subspan(done.bytes);
+  std::fill(behind.begin(), behind.end(), std::byte{0});
 }
 
 void AtomicFile::resize(std::uint64_t bytes) {

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "io/file/errors.h"
+#include "io/file/whole_calls.h"
 
 namespace mw::io {
 namespace {
@@ -42,21 +43,15 @@ FileSource::FileSource(const std::filesystem::path& path)
 
 void FileSource::read_at(std::uint64_t offset, std::span<std::byte> out) const {
   if (offset > size_ || out.size() > size_ - offset) fail_short(*this, offset, out.size());
-  std::size_t done = 0;
-  while (done < out.size()) {
-    const ssize_t got = ::pread(file_.get(), out.data() + done, out.size() - done,
-                                static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) {
-      fail_input(name_, {},
-                 "cannot read " + std::to_string(out.size()) + " bytes at offset " +
-                     std::to_string(offset) + ": " + describe(errno),
-                 "check the disk");
-    }
-    // The file was cut after it was opened.
-    if (got == 0) fail_short(*this, offset, out.size());
-    done += static_cast<std::size_t>(got);
+  const Transfer done = read_all(file_.get(), offset, out);
+  if (done.error != 0) {
+    fail_input(name_, {},
+               "cannot read " + std::to_string(out.size()) + " bytes at offset " +
+                   std::to_string(offset) + ": " + describe(done.error),
+               "check the disk");
   }
+  // The file was cut after it was opened.
+  if (done.bytes < out.size()) fail_short(*this, offset, out.size());
 }
 
 std::vector<std::byte> read_prefix(const ByteSource& source, std::size_t length) {

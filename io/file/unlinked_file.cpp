@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "io/file/errors.h"
+#include "io/file/whole_calls.h"
 
 namespace mw::io {
 namespace {
@@ -35,24 +36,14 @@ UnlinkedFile::UnlinkedFile(const std::filesystem::path& folder)
 }
 
 void UnlinkedFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t wrote =
-        ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (wrote < 0 && errno == EINTR) continue;
-    if (wrote < 0) fail_output(folder_, "write a temporary file there", errno);
-    offset += static_cast<std::uint64_t>(wrote);
-    bytes = bytes.subspan(static_cast<std::size_t>(wrote));
-  }
+  const Transfer done = write_all(file_.get(), offset, bytes);
+  if (done.error != 0) fail_output(folder_, "write a temporary file there", done.error);
 }
 
 void UnlinkedFile::read_at(std::uint64_t offset, std::span<std::byte> out) const {
-  while (!out.empty()) {
-    const ssize_t got = ::pread(file_.get(), out.data(), out.size(), static_cast<off_t>(offset));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) fail_output(folder_, "read a temporary file there", got < 0 ? errno : EIO);
-    offset += static_cast<std::uint64_t>(got);
-    out = out.subspan(static_cast<std::size_t>(got));
-  }
+  const Transfer done = read_all(file_.get(), offset, out);
+  if (done.bytes == out.size()) return;
+  fail_output(folder_, "read a temporary file there", done.error != 0 ? done.error : EIO);
 }
 
 std::filesystem::path scratch_folder() {

@@ -8,21 +8,10 @@
 #include <functional>
 #include <numbers>
 
+#include "kernels/audit/vectors.h"
+
 namespace mw::audit {
 namespace {
-
-Position minus(const Position& a, const Position& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Position cross(const Position& a, const Position& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Position& a, const Position& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-double norm(const Position& a) {
-  return std::sqrt(dot(a, a));
-}
 
 /// What both measures need: edges from a, and normals of the faces opposite to a, b, c, d, as long
 /// as twice the face's area, all outward or all inward.

@@ -10,29 +10,14 @@
 
 #include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/orientation.h"
+#include "kernels/audit/vectors.h"
 
 namespace mw::audit {
 namespace {
 
-Position difference(const Position& a, const Position& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Position cross(const Position& a, const Position& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Position& a, const Position& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-double length(const Position& a) {
-  return std::sqrt(dot(a, a));
-}
-
 /// Twice the triangle's area long, out of the lower label.
 Position normal(const Position& p, const Position& edge, const Wing& wing) {
-  const Position n = cross(edge, difference(wing.apex, p));
+  const Position n = cross(edge, minus(wing.apex, p));
   return wing.turned ? Position{-n[0], -n[1], -n[2]} : n;
 }
 
@@ -111,16 +96,16 @@ class ShapeAudit {
 
 void ShapeMeter::add_triangle(const Position& a, const Position& b, const Position& c) {
   ++triangles_;
-  area_.add(length(cross(difference(b, a), difference(c, a))) / 2);
+  area_.add(norm(cross(minus(b, a), minus(c, a))) / 2);
 }
 
 void ShapeMeter::add_edge(const Position& p, const Position& q, const Wing& one,
                           const Wing& other) {
-  const Position edge = difference(q, p);
+  const Position edge = minus(q, p);
   const Position m = normal(p, edge, one);
   const Position n = normal(p, edge, other);
-  const double weight = length(edge);
-  const double degrees = std::atan2(length(cross(m, n)), dot(m, n)) * (180 / std::numbers::pi);
+  const double weight = norm(edge);
+  const double degrees = std::atan2(norm(cross(m, n)), dot(m, n)) * (180 / std::numbers::pi);
   // Lattices are full of right angles and the like, which rounding must not put on either side.
   constexpr double kRounding = 1e-9;
   const auto bin = static_cast<std::size_t>((degrees + kRounding) * kBinsPerDegree);
