@@ -36,7 +36,7 @@ class HeldBytes : public ByteSource {
     if (offset > bytes_.size() || out.size() > bytes_.size() - offset) {
       fail_input(name_, "voxel data", "truncated");
     }
-    std::memcpy(out.data(), bytes_.data() + offset, out.size());
+    std::ranges::copy(std::as_bytes(std::span(bytes_)).subspan(offset, out.size()), out.begin());
   }
 
  private:
