@@ -36,6 +36,8 @@ class AtomicFile {
   void read_at(std::uint64_t offset, std::span<std::byte> out) const;
   /// Cuts or extends the file.
   void resize(std::uint64_t bytes);
+  /// Where it is until it has its name, for others to write into (JoinedPartial).
+  [[nodiscard]] const std::filesystem::path& partial() const { return partial_; }
   /// Number of bytes appended so far.
   [[nodiscard]] std::uint64_t appended() const { return flushed_ + buffer_.size(); }
   /// Flushes, syncs and renames.  REQUIRES: called once; nothing is written afterwards.

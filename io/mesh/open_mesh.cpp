@@ -20,6 +20,7 @@
 #include "io/mesh/tetgen/tetgen_reader.h"
 #include "io/mesh/tetgen/tetgen_writer.h"
 #include "io/mesh/vtkhdf/vtkhdf_reader.h"
+#include "io/mesh/vtkhdf/vtkhdf_shared.h"
 #include "io/mesh/vtkhdf/vtkhdf_sink.h"
 #include "io/mesh/vtu/vtu_reader.h"
 #include "io/mesh/vtu/vtu_sink.h"
@@ -157,6 +158,11 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
   if (format.open_text != nullptr) return format.open_text(path, element);
   throw Error(ErrorKind::kUsage, text(path.string(), ": ", path.extension().string(),
                                       " is written in one way, so ascii is not for it"));
+}
+
+std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path, Element element) {
+  if (path.extension() != ".vtkhdf" || element != Element::kTet4) return nullptr;
+  return std::make_unique<VtkhdfShared>(path);
 }
 
 }  // namespace mw::io

@@ -9,6 +9,7 @@
 
 #include "io/mesh/element.h"
 #include "io/mesh/mesh_data.h"
+#include "io/mesh/shared_mesh.h"
 
 namespace mw::io {
 
@@ -38,5 +39,10 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element = Element::kTet4,
                                                        Encoding encoding = Encoding::kUsual);
+
+/// The same for several processes that write it together: .vtkhdf of kTet4; null: only one can.
+/// No file is touched before create() or join().
+[[nodiscard]] std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path,
+                                                           Element element = Element::kTet4);
 
 }  // namespace mw::io

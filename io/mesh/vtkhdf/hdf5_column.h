@@ -18,13 +18,25 @@ class Hdf5Column {
   Hdf5Column() = default;
   /// address: reserved for as many bytes as will be added, or the next to be.
   /// REQUIRES: output outlives the column.
-  Hdf5Column(Hdf5Output& output, std::uint64_t address) : output_(&output), address_(address) {
+  Hdf5Column(PlacedOutput& output, std::uint64_t address) : output_(&output), address_(address) {
     buffer_.reserve(kBuffered);
   }
-  /// ERRORS of both: as Hdf5Output.
+  /// ERRORS of all: as the output.
   void add(T value) {
     buffer_.push_back(value);
     if (buffer_.size() == kBuffered) flush();
+  }
+  /// The next to be added is that number of the column: what is between is another one's to write.
+  void go_to(std::uint64_t number) {
+    if (number == written_ + buffer_.size()) return;
+    flush();
+    written_ = number;
+  }
+  void flush() {
+    if (buffer_.empty()) return;
+    output_->write_at(address_ + written_ * sizeof(T), std::as_bytes(std::span(buffer_)));
+    written_ += buffer_.size();
+    buffer_.clear();
   }
   /// Writes what is left; a data set of this shape.  REQUIRES: it has as many numbers.
   [[nodiscard]] Hdf5DataSet finish(const std::string& name, Hdf5Kind kind,
@@ -37,15 +49,9 @@ class Hdf5Column {
   static_assert(std::endian::native == std::endian::little, "numbers are written as they are");
   static constexpr std::size_t kBuffered = (std::size_t{1} << 19) / sizeof(T);
 
-  void flush() {
-    output_->write_at(address_ + written_ * sizeof(T), std::as_bytes(std::span(buffer_)));
-    written_ += buffer_.size();
-    buffer_.clear();
-  }
-
-  Hdf5Output* output_ = nullptr;
+  PlacedOutput* output_ = nullptr;
   std::uint64_t address_ = 0;
-  std::uint64_t written_ = 0;  ///< numbers
+  std::uint64_t written_ = 0;  ///< numbers before those that are buffered
   std::vector<T> buffer_;
 };
 

@@ -3,15 +3,9 @@
 // An HDF5 file that is written, whole or not at all.
 #include "io/mesh/vtkhdf/hdf5_output.h"
 
-#include <utility>
-
 #include "io/hdf5/hdf5_text_heap.h"
 
 namespace mw::io {
-
-std::uint64_t Hdf5Output::reserve(std::uint64_t bytes) {
-  return std::exchange(end_, end_ + (bytes + 7) / 8 * 8);
-}
 
 void Hdf5Output::write_at(std::uint64_t address, std::span<const std::byte> bytes) {
   file_.write_at(address, bytes);
@@ -24,15 +18,15 @@ Hdf5DataSet Hdf5Output::add(Hdf5DataSet set, std::span<const std::byte> bytes) {
 }
 
 Hdf5DataSet Hdf5Output::add_texts(const std::string& name, std::span<const std::string> texts) {
-  const Hdf5Texts all = hdf5_texts(texts, next());
+  const Hdf5Texts all = hdf5_texts(texts, rooms_.next());
   write_at(reserve(all.heap.size()), std::as_bytes(std::span(all.heap)));
   return add({.name = name, .kind = Hdf5Kind::kText, .shape = {texts.size()}},
              std::as_bytes(std::span(all.positions)));
 }
 
 AtomicFile& Hdf5Output::finish(const Hdf5Group& root) {
-  const Hdf5Metadata metadata = hdf5_metadata(root, end_);
-  write_at(end_, std::as_bytes(std::span(metadata.tail)));
+  const Hdf5Metadata metadata = hdf5_metadata(root, rooms_.next());
+  write_at(rooms_.next(), std::as_bytes(std::span(metadata.tail)));
   write_at(0, std::as_bytes(std::span(metadata.head)));
   return file_;
 }

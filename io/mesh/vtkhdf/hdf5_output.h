@@ -7,7 +7,9 @@
 #include <string>
 
 #include "io/file/atomic_file.h"
+#include "io/file/placed_output.h"
 #include "io/hdf5/hdf5_tree.h"
+#include "io/mesh/vtkhdf/hdf5_rooms.h"
 
 namespace mw::io {
 
@@ -15,19 +17,20 @@ namespace mw::io {
 /// not survive an allocation that fails: here that is std::bad_alloc.  Equal content is equal
 /// bytes.
 /// ERRORS (all members): mw::Error(kResource) or kUsage as AtomicFile.  Thread safety: none.
-class Hdf5Output {
+class Hdf5Output : public PlacedOutput {
  public:
   /// Makes the file, still without its name.
   explicit Hdf5Output(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
 
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// Room for a data set: the address of its first byte.
-  [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes);
-  /// Where the next room will begin: for data whose size is not known yet.
-  /// REQUIRES: it is reserved when they are written, and nothing else before.
-  [[nodiscard]] std::uint64_t next() const { return end_; }
-  void write_at(std::uint64_t address, std::span<const std::byte> bytes);
+  [[nodiscard]] Hdf5Rooms& rooms() { return rooms_; }
+  [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes) { return rooms_.reserve(bytes); }
+  void write_at(std::uint64_t address, std::span<const std::byte> bytes) override;
+  /// The file gets the size of what is reserved.
+  void extend() { file_.resize(rooms_.next()); }
+  /// Where it is until the commit.
+  [[nodiscard]] const std::filesystem::path& partial() const { return file_.partial(); }
 
   /// A data set of these bytes.
   [[nodiscard]] Hdf5DataSet add(Hdf5DataSet set, std::span<const std::byte> bytes);
@@ -42,7 +45,7 @@ class Hdf5Output {
  private:
   std::string name_;
   AtomicFile file_;
-  std::uint64_t end_ = kHdf5HeadBytes;  ///< of what is reserved; a multiple of 8
+  Hdf5Rooms rooms_;
 };
 
 }  // namespace mw::io

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "io/mesh/grouped/ten_node_writer.h"
-#include "io/mesh/vtkhdf/hdf5_column.h"
+#include "io/mesh/vtkhdf/vtkhdf_columns.h"
 
 namespace mw::io {
 
@@ -35,22 +35,13 @@ class VtkhdfSink : public TenNodeSink {
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return 4 << 20; }
 
  private:
-  using Column = Hdf5Column<std::uint64_t>;
-
-  void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
-  [[nodiscard]] Hdf5DataSet one(const char* name, std::uint64_t count);
+  [[nodiscard]] bool has_room(std::size_t tets) const;
 
   Hdf5Output output_;
   Element element_;
   MeshHeader header_;
-  Column connectivity_;
-  Column offsets_;
-  Hdf5Column<std::uint8_t> types_;
-  Column labels_;
-  Hdf5Column<double> points_;
-  std::uint64_t vertices_ = 0;
-  std::uint64_t tets_ = 0;
-  std::uint64_t corners_ = 0;  ///< rows of all tets so far
+  VtkhdfPlaces places_;
+  VtkhdfColumns columns_;
 };
 
 }  // namespace mw::io
