@@ -13,6 +13,24 @@
 
 namespace mw::engine {
 
+/// Where the blocks go that the last march leaves.
+enum class FinalBlocksGo : std::uint8_t {
+  kToFirst,   ///< rank 0 writes the mesh
+  kToOwners,  ///< of lines (line_owners.h): all write it together
+};
+
+/// Who gets them.
+struct FinalUsers {
+  FinalBlocksGo go = FinalBlocksGo::kToFirst;
+  std::int64_t lines_y = 1;           ///< of blocks
+  std::vector<std::uint32_t> owners;  ///< by line; only kToOwners
+
+  [[nodiscard]] int rank_of(Index3 block) const {
+    if (go == FinalBlocksGo::kToFirst) return 0;
+    return static_cast<int>(owners[static_cast<std::size_t>(block.z * lines_y + block.y)]);
+  }
+};
+
 /// What a process has sent.
 struct TrafficFacts {
   std::uint64_t blocks = 0;
@@ -20,8 +38,7 @@ struct TrafficFacts {
 };
 
 /// Sends versions whose next user is elsewhere, takes in those that come, and counts the inputs of
-/// own windows.  The output's user is rank 0.  Nobody asks for a block: it comes as soon as it is
-/// ready.
+/// own windows.  Nobody asks for a block: it comes as soon as it is ready.
 /// Thread safety: as BlockRouter; the others from one thread.
 class BlockTraffic : public BlockRouter {
  public:
@@ -46,7 +63,12 @@ class BlockTraffic : public BlockRouter {
   };
 
   /// Before anything is committed.
-  void deal(Partition partition) { partition_ = std::move(partition); }
+  void deal(Partition partition, FinalBlocksGo go);
+  [[nodiscard]] FinalBlocksGo final_blocks_go() const { return final_users_.go; }
+  /// By line of the final blocks.  REQUIRES: kToOwners.
+  [[nodiscard]] const std::vector<std::uint32_t>& line_owners() const {
+    return final_users_.owners;
+  }
 
   [[nodiscard]] Arrivals& arrivals() { return arrivals_; }
   [[nodiscard]] bool is_mine(const WindowKey& key) const {
@@ -65,7 +87,7 @@ class BlockTraffic : public BlockRouter {
   /// Ends march and output of all ranks with this error.
   void end(std::exception_ptr error);
 
-  /// Waits until all blocks of the last march are in the store.  REQUIRES: rank 0.
+  /// Waits until all blocks of the last march that go to this rank are in the store.
   /// ERRORS: that of the rank that failed.
   void wait_for_output();
 
@@ -84,6 +106,7 @@ class BlockTraffic : public BlockRouter {
   BlockRoute route_;
   Team& team_;
   Partition partition_;
+  FinalUsers final_users_;
   Arrivals arrivals_;
   std::atomic<std::uint64_t> signalled_ = 0;
   std::atomic<std::uint64_t> received_ = 0;
@@ -97,6 +120,7 @@ class BlockTraffic : public BlockRouter {
 
 /// Predicts how many blocks each rank sends in a run: a pure function.
 [[nodiscard]] std::vector<std::uint64_t> blocks_sent(const RunLayout& layout,
-                                                     const Partition& partition, int ranks);
+                                                     const Partition& partition, int ranks,
+                                                     FinalBlocksGo go = FinalBlocksGo::kToFirst);
 
 }  // namespace mw::engine

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/exchange/plain_bytes.h"
+#include "kernels/core/assert.h"
 
 namespace mw::engine {
 namespace {
@@ -37,18 +38,18 @@ Team::~Team() {
   exchange_.listen({}, {});
 }
 
-std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine, Channel channel) {
+Team::Gathering Team::next_gathering(Channel channel) {
+  const std::lock_guard lock(mutex_);
+  return {channel, gatherings_[channel]++};
+}
+
+void Team::say(int to, const Gathering& gathering, SharedBytes bytes) {
+  exchange_.send(to, {kGathered, static_cast<std::uint64_t>(gathering.first), gathering.second, 0},
+                 std::move(bytes));
+}
+
+std::vector<std::vector<std::byte>> Team::hear(const Gathering& gathering) {
   std::unique_lock lock(mutex_);
-  const Gathering gathering{channel, gatherings_[channel]++};
-  lock.unlock();
-  const SharedBytes bytes = shared(std::move(mine));
-  for (int to = 0; to < ranks(); ++to) {
-    if (to != rank()) {
-      exchange_.send(to, {kGathered, static_cast<std::uint64_t>(channel), gathering.second, 0},
-                     bytes);
-    }
-  }
-  lock.lock();
   const auto others = static_cast<std::size_t>(ranks() - 1);
   const auto& said = said_[gathering];
   changed_.wait(lock, [&] { return failure_ || own_failure_ || said.size() == others; });
@@ -58,7 +59,30 @@ std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine, Ch
     out[static_cast<std::size_t>(from)] = std::move(bytes_said);
   }
   said_.erase(gathering);
+  return out;
+}
+
+std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine, Channel channel) {
+  const Gathering gathering = next_gathering(channel);
+  const SharedBytes bytes = shared(std::move(mine));
+  for (int to = 0; to < ranks(); ++to) {
+    if (to != rank()) say(to, gathering, bytes);
+  }
+  auto out = hear(gathering);
   out[static_cast<std::size_t>(rank())] = *bytes;
+  return out;
+}
+
+std::vector<std::vector<std::byte>> Team::swap(std::vector<std::vector<std::byte>> mine,
+                                               Channel channel) {
+  MW_ASSERT(mine.size() == static_cast<std::size_t>(ranks()));
+  const auto me = static_cast<std::size_t>(rank());
+  const Gathering gathering = next_gathering(channel);
+  for (std::size_t to = 0; to < mine.size(); ++to) {
+    if (to != me) say(static_cast<int>(to), gathering, shared(std::move(mine[to])));
+  }
+  auto out = hear(gathering);
+  out[me] = std::move(mine[me]);
   return out;
 }
 

@@ -37,7 +37,11 @@ class Team {
   /// ERRORS: that of the rank that failed, be it this one.
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine,
                                                            Channel channel = Channel::kRun);
-  /// The same of texts.
+  /// What every rank says to this one, by rank, when each says `mine` to each, by rank.  It counts
+  /// as gather().  REQUIRES: as many as ranks.  ERRORS: as gather().
+  [[nodiscard]] std::vector<std::vector<std::byte>> swap(std::vector<std::vector<std::byte>> mine,
+                                                         Channel channel = Channel::kRun);
+  /// gather() of texts.
   [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
 
   /// The numbers are the sender's; parcels for a rank that has no listener wait.
@@ -69,13 +73,18 @@ class Team {
   [[nodiscard]] bool has_failed() const;
 
  private:
+  using Gathering = std::pair<Channel, std::uint64_t>;
+
+  [[nodiscard]] Gathering next_gathering(Channel channel);
+  void say(int to, const Gathering& gathering, SharedBytes bytes);
+  /// What the others say; nothing in the place of this rank.
+  [[nodiscard]] std::vector<std::vector<std::byte>> hear(const Gathering& gathering);
   void receive(Message message);
   void note_failure(const Error& error);
 
   Exchange& exchange_;
   mutable std::mutex mutex_;  ///< guards the rest but listener_
   std::condition_variable changed_;
-  using Gathering = std::pair<Channel, std::uint64_t>;
   std::map<Gathering, std::map<int, std::vector<std::byte>>> said_;  ///< by rank
   std::map<Channel, std::uint64_t> gatherings_;
   std::vector<Message> waiting_;  ///< parcels for a listener to come
