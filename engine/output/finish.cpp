@@ -7,85 +7,12 @@
 
 #include "engine/output/interface_shape.h"
 #include "engine/output/longest_edges.h"
-#include "engine/output/physical_position.h"
+#include "engine/output/remembered.h"
 #include "engine/output/vertex_rows.h"
+#include "engine/output/written_block.h"
 
 namespace mw::engine {
 namespace {
-
-// Entries of VertexRows, and a second list while one is merged.
-constexpr std::uint64_t kBytesPerRemembered = 32;
-constexpr std::uint64_t kHoldStepBytes = 1 << 20;
-
-/// What the parts of the merge remember, told as one sum.
-class Remembered {
- public:
-  explicit Remembered(HoldMemory hold) : hold_(std::move(hold)) {}
-
-  /// Before a part comes to so many bytes.
-  void rows(std::uint64_t bytes) {
-    rows_ = bytes;
-    tell();
-  }
-  void shape(std::uint64_t bytes) {
-    shape_ = bytes;
-    tell();
-  }
-
- private:
-  void tell() {
-    if (!hold_ || rows_ + shape_ <= held_) return;
-    held_ = rows_ + shape_ + kHoldStepBytes;
-    hold_(held_);
-  }
-
-  HoldMemory hold_;
-  std::uint64_t rows_ = 0;
-  std::uint64_t shape_ = 0;
-  std::uint64_t held_ = 0;
-};
-
-std::vector<io::Position> positions_of(const BlockMesh& block, const io::VolumeInfo& info,
-                                       Index3 layers) {
-  std::vector<io::Position> out;
-  out.reserve(block.vertices.size());
-  for (const BlockVertex& v : block.vertices) {
-    out.push_back(physical(v.position, info.space, layers));
-  }
-  return out;
-}
-
-/// The block's tets, positively oriented in the world, rows being those of the block.
-std::vector<io::TetRows> oriented_tets(const BlockMesh& block, bool mirrored) {
-  std::vector<io::TetRows> out;
-  out.reserve(block.tets.size());
-  const auto at = [&](std::uint32_t v) { return block.vertices[v].position; };
-  for (const BlockTet& t : block.tets) {
-    auto [a, b, c, d] = t.vertices;
-    if ((volume6(at(a), at(b), at(c), at(d)) < 0) != mirrored) std::swap(c, d);
-    out.push_back({a, b, c, d});
-  }
-  return out;
-}
-
-/// Of the labels that are written.
-io::LabelNames written_names(const io::DenseVolume& volume, const LabelSelection& selection) {
-  const io::LabelTable& table = volume.table();
-  return volume.info().names.only(
-      [&](RawLabel label) { return table.contains(label) && selection.keeps(table.dense(label)); });
-}
-
-io::MeshBox box_of(const io::VolumeInfo& info) {
-  const io::Vector3 extent{static_cast<double>(info.shape.x), static_cast<double>(info.shape.y),
-                           static_cast<double>(info.shape.z)};
-  io::MeshBox box{.origin = to_world(info.space, {0, 0, 0})};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.edges[i][k] = info.space.spacing[i] * extent[i] * info.space.axes[i][k];
-    }
-  }
-  return box;
-}
 
 /// Second pass.
 class Writer {
@@ -111,13 +38,8 @@ class Writer {
     }
     if (edges_) edges_->add(block.tets, positions);
     const std::vector<std::uint64_t> rows = write_vertices(where, block, positions);
-    std::vector<RawLabel> labels;
-    labels.reserve(tets.size());
-    for (const BlockTet& t : block.tets) labels.push_back(volume_.table().raw(t.label));
-    for (io::TetRows& tet : tets) {
-      for (std::uint64_t& v : tet) v = rows[v];
-    }
-    sink_.write_tets(tets, labels);
+    give_rows(tets, rows);
+    sink_.write_tets(tets, raw_labels(block, volume_.table()));
   }
 
   [[nodiscard]] const VertexRows& rows() const { return rows_; }
@@ -126,7 +48,7 @@ class Writer {
  private:
   std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
                                             const std::vector<io::Position>& positions) {
-    remembered_.rows(kBytesPerRemembered * (rows_.remembered() + block.vertices.size()));
+    remembered_.rows(Remembered::kBytesPerRow * (rows_.remembered() + block.vertices.size()));
     const std::uint64_t first_new = rows_.count();
     std::vector<std::uint64_t> rows = rows_.assign(where, block.vertices);
     std::vector<io::Position> added;
@@ -202,10 +124,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
     uses.add(b, block.vertices);
     out.tets += block.tets.size();
   });
-  sink.begin({.tets = out.tets,
-              .labels_signed = volume.table().is_signed(),
-              .names = written_names(volume, selection),
-              .record = {.box = box_of(volume.info()), .promises = options.promises}});
+  sink.begin(header_of(volume, selection, out.tets, options.promises));
   Remembered remembered(options.hold);
   Writer writer(std::move(uses), volume, options.layers, sink, remembered);
   if (options.measure_edges) writer.measure_edges();

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What the parts of the merge remember, told as one sum.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/output/hold_memory.h"
+
+namespace mw::engine {
+
+/// Tells a budget in steps, so that it is not asked for each block.
+class Remembered {
+ public:
+  /// Entries of VertexRows, and a second list while one is merged.
+  static constexpr std::uint64_t kBytesPerRow = 32;
+
+  explicit Remembered(HoldMemory hold) : hold_(std::move(hold)) {}
+
+  /// Before a part comes to so many bytes.
+  void rows(std::uint64_t bytes) {
+    rows_ = bytes;
+    tell();
+  }
+  void shape(std::uint64_t bytes) {
+    shape_ = bytes;
+    tell();
+  }
+  /// Of what several processes tell one another.
+  void shared(std::uint64_t bytes) {
+    shared_ = bytes;
+    tell();
+  }
+
+ private:
+  static constexpr std::uint64_t kStepBytes = 1 << 20;
+
+  void tell() {
+    const std::uint64_t sum = rows_ + shape_ + shared_;
+    if (!hold_ || sum <= held_) return;
+    held_ = sum + kStepBytes;
+    hold_(held_);
+  }
+
+  HoldMemory hold_;
+  std::uint64_t rows_ = 0;
+  std::uint64_t shape_ = 0;
+  std::uint64_t shared_ = 0;
+  std::uint64_t held_ = 0;
+};
+
+}  // namespace mw::engine

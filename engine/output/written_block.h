@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A final block as sinks take it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/output/label_selection.h"
+#include "io/labels/label_table.h"
+#include "io/mesh/mesh_sink.h"
+
+namespace mw::engine {
+
+/// Where the block's vertices are in the volume's space; layers: of each of its voxels.
+[[nodiscard]] std::vector<io::Position> positions_of(const BlockMesh& block,
+                                                     const io::VolumeInfo& info, Index3 layers);
+
+/// The block's tets, positively oriented in the world, rows being those of the block.
+[[nodiscard]] std::vector<io::TetRows> oriented_tets(const BlockMesh& block, bool mirrored);
+
+/// By tet.
+[[nodiscard]] std::vector<RawLabel> raw_labels(const BlockMesh& block, const io::LabelTable& table);
+
+/// Replaces rows of the block by those of the mesh.
+void give_rows(std::vector<io::TetRows>& tets, std::span<const std::uint64_t> rows);
+
+/// What is known of the mesh before its first row.
+[[nodiscard]] io::MeshHeader header_of(const io::DenseVolume& volume,
+                                       const LabelSelection& selection, std::uint64_t tets,
+                                       const std::optional<io::MeshPromises>& promises);
+
+}  // namespace mw::engine
