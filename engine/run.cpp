@@ -20,6 +20,7 @@
 #include "engine/system/stopwatch.h"
 #include "engine/system/tbb_for.h"
 #include "engine/team_labels.h"
+#include "engine/team_output.h"
 #include "engine/team_run.h"
 #include "engine/window/inner_quality.h"
 #include "engine/window/window_memory.h"
@@ -77,6 +78,11 @@ std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& 
   return prepared_label_bytes(bricks_of(*share, shape, settings), shape, sized);
 }
 
+std::uint64_t output_buffer_bytes(const io::MeshSink& sink, const RunHooks& hooks) {
+  const std::uint64_t together = hooks.together == nullptr ? 0 : hooks.together->buffer_bytes();
+  return std::max(sink.buffer_bytes(), together);
+}
+
 /// Tells at once, before any work, the least that the parts take whose size is known by then.
 /// What windows take depends on the labels, and on what earlier windows leave.
 void require_min(const RunLayout& layout, const io::DenseVolume& volume,
@@ -89,7 +95,7 @@ void require_min(const RunLayout& layout, const io::DenseVolume& volume,
       always_bytes(volume, threads) + prepared_bytes(volume, settings, share) +
       (share == nullptr ? index_bytes(layout) : shared_index_bytes(layout));
   const std::uint64_t reading = preparation_bytes(settings) + volume.raw().buffer_bytes(1);
-  const std::uint64_t min = always + std::max(reading, sink.buffer_bytes());
+  const std::uint64_t min = always + std::max(reading, output_buffer_bytes(sink, hooks));
   if (min > budget.limit()) budget.fail(min);
 }
 
@@ -150,16 +156,18 @@ io::MeshPromises promises_of(const MeshSettings& settings) {
 }
 
 /// Writes what the last march left; memory for that comes first, blocks are spilled to make room.
+/// own_lines: none where this process writes all.
 FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, RunStore& store,
-                        io::MeshSink& sink, const RunHooks& hooks, RunForecast& forecast) {
+                        io::MeshSink& sink, const std::optional<LineShare>& own_lines,
+                        const RunHooks& hooks, RunForecast& forecast) {
   const std::uint32_t last = layout.marches() - 1;
   const WindowGrid& grid = layout.grid(last);
   const BlockStore& stored = store.march(last);
   std::uint64_t largest = 0;
   for_each_index(grid.blocks(),
                  [&](Index3 b) { largest = std::max(largest, stored.loaded_bytes(b)); });
-  const auto room =
-      store.reserve(Purpose::kOutput, sink.buffer_bytes() + written_block_bytes(largest));
+  const auto room = store.reserve(Purpose::kOutput,
+                                  output_buffer_bytes(sink, hooks) + written_block_bytes(largest));
   return_free_memory_above(0);
   MemoryBudget::Reservation rows;
   OutputOptions options = hooks.output;
@@ -170,7 +178,9 @@ FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, Ru
   };
   forecast.begin_output();
   FinishedBlocks blocks(stored, hooks.progress, forecast, layout.windows());
-  return finish(blocks, grid, lattice.volume(), sink, options);
+  if (!own_lines) return finish(blocks, grid, lattice.volume(), sink, options);
+  return finish_together(*hooks.team, *own_lines, blocks, grid, lattice.volume(), *hooks.together,
+                         options);
 }
 
 void report_shape(FinishedMesh& finished, const LabelCounts& labels, const LabelSelection& kept,
@@ -223,11 +233,14 @@ std::uint64_t march_and_write(const RunLayout& layout, const VoxelLattice& latti
   if (shared != nullptr) {
     static_cast<VisitStats&>(report) = sum_of_all(*hooks.team, report);
     shared->end_marches();
-    if (!hooks.team->is_first()) return marches.stats().windows;
+    report.written_together = shared->own_lines().has_value();
+    if (!hooks.team->is_first() && !report.written_together) return marches.stats().windows;
     shared->traffic().wait_for_output();
   }
   watch.restart();
-  FinishedMesh finished = write_mesh(layout, lattice, store, sink, hooks, forecast);
+  FinishedMesh finished =
+      write_mesh(layout, lattice, store, sink,
+                 shared != nullptr ? shared->own_lines() : std::nullopt, hooks, forecast);
   watch.lap(report.output_seconds);
   report.vertices = finished.vertices;
   report.tets = finished.tets;

@@ -15,6 +15,7 @@
 #include "engine/window/window_visitor.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
+#include "io/mesh/shared_mesh.h"
 
 namespace mw::engine {
 
@@ -45,6 +46,7 @@ struct RunReport : VisitStats {
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
   StoreFacts store;
   std::vector<RankFacts> ranks;            ///< of a run of several processes, on rank 0
+  bool written_together = false;           ///< by all of them, not by rank 0 alone
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
 };
 
@@ -85,6 +87,10 @@ struct RunHooks {
   /// mesh_volume() with the same volume and settings; only rank 0 uses its sink, and the others
   /// return when its output is complete.  Store options and threads are each one's own.
   Team* team = nullptr;
+  /// Of such a run: what all ranks write the mesh into, in the place of rank 0's sink.  Rank 0
+  /// decides: null there, and its sink is used; what the others have is joined only when it is not.
+  /// REQUIRES: rank 0's is created, and nothing of the output is measured then.
+  io::SharedMesh* together = nullptr;
   /// Of such a run, on rank 0, optional; asked often, by a thread of its own: whether to save and
   /// end, which Epochs::Stopped does.
   std::function<bool()> stop_after_epoch;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/shared_run.h"
 
+#include "engine/team_output.h"
+
 namespace mw::engine {
 
 SharedRun::SharedRun(Team& team, const RunLayout& layout, RunHooks& hooks,
@@ -10,6 +12,7 @@ SharedRun::SharedRun(Team& team, const RunLayout& layout, RunHooks& hooks,
       layout_(layout),
       every_(hooks.store.group.age),
       stop_(hooks.stop_after_epoch),
+      together_(hooks.together),
       traffic_(layout, team) {
   agree(team, identity);
   StoreOptions& store = hooks.store;
@@ -19,8 +22,14 @@ SharedRun::SharedRun(Team& team, const RunLayout& layout, RunHooks& hooks,
 }
 
 void SharedRun::begin(RunStore& store, Partition partition) {
-  traffic_.deal(std::move(partition));
-  (void)team_.gather(std::vector<std::byte>{});
+  if (join_output(team_, together_)) {
+    traffic_.deal(std::move(partition), FinalBlocksGo::kToOwners);
+    const std::uint32_t last = layout_.marches() - 1;
+    own_lines_.emplace(layout_.grid(last).blocks(), traffic_.line_owners(),
+                       static_cast<std::uint32_t>(team_.rank()));
+  } else {
+    traffic_.deal(std::move(partition), FinalBlocksGo::kToFirst);
+  }
   if (!work_) return;
   epochs_.emplace(team_, traffic_, store,
                   Epochs::Options{.every = every_,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/exchange/epochs.h"
+#include "engine/output/line_share.h"
 #include "engine/run.h"
 #include "engine/team_run.h"
 #include "engine/team_work.h"
@@ -25,8 +26,10 @@ class SharedRun {
   [[nodiscard]] Workdir* workdir() { return work_ ? &work_->own() : nullptr; }
 
   /// Takes up what an earlier run left, when every rank has the room that its labels take: blocks
-  /// come in then.  From now on there are epochs.
+  /// come in then.  From now on there are epochs, and all know who writes the mesh.
   void begin(RunStore& store, Partition partition);
+  /// What this rank writes of it; none: rank 0 writes alone.
+  [[nodiscard]] const std::optional<LineShare>& own_lines() const { return own_lines_; }
   /// Whether another run can go on from what this one leaves; rank 0 knows.
   [[nodiscard]] bool has_saved_work() const { return work_ && work_->has_saved_work(); }
   /// All windows of all ranks are done.
@@ -42,6 +45,8 @@ class SharedRun {
   const RunLayout& layout_;
   std::chrono::milliseconds every_;
   std::function<bool()> stop_;
+  io::SharedMesh* together_;
+  std::optional<LineShare> own_lines_;
   BlockTraffic traffic_;
   std::optional<TeamWork> work_;
   std::optional<Epochs> epochs_;

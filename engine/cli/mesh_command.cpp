@@ -13,6 +13,7 @@
 #include "engine/cli/log.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/page/run_page.h"
+#include "engine/cli/shared_output.h"
 #include "engine/cli/shared_runs.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
@@ -58,15 +59,22 @@ class NoSink : public io::MeshSink {
   void finish() override {}
 };
 
-std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request) {
-  if (shared_team() != nullptr && !shared_team()->is_first()) return std::make_unique<NoSink>();
+/// Whether this process leaves the mesh to another one, or to all of them.
+bool has_no_sink(const SharedOutput& shared) {
+  if (shared_team() == nullptr) return false;
+  return !shared_team()->is_first() || shared.mesh != nullptr;
+}
+
+std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const SharedOutput& shared) {
+  if (has_no_sink(shared)) return std::make_unique<NoSink>();
   return io::open_mesh_sink(request.output, request.element,
                             request.ascii ? io::Encoding::kText : io::Encoding::kUsual);
 }
 
 /// The files of a run, created before any work so that a bad path fails at once.
 struct MeshFiles {
-  explicit MeshFiles(const MeshRequest& request) : sink(open_sink(request)) {
+  MeshFiles(const MeshRequest& request, SharedOutput shared_output)
+      : shared(std::move(shared_output)), sink(open_sink(request, shared)) {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
@@ -84,6 +92,7 @@ struct MeshFiles {
     return both ? static_cast<io::MeshSink&>(*both) : *sink;
   }
 
+  SharedOutput shared;
   std::unique_ptr<io::MeshSink> sink;
   std::optional<io::AtomicFile> report;
   std::optional<io::AtomicFile> html;
@@ -94,7 +103,7 @@ struct MeshFiles {
   std::optional<TraceFile> trace;
 };
 
-engine::MeshJob job_of(const MeshRequest& request) {
+engine::MeshJob job_of(const MeshRequest& request, io::SharedMesh* together = nullptr) {
   return {.steps = request.volume.steps,
           .settings = request.settings,
           .choice = request.choice,
@@ -107,7 +116,8 @@ engine::MeshJob job_of(const MeshRequest& request) {
           .is_measured = is_measured(request),
           .folder = request.output.parent_path(),
           .owns_process = true,
-          .team = shared_team()};
+          .team = shared_team(),
+          .together = together};
 }
 
 /// Says where the work is when a run that ends early leaves some.
@@ -124,7 +134,7 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
     work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
   };
   try {
-    return engine::mesh(volume, job_of(request), files.all(), hooks);
+    return engine::mesh(volume, job_of(request, files.shared.mesh.get()), files.all(), hooks);
   } catch (const Interrupted&) {
     throw Interrupted{work};
   } catch (const engine::Epochs::Stopped&) {
@@ -157,7 +167,30 @@ void print_certificate(const report::FinishedRun& run) {
             << "\n";
 }
 
-void print_summary(const report::FinishedRun& run, const MeshRequest& request) {
+/// Of a shared run.
+void print_writers(const SharedOutput& shared) {
+  if (shared_team() == nullptr) return;
+  std::cout << "written by  ";
+  if (shared.mesh != nullptr) {
+    std::cout << "all " << shared_team()->ranks() << " processes\n";
+  } else {
+    std::cout << "rank 0: " << shared.why_alone << "\n";
+  }
+}
+
+/// Who did what, also where no report is written.
+void log_ranks(const engine::RunReport& run) {
+  for (std::size_t rank = 0; rank < run.ranks.size(); ++rank) {
+    const engine::RankFacts& facts = run.ranks[rank];
+    const auto output = static_cast<std::size_t>(engine::Purpose::kOutput);
+    spdlog::info("rank {}: {} windows, {} blocks sent, at most {} accounted, {} to write", rank,
+                 facts.windows, facts.sent.blocks, format_bytes(facts.peak_accounted_bytes),
+                 format_bytes(facts.peak_bytes_by_purpose[output]));
+  }
+}
+
+void print_summary(const report::FinishedRun& run, const MeshRequest& request,
+                   const SharedOutput& shared) {
   const double seconds = run.resources.wall_seconds;
   const Index3 shape = run.volume.shape;
   const double share = 100 * report::vertex_fraction(run.engine.vertices, shape);
@@ -168,6 +201,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request) {
   print_lattice(run.engine.lattice);
   print_space(run.volume.space);
   print_certificate(run);
+  print_writers(shared);
   std::cout << "seconds     " << format_fixed(seconds, 2) << "\n"
             << "voxels/s    " << format_fixed(static_cast<double>(shape.product()) / seconds, 0)
             << "\n"
@@ -199,12 +233,18 @@ int threads_at_hand(int asked) {
   return given;
 }
 
+SharedOutput shared_output(const MeshRequest& request, bool is_certified) {
+  if (shared_team() == nullptr) return {};
+  return open_shared_output(request, *shared_team(), is_certified, is_measured(request));
+}
+
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   if (shared_team() != nullptr) watch_save_requests();
-  (void)engine::plan_certificate(job_of(request));  // refused before any file is opened
+  // Refused before any file is opened.
+  const bool is_certified = engine::plan_certificate(job_of(request)).why_not.empty();
   const report::ResourceMeter meter;
-  MeshFiles files(request);
+  MeshFiles files(request, shared_output(request, is_certified));
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
   report::FinishedRun run = mesh_into(request, *volume, files);
@@ -212,7 +252,8 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   if (shared_team() != nullptr && !shared_team()->is_first()) return kExitDone;
   tell_resume(request, run.engine.store);
   run.resources = meter.read();
-  print_summary(run, request);
+  print_summary(run, request, files.shared);
+  log_ranks(run.engine);
   if (is_measured(request)) {
     engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
     run.digest = files.digest->digest();

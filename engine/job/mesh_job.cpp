@@ -38,6 +38,7 @@ RunHooks run_hooks(const MeshJob& job, const io::LabelTable& table, const JobHoo
                 .measure_edges = job.is_measured && !job.settings.sizes.labels.empty()};
   out.owns_process = job.owns_process;
   out.team = job.team;
+  out.together = job.together;
   out.stop_after_epoch = hooks.stop_after_epoch;
   return out;
 }

@@ -35,7 +35,8 @@ struct MeshJob {
   /// Whether the allocator of the process may be told to give large pieces back at once, as a tight
   /// budget wants it.
   bool owns_process = false;
-  Team* team = nullptr;  ///< see RunHooks
+  Team* team = nullptr;                ///< see RunHooks
+  io::SharedMesh* together = nullptr;  ///< see RunHooks
 };
 
 /// Who looks on.  Nothing here changes the result.

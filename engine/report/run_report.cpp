@@ -111,6 +111,7 @@ ordered_json engine_json(const FinishedRun& run) {
                    {"bytes_written", store.bytes_written},
                    {"bytes_read", store.bytes_read}};
   for (const engine::RankFacts& rank : run.engine.ranks) out["ranks"].push_back(rank_json(rank));
+  if (!run.engine.ranks.empty()) out["written_by"] = run.engine.written_together ? "all" : "first";
   if (run.engine.workers) out["codt"] = codt_json(run.engine);
   return out;
 }
