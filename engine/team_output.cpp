@@ -42,11 +42,6 @@ AllRows rows_before(Team& team, const LineShare& share, const std::vector<LineRo
   return out;
 }
 
-/// A claim that is made: its place, what the answers take, and both as bytes of messages.
-constexpr std::uint64_t kBytesPerClaim = sizeof(Claim) + 8 + 16 + 4 * 8;
-/// One that comes in: as it comes, how it is judged, and the answers.
-constexpr std::uint64_t kBytesPerJudged = 2 * sizeof(Claim) + 40 + 8 + 16 + 4 * 8;
-
 /// One rank's part.
 class PartOfMesh {
  public:

@@ -23,9 +23,14 @@ using ClaimLists = std::vector<std::vector<std::uint64_t>>;
 /// Of a claim: not to be told.
 inline constexpr std::uint64_t kNoRow = ~std::uint64_t{0};
 
+/// What a claim takes that is made, and one that is judged, beside VertexRows: themselves, lists of
+/// numbers to and from other processes, and these as bytes of messages.
+inline constexpr std::uint64_t kBytesPerClaim = 2 * sizeof(Claim) + 8 + 16 + 4 * 8;
+inline constexpr std::uint64_t kBytesPerJudged = 2 * sizeof(Claim) + 40 + 8 + 16 + 4 * 8;
+
 /// Pure: messages are the caller's to carry.  Members are called in the order in which they stand.
-/// Memory: 32 bytes a claim that is made and 56 one that is judged, 24 a line, and VertexRows, for
-/// own blocks.  Cost: O(log) a vertex.
+/// Memory: kBytesPerClaim and kBytesPerJudged, 24 bytes a line, and VertexRows, of own blocks.
+/// Cost: O(log) a vertex.
 class PartRows {
  public:
   /// mine: this process's claims, by the judge's rank; theirs: those that it judges, by the

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace mw::engine {
 
@@ -14,7 +13,6 @@ VertexUses::VertexUses(const WindowGrid& grid)
   // The first block is cut off only along axes where it is the only one.
   const Index3 first = grid.block_box({0, 0, 0}).shape();
   block_shape_ = {first.x * kUnitsPerVoxel, first.y * kUnitsPerVoxel, first.z * kUnitsPerVoxel};
-  std::iota(last_line_.begin(), last_line_.end(), std::size_t{0});
 }
 
 Index3 VertexUses::home(Point p) const {

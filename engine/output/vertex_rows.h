@@ -33,7 +33,7 @@ class VertexUses {
   [[nodiscard]] std::size_t line(Index3 block) const {
     return static_cast<std::size_t>(block.z * blocks_.y + block.y);
   }
-  /// By line of homes; a line that nobody asks for has its own number.
+  /// By line of homes; 0 of one that nobody asks for.
   [[nodiscard]] std::span<const std::size_t> last_lines() const { return last_line_; }
 
  private:

@@ -8,10 +8,12 @@ Its longer form: mpi_test.py --kills 50 [--seed 1]."""
 
 import argparse
 import hashlib
+import json
 import os
 import pathlib
 import random
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -104,6 +106,56 @@ class SharedRuns(unittest.TestCase):
             for ranks in (1, 2, 3, 4, 8):
                 self.expect_same(ranks, expected, "--order", order, "--threads", str(2 * ranks),
                                  "--certify", "off")
+
+    def test_all_ranks_write_a_vtkhdf_together(self):
+        self.synth("voronoi", "40,48,56", 20)
+        for order in ("raster", "colour"):
+            options = ["--order", order, "--window", "8"]
+            expected = self.alone(*options)
+            for ranks in (2, 3, 4):
+                done = self.run_shared(ranks, *options, "--certify", "off")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(f"written by  all {ranks} processes", done.stdout)
+                self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
+
+    def test_rank_0_writes_what_has_to_pass_by_as_a_whole(self):
+        self.synth("spheres", "24,24,40", 4)
+        report = self.folder / "r.json"
+        options = ["--window", "8"]
+        expected = self.alone(*options)
+        for more, why in ((["--certify", "on"], "it makes the certificate"),
+                          (["--certify", "off", "--report", report], "for the report")):
+            done = self.run_shared(2, *options, *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, f"written by  rank 0: .*{why}")
+            self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
+        self.assertEqual(json.loads(report.read_text())["engine"]["written_by"], "first")
+
+    def limit_files(self, run, rank, size):
+        """From now on that rank of a run cannot write beyond `size` bytes of any file."""
+        victims = []
+        while run.poll() is None and not victims:
+            if any(self.folder.glob(".shared.vtkhdf.partial-*")):
+                victims = [p for p in children_of(pathlib.Path(SHARED).name, run.pid)
+                           if f"OMPI_COMM_WORLD_RANK={rank}\0".encode()
+                           in pathlib.Path(f"/proc/{p}/environ").read_bytes()]
+            time.sleep(0.01)
+        self.assertEqual(len(victims), 1)
+        resource.prlimit(victims[0], resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
+
+    def test_a_rank_that_cannot_write_ends_all_and_leaves_nothing(self):
+        self.synth("voronoi", "64,64,80", 40)
+        for rank in (0, 2):
+            run = subprocess.Popen(self.command(3, "--window", "8", "--order", "colour",
+                                                "--certify", "off", "--save-every", "1000"),
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                   env=environment())
+            self.limit_files(run, rank, 100_000)
+            _, err = run.communicate(timeout=LIMIT)
+            self.assertEqual(run.returncode, 4, err)
+            self.assertRegex(err, "shared.vtkhdf.*File too large")
+            self.assertEqual(err.count("mwmesh: error:"), 1, err)
+            self.assertEqual([f.name for f in self.folder.iterdir()], ["v.npy"])
 
     def test_under_a_tight_budget_and_with_epochs(self):
         self.synth("spheres", "64,64,96", 8)

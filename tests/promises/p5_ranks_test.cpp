@@ -10,6 +10,7 @@
 #include "engine/labels/prepared_labels.h"
 #include "engine/run.h"
 #include "engine/team_run.h"
+#include "io/mesh/open_mesh.h"
 #include "tests/engine/exchange/crowd.h"
 #include "tests/engine/march/watched_march.h"
 #include "tests/engine/memory_run.h"
@@ -77,7 +78,8 @@ TEST(Promise5SameBytes, ForEveryNumberOfProcesses) {
 }
 
 /// What the routes of this run say.
-std::vector<std::uint64_t> predicted_blocks(const Trial& trial, int ranks) {
+std::vector<std::uint64_t> predicted_blocks(const Trial& trial, int ranks,
+                                            FinalBlocksGo go = FinalBlocksGo::kToFirst) {
   const test::MemoryVolume volume(trial.volume, trial.frame);
   const io::LabelTable table = io::collect_labels(volume);
   const PreparedLabels labels(io::DenseVolume(volume, table), trial.settings);
@@ -89,9 +91,169 @@ std::vector<std::uint64_t> predicted_blocks(const Trial& trial, int ranks) {
   std::vector<std::uint64_t> out;
   for_ranks({.ranks = ranks}, [&](Team& team) {
     const Partition partition = deal_windows(team, layout, trial.settings, labels.counts().faces);
-    if (team.is_first()) out = blocks_sent(layout, partition, ranks);
+    if (team.is_first()) out = blocks_sent(layout, partition, ranks, go);
   });
   return out;
+}
+
+/// Writes the mesh into a .vtkhdf: all ranks do.  Returns what rank 0 reports.
+RunReport write_shared(const Trial& trial, const ThreadExchangeOptions& options,
+                       const std::filesystem::path& path, const RunHooks& hooks = {}) {
+  RunReport out;
+  for_ranks(options, [&](Team& team) {
+    const test::MemoryVolume volume(trial.volume, trial.frame);
+    const io::LabelTable table = io::collect_labels(volume);
+    test::MemorySink unused;
+    const auto mesh = io::open_shared_mesh(path);
+    if (team.is_first()) mesh->create();
+    RunHooks own = hooks;
+    own.team = &team;
+    own.together = mesh.get();
+    const RunReport report =
+        mesh_volume(io::DenseVolume(volume, table), trial.settings, unused, own);
+    EXPECT_TRUE(report.written_together);
+    if (team.is_first()) out = report;
+  });
+  return out;
+}
+
+RunReport write_alone(const Trial& trial, const std::filesystem::path& path,
+                      const RunHooks& hooks = {}) {
+  const test::MemoryVolume volume(trial.volume, trial.frame);
+  const auto sink = io::open_mesh_sink(path);
+  return mesh_volume(io::DenseVolume(volume, io::collect_labels(volume)), trial.settings, *sink,
+                     hooks);
+}
+
+using WrittenTogether = test::FolderTest;
+
+TEST_F(WrittenTogether, Promise5SameBytesForEveryNumberOfProcesses) {
+  std::mt19937 random(315);
+  constexpr std::array<Index3, 4> kShapes{{{12, 12, 12}, {20, 10, 8}, {9, 14, 11}, {6, 30, 18}}};
+  for (std::size_t i = 0; i < 24 && !HasFailure(); ++i) {
+    const Trial trial = trial_of(random, i, kShapes[i % kShapes.size()]);
+    SCOPED_TRACE(trial.text());
+    RunHooks hooks{.threads = 1 + static_cast<int>(below(random, 2))};
+    if (i % 4 == 1) {
+      hooks.output.wanted = [](RawLabel label) { return test::test_label(label) > 1; };
+    }
+    const RunReport alone = write_alone(trial, folder() / "alone.vtkhdf", hooks);
+    for (int ranks : {2, 3, 4, 8}) {
+      const ThreadExchangeOptions options{
+          .ranks = ranks,
+          .seed = static_cast<std::uint32_t>(i),
+          .max_delay = std::chrono::microseconds(i % 3 == 0 ? 5000 : 100)};
+      const RunReport report = write_shared(trial, options, folder() / "shared.vtkhdf", hooks);
+      EXPECT_EQ(report.vertices, alone.vertices);
+      EXPECT_EQ(report.tets, alone.tets);
+      EXPECT_TRUE(mw::test::content_of(folder() / "shared.vtkhdf") ==
+                  mw::test::content_of(folder() / "alone.vtkhdf"))
+          << ranks << " processes";
+    }
+  }
+}
+
+/// Where the last march leaves them: nothing is sent for the output.
+TEST_F(WrittenTogether, FinalBlocksStay) {
+  std::mt19937 random(316);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Trial trial = trial_of(random, i, {10, 24, 22});
+    constexpr int kRanks = 4;
+    const RunReport report = write_shared(trial, {.ranks = kRanks}, folder() / "shared.vtkhdf");
+    std::vector<std::uint64_t> sent;
+    for (const RankFacts& rank : report.ranks) sent.push_back(rank.sent.blocks);
+    EXPECT_EQ(sent, predicted_blocks(trial, kRanks, FinalBlocksGo::kToOwners));
+    const auto to_first = predicted_blocks(trial, kRanks, FinalBlocksGo::kToFirst);
+    EXPECT_LT(std::accumulate(sent.begin(), sent.end(), std::uint64_t{0}),
+              std::accumulate(to_first.begin(), to_first.end(), std::uint64_t{0}));
+  }
+}
+
+/// A mesh whose writing fails on one rank.
+class FailingMesh : public io::SharedMesh {
+ public:
+  enum class When : std::uint8_t { kJoin, kRows, kSync, kFinish };
+
+  FailingMesh(std::unique_ptr<io::SharedMesh> mesh, std::optional<When> when)
+      : mesh_(std::move(mesh)), when_(when) {}
+
+  void create() override { mesh_->create(); }
+  [[nodiscard]] std::string place() const override { return mesh_->place(); }
+  void join(const std::string& place) override {
+    fail(When::kJoin);
+    mesh_->join(place);
+  }
+  void lay_out(const io::MeshHeader& header, std::uint64_t vertices) override {
+    mesh_->lay_out(header, vertices);
+  }
+  void begin(std::uint64_t tets) override { mesh_->begin(tets); }
+  void go_to(const io::RowPlace& rows) override { mesh_->go_to(rows); }
+  void write_vertices(std::span<const io::Position> positions) override {
+    mesh_->write_vertices(positions);
+  }
+  void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override {
+    fail(When::kRows);
+    mesh_->write_tets(tets, labels);
+  }
+  void sync() override {
+    fail(When::kSync);
+    mesh_->sync();
+  }
+  void finish() override {
+    fail(When::kFinish);
+    mesh_->finish();
+  }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return mesh_->buffer_bytes(); }
+
+ private:
+  void fail(When here) const {
+    if (when_ == here) throw Error(ErrorKind::kResource, "the disk is full");
+  }
+
+  std::unique_ptr<io::SharedMesh> mesh_;
+  std::optional<When> when_;
+};
+
+/// Returns how many ranks were told.
+int ranks_told(const Trial& trial, int failing, FailingMesh::When when,
+               const std::filesystem::path& path) {
+  std::atomic<int> told = 0;
+  const ThreadExchangeOptions options{
+      .ranks = 3, .seed = 10, .max_delay = std::chrono::microseconds(500)};
+  for_ranks(options, [&](Team& team) {
+    const test::MemoryVolume volume(trial.volume, trial.frame);
+    const io::LabelTable table = io::collect_labels(volume);
+    test::MemorySink unused;
+    FailingMesh mesh(io::open_shared_mesh(path),
+                     team.rank() == failing ? std::optional(when) : std::nullopt);
+    if (team.is_first()) mesh.create();
+    try {
+      (void)mesh_volume(io::DenseVolume(volume, table), trial.settings, unused,
+                        {.team = &team, .together = &mesh});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kResource);
+      EXPECT_THAT(error.what(), ::testing::EndsWith("the disk is full"));
+      ++told;
+    }
+  });
+  return told;
+}
+
+TEST_F(WrittenTogether, AFailedWriterEndsAllAndLeavesNothing) {
+  using When = FailingMesh::When;
+  // Rank 0 has made what the others join, and they give no names.
+  constexpr std::array<std::pair<int, When>, 6> kFailures{{{2, When::kJoin},
+                                                           {0, When::kRows},
+                                                           {2, When::kRows},
+                                                           {0, When::kSync},
+                                                           {2, When::kSync},
+                                                           {0, When::kFinish}}};
+  std::mt19937 random(318);
+  const Trial trial = trial_of(random, 1, {12, 24, 20});
+  for (const auto& [failing, when] : kFailures) {
+    EXPECT_EQ(ranks_told(trial, failing, when, folder() / "m.vtkhdf"), 3);
+    EXPECT_TRUE(std::filesystem::is_empty(folder()));
+  }
 }
 
 /// All ranks visit each window once, between them, and send what the routes say.
