@@ -34,12 +34,13 @@ class Remembered {
   }
 
  private:
-  static constexpr std::uint64_t kStepBytes = 1 << 20;
+  static constexpr std::uint64_t kMinStepBytes = 1 << 16;
+  static constexpr std::uint64_t kMaxStepBytes = 1 << 20;
 
   void tell() {
     const std::uint64_t sum = rows_ + shape_ + shared_;
     if (!hold_ || sum <= held_) return;
-    held_ = sum + kStepBytes;
+    held_ = sum + std::min(sum / 8 + kMinStepBytes, kMaxStepBytes);
     hold_(held_);
   }
 
