@@ -36,7 +36,7 @@ template <typename T>
   }
   std::uint64_t coming = 0;
   std::vector<std::vector<T>> out(ranks);
-  const auto sizes = team.swap(std::move(messages));
+  const auto sizes = team.trade(std::move(messages));
   for (const auto& size : sizes) coming += list_of<std::uint64_t>(size).at(0);
   if (options.expect) options.expect(coming);
   for (std::size_t from = 0; from < ranks; ++from) {
@@ -51,7 +51,7 @@ template <typename T>
       if (begin >= mine[to].size()) continue;
       messages[to] = bytes_of(mine[to].data() + begin, std::min(part, mine[to].size() - begin));
     }
-    const auto came = team.swap(std::move(messages));
+    const auto came = team.trade(std::move(messages));
     for (std::size_t from = 0; from < ranks; ++from) {
       const std::vector<T> list = list_of<T>(came[from]);
       out[from].insert(out[from].end(), list.begin(), list.end());

@@ -73,8 +73,8 @@ std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine, Ch
   return out;
 }
 
-std::vector<std::vector<std::byte>> Team::swap(std::vector<std::vector<std::byte>> mine,
-                                               Channel channel) {
+std::vector<std::vector<std::byte>> Team::trade(std::vector<std::vector<std::byte>> mine,
+                                                Channel channel) {
   MW_ASSERT(mine.size() == static_cast<std::size_t>(ranks()));
   const auto me = static_cast<std::size_t>(rank());
   const Gathering gathering = next_gathering(channel);

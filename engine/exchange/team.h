@@ -39,8 +39,8 @@ class Team {
                                                            Channel channel = Channel::kRun);
   /// What every rank says to this one, by rank, when each says `mine` to each, by rank.  It counts
   /// as gather().  REQUIRES: as many as ranks.  ERRORS: as gather().
-  [[nodiscard]] std::vector<std::vector<std::byte>> swap(std::vector<std::vector<std::byte>> mine,
-                                                         Channel channel = Channel::kRun);
+  [[nodiscard]] std::vector<std::vector<std::byte>> trade(std::vector<std::vector<std::byte>> mine,
+                                                          Channel channel = Channel::kRun);
   /// gather() of texts.
   [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
 

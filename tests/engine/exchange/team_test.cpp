@@ -37,20 +37,22 @@ TEST(Team, GathersWhatEveryoneSaysAgainAndAgain) {
   }
 }
 
-TEST(Team, SwapsWhatEachSaysToEach) {
+TEST(Team, TradesWhatEachSaysToEach) {
   for (int ranks : {1, 2, 5}) {
     for_ranks({.ranks = ranks, .seed = 3, .max_delay = std::chrono::microseconds(2000)},
               [&](Team& team) {
                 for (int round = 0; round < 20; ++round) {
                   std::vector<std::vector<std::byte>> mine;
                   for (int to = 0; to < ranks; ++to) {
-                    mine.push_back(bytes(static_cast<std::size_t>(round + to), team.rank()));
+                    const int size = round + to;
+                    mine.push_back(bytes(static_cast<std::size_t>(size), team.rank()));
                   }
-                  const auto said = team.swap(std::move(mine));
+                  const auto said = team.trade(std::move(mine));
                   ASSERT_EQ(said.size(), static_cast<std::size_t>(ranks));
+                  const int size = round + team.rank();
                   for (int from = 0; from < ranks; ++from) {
                     EXPECT_EQ(said[static_cast<std::size_t>(from)],
-                              bytes(static_cast<std::size_t>(round + team.rank()), from));
+                              bytes(static_cast<std::size_t>(size), from));
                   }
                 }
               });
@@ -61,8 +63,9 @@ TEST(Team, SwapsWhatEachSaysToEach) {
 TEST(Team, SwapsListsByPieces) {
   constexpr int kRanks = 4;
   const auto list = [](int from, int to) {
-    std::vector<std::uint64_t> out(static_cast<std::size_t>(37 * from * to + from));
-    std::iota(out.begin(), out.end(), static_cast<std::uint64_t>(1000 * from + to));
+    const int size = 37 * from * to + from;
+    std::vector<std::uint64_t> out(static_cast<std::size_t>(size));
+    std::iota(out.begin(), out.end(), 1000 * static_cast<std::uint64_t>(from));
     return out;
   };
   for_ranks({.ranks = kRanks, .seed = 8, .max_delay = std::chrono::microseconds(300)},

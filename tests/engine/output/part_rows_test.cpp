@@ -34,7 +34,7 @@ std::vector<std::uint32_t> random_owners(std::mt19937& random, Index3 blocks, st
 /// All ranks of one process, and their messages.
 class Ranks {
  public:
-  Ranks(const Scattered& scattered, std::vector<std::uint32_t> owners, std::uint32_t count)
+  Ranks(const Scattered& scattered, const std::vector<std::uint32_t>& owners, std::uint32_t count)
       : scattered_(scattered), count_(count) {
     for (std::uint32_t rank = 0; rank < count; ++rank) {
       shares_.emplace_back(scattered.grid.blocks(), owners, rank);

@@ -13,7 +13,6 @@
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
 using test::random_shape;
 using test::scatter_vertices;
 using test::Scattered;
