@@ -231,9 +231,11 @@ int ranks_told(const Trial& trial, int failing, FailingMesh::When when,
       (void)mesh_volume(io::DenseVolume(volume, table), trial.settings, unused,
                         {.team = &team, .together = &mesh});
     } catch (const Error& error) {
+      ++told;
+      // To a rank that is told late the file may be gone already; rank 0, who speaks, knows why.
+      if (!team.is_first() && team.rank() != failing) return;
       EXPECT_EQ(error.kind(), ErrorKind::kResource);
       EXPECT_THAT(error.what(), ::testing::EndsWith("the disk is full"));
-      ++told;
     }
   });
   return told;
