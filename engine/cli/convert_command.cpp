@@ -17,6 +17,7 @@ struct ConvertJob {
   std::string to;
   bool ascii = false;
   std::string element = "tet4";
+  std::uint64_t pieces = 0;  ///< 0: not asked for
 };
 
 /// The mesh is read while the other is written; what is beside that is not to be the mesh.
@@ -29,11 +30,25 @@ void require_other_files(const ConvertJob& job) {
   }
 }
 
+std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
+  const io::Element element = parse_element(job.element);
+  const bool in_pieces = std::filesystem::path(job.to).extension() == io::kPiecesExtension;
+  if (!in_pieces && job.pieces == 0) {
+    const io::Encoding encoding = job.ascii ? io::Encoding::kText : io::Encoding::kUsual;
+    return io::open_mesh_sink(job.to, element, encoding);
+  }
+  if (in_pieces && job.pieces == 0) {
+    throw Error(ErrorKind::kUsage, job.to + ": a mesh in pieces; say how many with --pieces N");
+  }
+  if (job.ascii || element != io::Element::kTet4) {
+    throw Error(ErrorKind::kUsage, job.to + ": pieces are written with tet4 only, and in one way");
+  }
+  return io::open_mesh_pieces(job.to, job.pieces);
+}
+
 int run_convert(const ConvertJob& job) {
   require_other_files(job);
-  const io::Encoding encoding = job.ascii ? io::Encoding::kText : io::Encoding::kUsual;
-  const std::unique_ptr<io::MeshSink> sink =
-      io::open_mesh_sink(job.to, parse_element(job.element), encoding);
+  const std::unique_ptr<io::MeshSink> sink = open_output(job);
   io::copy_mesh(job.from, *sink);
   return kExitDone;
 }
@@ -52,6 +67,13 @@ void add_convert_command(CLI::App& program, Action& chosen) {
                    "nodes of a tet in OUT: tet4; tet10, with the middles of its edges")
       ->type_name("ELEMENT")
       ->capture_default_str();
+  command
+      ->add_option(
+          "--pieces", job->pieces,
+          "writes OUT, a .pvtu, and so many .vtu files in a folder beside it, for programs "
+          "on many processes; vertices of several pieces have one of GlobalNodeIds")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 20));
   command->callback([job, &chosen] { chosen = [job] { return run_convert(*job); }; });
 }
 

@@ -47,4 +47,9 @@ void AtomicFolder::commit() {
   lock_ = FileDescriptor();
 }
 
+void AtomicFolder::withdraw() {
+  std::error_code ignored;
+  std::filesystem::remove_all(target_, ignored);
+}
+
 }  // namespace mw::io

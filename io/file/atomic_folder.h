@@ -24,6 +24,9 @@ class AtomicFolder {
   [[nodiscard]] const std::filesystem::path& path() const { return partial_; }
   /// REQUIRES: called once; nothing is written afterwards.
   void commit();
+  /// Removes the folder with its name, for what should have come with it and did not.
+  /// REQUIRES: commit() was called; nothing else is in it.
+  void withdraw();
 
  private:
   std::filesystem::path target_;

@@ -17,6 +17,7 @@
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/medit/medit_reader.h"
 #include "io/mesh/medit/medit_sink.h"
+#include "io/mesh/pieces/pvtu_sink.h"
 #include "io/mesh/tetgen/tetgen_reader.h"
 #include "io/mesh/tetgen/tetgen_writer.h"
 #include "io/mesh/vtkhdf/vtkhdf_reader.h"
@@ -158,6 +159,16 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
   if (format.open_text != nullptr) return format.open_text(path, element);
   throw Error(ErrorKind::kUsage, text(path.string(), ": ", path.extension().string(),
                                       " is written in one way, so ascii is not for it"));
+}
+
+std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
+                                           std::uint64_t pieces) {
+  if (path.extension() != kPiecesExtension) {
+    throw Error(ErrorKind::kUsage, text(path.string(), ": pieces are written as ", kPiecesExtension,
+                                        " and files beside it"));
+  }
+  if (pieces == 0) throw Error(ErrorKind::kUsage, text(path.string(), ": no pieces are no mesh"));
+  return std::make_unique<PvtuSink>(path, pieces);
 }
 
 std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path, Element element) {

@@ -40,8 +40,16 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
                                                        Element element = Element::kTet4,
                                                        Encoding encoding = Encoding::kUsual);
 
-/// The same for several processes that write it together: .vtkhdf of kTet4; null: only one can.
-/// No file is touched before create() or join().
+/// The ending of meshes in pieces, which are written only.
+inline constexpr const char* kPiecesExtension = ".pvtu";
+/// A mesh of four nodes a tet in so many pieces (pieces/pvtu_sink.h), for programs that run on many
+/// processes.
+/// ERRORS: mw::Error(kUsage) for another extension or no pieces, or a path that cannot be written.
+[[nodiscard]] std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
+                                                         std::uint64_t pieces);
+
+/// open_mesh_sink() for several processes that write together: .vtkhdf of kTet4; null: only one
+/// can. No file is touched before create() or join().
 [[nodiscard]] std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path,
                                                            Element element = Element::kTet4);
 

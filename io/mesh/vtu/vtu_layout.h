@@ -14,9 +14,11 @@ namespace mw::io {
 /// The file: XML head whose length depends on its fields alone (vtu_names.h), '_', then
 /// for each array a UInt64 byte count and the numbers, little-endian (connectivity Int64 x 4 or 10,
 /// offsets Int64, types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.
-/// The points are last, so that every place but the end is known before their number is.
+/// The points are last, so that every place but the end is known before their number is; behind
+/// them may be ids of nodes, Int64.
 struct VtuLayout {
-  enum Array { kConnectivity, kOffsets, kTypes, kLabel, kPoints, kArrays };
+  enum Array { kConnectivity, kOffsets, kTypes, kLabel, kPoints, kIds, kArrays };
+  std::size_t arrays = kIds;                    ///< how many of them there are
   std::string head;                             ///< up to and including '_'
   std::string tail;                             ///< behind the last array
   std::array<std::uint64_t, kArrays> start{};   ///< file offset of the byte count
@@ -24,8 +26,13 @@ struct VtuLayout {
   std::uint64_t tail_start = 0;
 };
 
+/// The name that VTK knows for numbers of points that hold for all pieces of a grid.
+inline constexpr const char* kNodeIds = "GlobalNodeIds";
+enum class VtuIds : std::uint8_t { kNone, kOfNodes };
+
 /// ENSURES: head.size() and start are those of any other number of vertices.  Cost: O(names).
 [[nodiscard]] VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices,
-                                        Element element = Element::kTet4);
+                                        Element element = Element::kTet4,
+                                        VtuIds ids = VtuIds::kNone);
 
 }  // namespace mw::io

@@ -31,8 +31,9 @@ void FileRegion::flush() {
 void VtuSink::begin(const MeshHeader& header) {
   header_ = header;
   // Where the numbers of an array start does not depend on how many vertices there will be.
-  for (const std::uint64_t start : make_vtu_layout(header, 0, element_).start) {
-    regions_.emplace_back(file_, start + sizeof(std::uint64_t));
+  const VtuLayout layout = make_vtu_layout(header, 0, element_);
+  for (std::size_t i = 0; i < layout.arrays; ++i) {
+    regions_.emplace_back(file_, layout.start[i] + sizeof(std::uint64_t));
   }
 }
 
@@ -68,7 +69,7 @@ void VtuSink::finish() {
   for (FileRegion& region : regions_) region.flush();
   const VtuLayout layout = make_vtu_layout(header_, vertices_, element_);
   file_.write_at(0, std::as_bytes(std::span(layout.head)));
-  for (std::size_t i = 0; i < VtuLayout::kArrays; ++i) {
+  for (std::size_t i = 0; i < layout.arrays; ++i) {
     std::array<std::byte, sizeof(std::uint64_t)> length;
     store_little(layout.length[i], length.data());
     file_.write_at(layout.start[i], length);

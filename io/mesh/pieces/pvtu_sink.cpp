@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/mesh/pieces/pvtu_sink.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "io/file/byte_order.h"
+#include "io/file/errors.h"
+#include "io/mesh/pieces/mesh_parts.h"
+#include "io/mesh/vtu/vtu_layout.h"
+#include "io/mesh/xml_text.h"
+
+namespace mw::io {
+namespace {
+
+std::string piece_name(const std::string& stem, std::uint64_t number) {
+  char digits[24];
+  std::snprintf(digits, sizeof digits, "_%04llu", static_cast<unsigned long long>(number));
+  return stem + digits + ".vtu";
+}
+
+std::string index_text(const std::string& stem, std::uint64_t pieces, bool labels_signed) {
+  std::string out = text(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PUnstructuredGrid "
+      "GhostLevel=\"0\">\n    <PPointData GlobalIds=\"",
+      kNodeIds,
+      "\">\n      <PDataArray "
+      "type=\"Int64\" Name=\"",
+      kNodeIds,
+      "\"/>\n    </PPointData>\n    <PCellData "
+      "Scalars=\"label\">\n      <PDataArray type=\"",
+      labels_signed ? "Int64" : "UInt64",
+      "\" Name=\"label\"/>\n    </PCellData>\n    <PPoints>\n      <PDataArray type=\"Float64\" "
+      "Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n");
+  for (std::uint64_t i = 0; i < pieces; ++i) {
+    out += text("    <Piece Source=\"", xml_escaped(stem + "/" + piece_name(stem, i)), "\"/>\n");
+  }
+  return out + "  </PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+template <class T>
+void append(AtomicFile& file, T value) {
+  std::array<std::byte, sizeof value> bytes;
+  store_little(value, bytes.data());
+  file.append(bytes);
+}
+
+/// Vertices of these tets, ascending.
+std::vector<std::uint64_t> rows_of(const MeshData& mesh, std::span<const std::uint64_t> tets) {
+  std::vector<std::uint64_t> rows;
+  rows.reserve(4 * tets.size());
+  for (const std::uint64_t t : tets) {
+    rows.insert(rows.end(), mesh.tets[t].begin(), mesh.tets[t].end());
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  rows.shrink_to_fit();
+  return rows;
+}
+
+}  // namespace
+
+PvtuSink::PvtuSink(const std::filesystem::path& path, std::uint64_t pieces)
+    : name_(path.string()),
+      pieces_(pieces),
+      index_(path),
+      folder_(std::filesystem::path(path).replace_extension()),
+      stem_(path.stem().string()) {}
+
+void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> tets) {
+  const MeshData& whole = mesh();
+  const std::vector<std::uint64_t> rows = rows_of(whole, tets);
+  const VtuLayout layout = make_vtu_layout(
+      {.tets = tets.size(), .labels_signed = whole.labels_signed, .names = whole.names},
+      rows.size(), Element::kTet4, VtuIds::kOfNodes);
+  AtomicFile file(folder_.path() / piece_name(stem_, number));
+  const auto begin = [&](VtuLayout::Array array) { append(file, layout.length[array]); };
+  file.append(layout.head);
+  begin(VtuLayout::kConnectivity);
+  for (const std::uint64_t t : tets) {
+    for (const std::uint64_t v : whole.tets[t]) {
+      const auto at = std::lower_bound(rows.begin(), rows.end(), v);
+      append(file, static_cast<std::uint64_t>(at - rows.begin()));
+    }
+  }
+  begin(VtuLayout::kOffsets);
+  for (std::uint64_t i = 1; i <= tets.size(); ++i) append(file, 4 * i);
+  begin(VtuLayout::kTypes);
+  for (std::size_t i = 0; i < tets.size(); ++i) append(file, vtk_type(Element::kTet4));
+  begin(VtuLayout::kLabel);
+  for (const std::uint64_t t : tets) append(file, whole.labels[t]);
+  begin(VtuLayout::kPoints);
+  for (const std::uint64_t v : rows) {
+    for (const double x : whole.vertices[v]) append(file, x);
+  }
+  begin(VtuLayout::kIds);
+  for (const std::uint64_t v : rows) append(file, v);
+  file.append(layout.tail);
+  file.commit();
+}
+
+void PvtuSink::finish() {
+  const std::uint64_t tets = mesh().tets.size();
+  if (pieces_ > tets) {
+    throw Error(ErrorKind::kUsage,
+                text(name_, ": ", pieces_, " pieces of ", tets, " tets; ask for fewer"));
+  }
+  const auto parts = mesh_parts(mesh(), pieces_);
+  for (std::uint64_t i = 0; i < parts.size(); ++i) write_piece(i, parts[i]);
+  index_.append(index_text(stem_, pieces_, mesh().labels_signed));
+  index_.sync();
+  folder_.commit();
+  try {
+    index_.give_name();
+  } catch (...) {
+    folder_.withdraw();
+    throw;
+  }
+}
+
+}  // namespace mw::io
