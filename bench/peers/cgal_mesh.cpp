@@ -58,7 +58,7 @@ io::MeshData with_raw_labels(io::MeshData mesh, const io::LabelTable& table) {
 
 /// Keys as in the report of mwmesh.
 nlohmann::ordered_json report_of(const io::VolumeInfo& info, std::size_t labels,
-                                 const io::MeshData& mesh, const cli::Resources& used) {
+                                 const io::MeshData& mesh, const report::Resources& used) {
   const auto voxels = static_cast<double>(info.shape.product());
   return {{"input",
            {{"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
@@ -67,7 +67,7 @@ nlohmann::ordered_json report_of(const io::VolumeInfo& info, std::size_t labels,
           {"output",
            {{"vertices", mesh.vertices.size()},
             {"tets", mesh.tets.size()},
-            {"vertex_fraction", cli::vertex_fraction(mesh.vertices.size(), info.shape)}}},
+            {"vertex_fraction", report::vertex_fraction(mesh.vertices.size(), info.shape)}}},
           {"performance",
            {{"wall_s", used.wall_seconds},
             {"cpu_s", used.cpu_seconds},
@@ -76,7 +76,7 @@ nlohmann::ordered_json report_of(const io::VolumeInfo& info, std::size_t labels,
 }
 
 void run(const Job& job) {
-  const cli::ResourceMeter meter;
+  const report::ResourceMeter meter;
   const std::unique_ptr<io::MeshSink> sink = io::open_mesh_sink(job.mesh);
   const std::unique_ptr<io::LabelVolume> volume = io::open_volume(job.volume);
   const io::LabelTable table = io::collect_labels(*volume);
