@@ -84,6 +84,7 @@ TEST(Hdf5Tree, HoldsStrings) {
   const auto read = read_set<char*>(file.get(), "names", type.get(), texts.size());
   for (std::size_t i = 0; i < texts.size(); ++i) {
     EXPECT_EQ(read[i] == nullptr ? "" : std::string(read[i]), texts[i]);
+    H5free_memory(read[i]);
   }
 }
 
