@@ -74,6 +74,8 @@ void InpLines::read_keyword(InpLine& line) {
   }
   const std::vector<std::string> items = items_of(whole);
   line.keyword = in_capitals(trimmed(std::string_view(items[0]).substr(1)));
+  // Without one it would be taken for a line of data, which has items.
+  if (line.keyword.empty()) fail("'*' without a keyword");
   for (std::size_t i = 1; i < items.size(); ++i) {
     const std::string_view item = items[i];
     const std::size_t equals = std::min(item.find('='), item.size());

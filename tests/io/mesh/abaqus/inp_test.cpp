@@ -120,6 +120,8 @@ TEST_F(Inp, RefusesWhatItDoesNotRead) {
   refuse(nodes + "*NODE\n60, 1, x\n", {"line 13", "'x'"});
   refuse(nodes + "*NODE\n60, inf\n", {"'inf'"});
   refuse("*Include, input=mesh.inc\n", {"*INCLUDE"});
+  refuse("*Node\n*\n", {"without a keyword"});
+  refuse("*Node\n * , nset=all\n", {"without a keyword"});
   refuse("*NODE, INPUT=mesh.inc\n", {"another file"});
   refuse("*NODE, SYSTEM=C\n", {"system"});
   refuse("*ELSET, ELSET=A, GENERATE\n1, 5, 0\n", {"step"});
