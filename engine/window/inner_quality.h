@@ -7,7 +7,7 @@
 
 namespace mw::engine {
 
-/// Where interfaces are everywhere, half of the shape of a mesh is decided here.
+/// Where interfaces are everywhere.
 inline constexpr double kInnerQuality = 0.465;
 /// Where a mesh is mostly of what is far from them.
 inline constexpr double kSparseInnerQuality = 0.38;

@@ -8,6 +8,7 @@
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
 #include "io/mesh/pieces/mesh_parts.h"
+#include "io/mesh/sink_counts.h"
 #include "io/mesh/vtu/vtu_layout.h"
 #include "io/mesh/xml_text.h"
 
@@ -69,6 +70,15 @@ PvtuSink::PvtuSink(const std::filesystem::path& path, std::uint64_t pieces)
       folder_(std::filesystem::path(path).replace_extension()),
       stem_(path.stem().string()) {}
 
+void PvtuSink::begin(const MeshHeader& header) {
+  if (pieces_ > header.tets) {
+    throw Error(ErrorKind::kUsage,
+                text(name_, ": ", pieces_, " pieces of ", header.tets, " tets; ask for fewer"));
+  }
+  header_ = header;
+  MeshDataSink::begin(header);
+}
+
 void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> tets) {
   const MeshData& whole = mesh();
   const std::vector<std::uint64_t> rows = rows_of(whole, tets);
@@ -102,11 +112,7 @@ void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> 
 }
 
 void PvtuSink::finish() {
-  const std::uint64_t tets = mesh().tets.size();
-  if (pieces_ > tets) {
-    throw Error(ErrorKind::kUsage,
-                text(name_, ": ", pieces_, " pieces of ", tets, " tets; ask for fewer"));
-  }
+  check_sink_counts(name_, header_, mesh().tets.size());
   const auto parts = mesh_parts(mesh(), pieces_);
   for (std::uint64_t i = 0; i < parts.size(); ++i) write_piece(i, parts[i]);
   index_.append(index_text(stem_, pieces_, mesh().labels_signed));

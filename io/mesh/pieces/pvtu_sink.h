@@ -25,6 +25,7 @@ class PvtuSink : public MeshDataSink {
   /// REQUIRES: pieces >= 1.
   PvtuSink(const std::filesystem::path& path, std::uint64_t pieces);
 
+  void begin(const MeshHeader& header) override;
   void finish() override;
 
  private:
@@ -32,6 +33,7 @@ class PvtuSink : public MeshDataSink {
 
   std::string name_;
   std::uint64_t pieces_;
+  MeshHeader header_;
   AtomicFile index_;
   AtomicFolder folder_;
   std::string stem_;

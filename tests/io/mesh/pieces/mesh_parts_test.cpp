@@ -35,7 +35,7 @@ TEST(MeshParts, ShareOutAllTetsEvenly) {
   EXPECT_EQ(mesh_parts(cube, cube.tets.size()).size(), cube.tets.size());
 }
 
-/// Eight pieces of a cube are its octants; slabs would share six times as many vertices.
+/// Eight pieces of a cube are its octants.
 TEST(MeshParts, AreCompact) {
   const MeshData mesh = grid_mesh({8, 8, 8}, 414);
   for (const auto& part : mesh_parts(mesh, 8)) {
