@@ -183,9 +183,8 @@ FinishedMesh write_mesh(const RunLayout& layout, const VoxelLattice& lattice, Ru
                          options);
 }
 
-void report_shape(FinishedMesh& finished, const LabelCounts& labels, const LabelSelection& kept,
-                  RunReport& report) {
-  report.shape = finished.shape;
+void report_labels(FinishedMesh& finished, const LabelCounts& labels, const LabelSelection& kept,
+                   RunReport& report) {
   report.label_volumes6 = std::move(finished.label_volumes6);
   report.longest_edges = std::move(finished.longest_edges);
   report.label_voxels = labels.voxels;
@@ -245,9 +244,10 @@ std::uint64_t march_and_write(const RunLayout& layout, const VoxelLattice& latti
   report.vertices = finished.vertices;
   report.tets = finished.tets;
   report.quality = finished.quality;
-  if (finished.shape) {
-    report_shape(finished, counts, LabelSelection(hooks.output.wanted, lattice.volume().table()),
-                 report);
+  report.shape = finished.shape;
+  if (!finished.label_volumes6.empty()) {
+    report_labels(finished, counts, LabelSelection(hooks.output.wanted, lattice.volume().table()),
+                  report);
   }
   return marches.stats().windows;
 }

@@ -37,10 +37,10 @@ struct RunReport : VisitStats {
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
   double output_seconds = 0.0;
   std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
-  std::optional<audit::ShapeReport> shape;      ///< the same
-  std::vector<std::uint64_t> label_voxels;      ///< with shape, by dense label; 0: not written
+  std::optional<audit::ShapeReport> shape;      ///< the same, but of a mesh written together
+  std::vector<std::uint64_t> label_voxels;      ///< the same, by dense label; 0: not written
   std::vector<Int128> label_volumes6;           ///< see FinishedMesh
-  std::vector<double> longest_edges;            ///< the same, with shape and sizes
+  std::vector<double> longest_edges;            ///< the same, with sizes
   std::uint64_t memory_budget_bytes = 0;
   std::uint64_t peak_accounted_bytes = 0;
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time

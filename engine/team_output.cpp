@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/team_output.h"
 
+#include <functional>
+
+#include "engine/exchange/folded_lists.h"
 #include "engine/exchange/plain_bytes.h"
 #include "engine/exchange/swapped_lists.h"
+#include "engine/output/block_figures.h"
 #include "engine/output/part_rows.h"
 #include "engine/output/remembered.h"
 #include "engine/output/written_block.h"
-#include "kernels/core/assert.h"
 
 namespace mw::engine {
 namespace {
@@ -42,6 +45,34 @@ AllRows rows_before(Team& team, const LineShare& share, const std::vector<LineRo
   return out;
 }
 
+/// What rank 0 asks for.
+OutputOptions asked_by_first(Team& team, OutputOptions options) {
+  struct Wishes {
+    bool quality, shape, edges;
+  };
+  const Wishes mine{options.measure_quality, options.measure_shape, options.measure_edges};
+  const Wishes first = list_of<Wishes>(team.gather(bytes_of(&mine, 1)).at(0)).at(0);
+  options.measure_quality = first.quality;
+  options.measure_shape = first.shape;
+  options.measure_edges = first.edges;
+  return options;
+}
+
+/// Of all ranks, on rank 0.
+void add_up(Team& team, BlockFigures& mine) {
+  if (mine.quality) {
+    audit::QualityMeter sum;
+    for (const auto& said : team.gather(bytes_of(&*mine.quality, 1))) {
+      sum.add(list_of<audit::QualityMeter>(said).at(0));
+    }
+    mine.quality = sum;
+  }
+  if (mine.edges) {
+    fold_lists(team, mine.edges->squares(), [](double a, double b) { return std::max(a, b); });
+  }
+  fold_lists(team, mine.volumes6, std::plus<>());
+}
+
 /// One rank's part.
 class PartOfMesh {
  public:
@@ -54,7 +85,8 @@ class PartOfMesh {
         layers_(options.layers),
         selection_(options.wanted, volume.table()),
         remembered_(options.hold),
-        uses_(grid) {}
+        uses_(grid),
+        figures_(options, volume.table().size()) {}
 
   /// First pass and second pass.  Returns how many rows there are in all.
   LineRows number() {
@@ -83,11 +115,14 @@ class PartOfMesh {
         share_,
         [&](std::size_t) {
           const LineRows& at = places_.own[line++];
+          next_tet_ = at.tets;
           mesh.go_to({.vertex = at.vertices, .tet = at.tets});
         },
         [&](Index3 b) { write(b, mesh); });
     mesh.sync();
   }
+
+  [[nodiscard]] BlockFigures& figures() { return figures_; }
 
   [[nodiscard]] io::MeshHeader header(const OutputOptions& options) const {
     return header_of(volume_, selection_, places_.all.tets, options.promises);
@@ -147,6 +182,8 @@ class PartOfMesh {
     for (std::size_t v : assigned.added) added.push_back(positions[v]);
     mesh.write_vertices(added);
     std::vector<io::TetRows> tets = oriented_tets(block, is_mirrored(info.space));
+    figures_.add(block, positions, tets, next_tet_);
+    next_tet_ += tets.size();
     give_rows(tets, assigned.rows);
     mesh.write_tets(tets, raw_labels(block, volume_.table()));
   }
@@ -162,6 +199,8 @@ class PartOfMesh {
   std::vector<LineRows> lines_;  ///< own ones, ascending
   AllRows places_;
   std::optional<PartRows> rows_;
+  BlockFigures figures_;
+  std::uint64_t next_tet_ = 0;
 };
 
 }  // namespace
@@ -181,16 +220,20 @@ bool join_output(Team& team, io::SharedMesh* mesh) {
 
 FinishedMesh finish_together(Team& team, const LineShare& share, FinalBlocks& blocks,
                              const WindowGrid& grid, const io::DenseVolume& volume,
-                             io::SharedMesh& mesh, const OutputOptions& options) {
-  MW_ASSERT(!options.measure_quality && !options.measure_shape && !options.measure_edges);
+                             io::SharedMesh& mesh, const OutputOptions& asked) {
+  const OutputOptions options = asked_by_first(team, asked);
   PartOfMesh part(team, share, blocks, grid, volume, options);
   const LineRows all = part.number();
   if (team.is_first()) mesh.lay_out(part.header(options), all.vertices);
   (void)team.gather(std::string());  // nobody opens a file that has not got its size
   part.write(mesh);
   (void)team.gather(std::string());  // all rows are on the disk
-  if (team.is_first()) mesh.finish();
-  return {.vertices = all.vertices, .tets = all.tets};
+  add_up(team, part.figures());
+  FinishedMesh out{.vertices = all.vertices, .tets = all.tets};
+  if (!team.is_first()) return out;
+  part.figures().report(out);
+  mesh.finish();
+  return out;
 }
 
 }  // namespace mw::engine

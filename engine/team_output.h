@@ -16,12 +16,14 @@ namespace mw::engine {
 [[nodiscard]] bool join_output(Team& team, io::SharedMesh* mesh);
 
 /// finish() by all ranks: each writes the rows of its own lines, rank 0 gives the file its name.
-/// blocks: own ones.  REQUIRES: join_output(); nothing is to be measured.
-/// ENSURES: the bytes are those of finish() by one process.  Every rank gets the counts.
+/// blocks: own ones.  REQUIRES: join_output().
+/// ENSURES: the bytes are those of finish() by one process.  Every rank gets the counts; rank 0
+/// what it asks to be measured, the same as finish(), but for the shape of interfaces, which needs
+/// the whole mesh to pass by one process: FinishedMesh::shape stays empty.
 /// Each reads its blocks three times: who references what, which rows are new, and to write.
 /// Memory: as finish() of own blocks; 16 bytes a line of all blocks; PartRows and the claims that
-/// it takes, which grow with the faces between this rank's lines and others'. ERRORS: those of any
-/// rank.
+/// it takes, which grow with the faces between this rank's lines and others'; 24 bytes a label
+/// where something is measured.  ERRORS: those of any rank.
 FinishedMesh finish_together(Team& team, const LineShare& share, FinalBlocks& blocks,
                              const WindowGrid& grid, const io::DenseVolume& volume,
                              io::SharedMesh& mesh, const OutputOptions& options);

@@ -32,11 +32,11 @@ class Sleeper {
  public:
   Sleeper(const Nap& nap, engine::Exchange& exchange)
       : nap_(nap), exchange_(exchange), crew_(static_cast<int>(nap.machines.cores)) {
-    exchange_.listen([this](engine::Message message) { take(message.head[0]); }, {});
+    exchange_.listen({.receive = [this](engine::Message message) { take(message.head[0]); }});
   }
   Sleeper(const Sleeper&) = delete;
   Sleeper& operator=(const Sleeper&) = delete;
-  ~Sleeper() { exchange_.listen({}, {}); }
+  ~Sleeper() { exchange_.listen({}); }
 
   void march(std::uint32_t number) {
     const engine::WindowOrder order = nap_.flow.layout().order(number);

@@ -78,7 +78,7 @@ struct MeshFiles {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
-    if (!is_measured(request)) return;
+    if (!is_measured(request) || has_no_sink(shared)) return;
     digest.emplace(request.output.parent_path(), digest_memory(*request.memory));
     both.emplace(*sink, *digest);
     if (!html) return;
@@ -235,7 +235,7 @@ int threads_at_hand(int asked) {
 
 SharedOutput shared_output(const MeshRequest& request, bool is_certified) {
   if (shared_team() == nullptr) return {};
-  return open_shared_output(request, *shared_team(), is_certified, is_measured(request));
+  return open_shared_output(request, *shared_team(), is_certified);
 }
 
 int mesh(const MeshRequest& request, const OptionSet& options) {
@@ -254,7 +254,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   run.resources = meter.read();
   print_summary(run, request, files.shared);
   log_ranks(run.engine);
-  if (is_measured(request)) {
+  if (files.digest) {
     engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
     run.digest = files.digest->digest();
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;

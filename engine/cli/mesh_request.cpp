@@ -81,8 +81,8 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = [&](const std::string& text) { request.html = text; }});
   options.add({.name = "certify",
                .help = "on: the mesh is checked like verify does (P1 to P4) before it gets its "
-                       "name, or the run ends with exit code 5; auto: where a quarter of --memory "
-                       "is enough for that",
+                       "name, or the run ends with exit code 5; auto: where one process makes the "
+                       "mesh and a quarter of --memory is enough",
                .fallback = "auto",
                .choices = {"auto", "on", "off"},
                .assign = [&](const std::string& text) { request.certify = parse_certify(text); }});

@@ -7,7 +7,7 @@
 namespace mw::cli {
 
 SharedOutput open_shared_output(const MeshRequest& request, const engine::Team& team,
-                                bool is_certified, bool is_measured) {
+                                bool is_certified) {
   SharedOutput out{.mesh = io::open_shared_mesh(request.output, request.element), .why_alone = ""};
   if (!team.is_first()) return out;
   if (team.ranks() == 1) {
@@ -16,8 +16,8 @@ SharedOutput open_shared_output(const MeshRequest& request, const engine::Team& 
     out.why_alone = "only a .vtkhdf of tet4 can be written by several";
   } else if (is_certified) {
     out.why_alone = "it makes the certificate";
-  } else if (is_measured) {
-    out.why_alone = "it measures the mesh for the report";
+  } else if (!request.html.empty()) {
+    out.why_alone = "it draws the page";
   } else {
     out.mesh->create();
     return out;

@@ -20,10 +20,10 @@ struct SharedOutput {
   std::string why_alone;
 };
 
-/// is_certified: rank 0 makes a certificate; is_measured: somebody wants to read what came out.
-/// Both need the whole mesh to pass by.
+/// is_certified: rank 0 makes a certificate, for which the whole mesh has to pass by; so it has for
+/// a page.
 /// ERRORS: those of the file, which rank 0 makes.
 [[nodiscard]] SharedOutput open_shared_output(const MeshRequest& request, const engine::Team& team,
-                                              bool is_certified, bool is_measured);
+                                              bool is_certified);
 
 }  // namespace mw::cli

@@ -28,20 +28,25 @@ FinalUsers final_users_of(const RunLayout& layout, const Partition& partition, F
 
 }  // namespace
 
-BlockTraffic::Attached::Attached(BlockTraffic& traffic, RunStore& store) : team_(traffic.team_) {
+BlockTraffic::Attached::Attached(BlockTraffic& traffic, RunStore& store) : traffic_(traffic) {
   BlockTraffic* to = &traffic;
-  team_.listen({.parcel =
-                    [to, &store](const Team::Head& head, std::vector<std::byte> bytes) {
-                      to->receive(store, head, std::move(bytes));
-                    },
-                .signalled = [to](std::uint64_t number) { to->signalled_ = number; },
-                .sent = [to] { to->arrivals_.wake(); },
-                .failed = [to](const Error& error) { to->end(std::make_exception_ptr(error)); }});
+  traffic.rooms_ = IncomingRooms::of(store);
+  traffic.team_.listen(
+      {.parcel =
+           [to, &store](const Team::Head& head, std::vector<std::byte> bytes,
+                        std::shared_ptr<void> ticket) {
+             to->receive(store, head, std::move(bytes), std::move(ticket));
+           },
+       .room = [rooms = traffic.rooms_](std::uint64_t bytes) { return rooms->take(bytes); },
+       .signalled = [to](std::uint64_t number) { to->signalled_ = number; },
+       .sent = [to] { to->arrivals_.wake(); },
+       .failed = [to](const Error& error) { to->end(std::make_exception_ptr(error)); }});
 }
 
 BlockTraffic::Attached::~Attached() {
-  team_.listen({});
-  team_.let_go();
+  traffic_.team_.listen({});
+  traffic_.rooms_->close();
+  traffic_.team_.let_go();
 }
 
 void BlockTraffic::deal(Partition partition, FinalBlocksGo go) {
@@ -54,14 +59,16 @@ BlockVersion BlockTraffic::version_of(const Team::Head& head) const {
   return {block, {block.march, layout_.order(block.march).window(head[1])}};
 }
 
-void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes) {
+void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes,
+                           std::shared_ptr<void> ticket) {
   const BlockVersion version = version_of(head);
   try {
-    store.receive(version, std::move(bytes), head[2]);
+    store.receive(version, std::move(bytes), head[2], rooms_->claim(ticket));
   } catch (const std::exception&) {
     // No room: the march ends with it, if it still runs, or the output.
     return end(std::current_exception());
   }
+  ticket.reset();  // whoever finds no room now is not to wait for it
   note(version);
   ++received_;
   arrivals_.wake();

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 
+#include "engine/exchange/incoming_rooms.h"
 #include "engine/exchange/team.h"
 #include "engine/march/arrivals.h"
 #include "engine/store/partition.h"
@@ -59,7 +60,7 @@ class BlockTraffic : public BlockRouter {
     ~Attached();
 
    private:
-    Team& team_;
+    BlockTraffic& traffic_;
   };
 
   /// Before anything is committed.
@@ -94,10 +95,14 @@ class BlockTraffic : public BlockRouter {
   [[nodiscard]] bool stays(const BlockVersion& version) const override;
   void send(const BlockVersion& version, BlockPin block) override;
   void committed(std::span<const BlockVersion> versions) override;
-  [[nodiscard]] bool is_sending() const override { return !team_.is_idle(); }
+  [[nodiscard]] bool is_carrying() const override {
+    return !team_.is_idle() || (rooms_ != nullptr && !rooms_->is_empty());
+  }
 
  private:
-  void receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes);
+  /// ticket: of rooms_, or null.
+  void receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes,
+               std::shared_ptr<void> ticket);
   [[nodiscard]] int next_rank(const BlockVersion& version) const;
   [[nodiscard]] BlockVersion version_of(const Team::Head& head) const;
   void note(const BlockVersion& version);
@@ -111,6 +116,7 @@ class BlockTraffic : public BlockRouter {
   std::atomic<std::uint64_t> signalled_ = 0;
   std::atomic<std::uint64_t> received_ = 0;
   std::atomic<std::uint64_t> bytes_sent_ = 0;
+  std::shared_ptr<IncomingRooms> rooms_;  ///< while attached
 
   mutable std::mutex mutex_;  ///< guards the next lines
   std::condition_variable changed_;

@@ -12,8 +12,11 @@
 
 namespace mw::engine {
 
-/// What a message is about, for whoever made it; its bytes follow.
+/// What a message is about, for whoever made it; its bytes follow.  The first number is the kind of
+/// message, from 1 to kMaxKind.
 using MessageHead = std::array<std::uint64_t, 4>;
+
+inline constexpr std::uint64_t kMaxKind = 255;
 
 /// Shared with whoever waits until they are sent.
 using SharedBytes = std::shared_ptr<const std::vector<std::byte>>;
@@ -23,10 +26,23 @@ struct Message {
   int from = 0;
   MessageHead head{};
   std::vector<std::byte> bytes;
+  std::shared_ptr<void> room;  ///< of the bytes, what TakeRoom returned
 };
 
 /// Takes messages, one at a time; must not wait for others.
 using OnMessage = std::function<void(Message message)>;
+
+/// Takes room in a budget for the bytes of a message of this kind, before they are in memory; null
+/// where there is none, or none is counted: the message comes all the same.  Must not wait for
+/// other messages.
+using TakeRoom = std::function<std::shared_ptr<void>(std::uint64_t kind, std::uint64_t bytes)>;
+
+/// Who is told of what comes and goes.
+struct ExchangeListener {
+  OnMessage receive;           ///< empty: messages are kept
+  TakeRoom room;               ///< optional; one call at a time, never beside `receive`
+  std::function<void()> sent;  ///< optional: told, now and then, that bytes have left
+};
 
 /// Carries messages between `ranks()` processes, each one exactly once, in any order.
 /// Thread safety: all members but listen().
@@ -46,9 +62,9 @@ class Exchange {
   /// Bytes that have not left yet are let go, too; where that cannot be, it waits, or keeps them
   /// for good.
   virtual void let_go() = 0;
-  /// From now on messages go to `receive`, those that came before first; `sent` is told, now and
-  /// then, that bytes have left.  Empty: they are kept again.
-  virtual void listen(OnMessage receive, std::function<void()> sent) = 0;
+  /// From now on messages go to this one, those that came before first.
+  /// ENSURES: the former listener is not called any more.
+  virtual void listen(ExchangeListener listener) = 0;
 };
 
 }  // namespace mw::engine

@@ -27,15 +27,18 @@ SharedBytes shared(std::vector<std::byte> bytes) {
 }  // namespace
 
 Team::Team(Exchange& exchange) : exchange_(exchange) {
-  exchange_.listen([this](Message message) { receive(std::move(message)); },
-                   [this] {
-                     const std::lock_guard lock(listening_);
-                     if (listener_.sent) listener_.sent();
-                   });
+  exchange_.listen(
+      {.receive = [this](Message message) { receive(std::move(message)); },
+       .room = [this](std::uint64_t kind, std::uint64_t bytes) { return take_room(kind, bytes); },
+       .sent =
+           [this] {
+             const std::lock_guard lock(listening_);
+             if (listener_.sent) listener_.sent();
+           }});
 }
 
 Team::~Team() {
-  exchange_.listen({}, {});
+  exchange_.listen({});
 }
 
 Team::Gathering Team::next_gathering(Channel channel) {
@@ -118,7 +121,7 @@ void Team::listen(Listener listener) {
       if (listener_.signalled) listener_.signalled(m.head[1]);
       continue;
     }
-    listener_.parcel({m.head[1], m.head[2], m.head[3]}, std::move(m.bytes));
+    listener_.parcel({m.head[1], m.head[2], m.head[3]}, std::move(m.bytes), std::move(m.room));
   }
   if (failure) listener_.failed(*failure);
 }
@@ -170,6 +173,12 @@ void Team::note_failure(const Error& error) {
   if (listener_.failed) listener_.failed(error);
 }
 
+std::shared_ptr<void> Team::take_room(std::uint64_t kind, std::uint64_t bytes) {
+  if (kind != kParcel) return nullptr;  // what is gathered has its room from who asks
+  const std::lock_guard turn(listening_);
+  return listener_.room ? listener_.room(bytes) : nullptr;
+}
+
 void Team::receive(Message message) {
   const std::lock_guard turn(listening_);
   switch (message.head[0]) {
@@ -185,7 +194,7 @@ void Team::receive(Message message) {
     case kParcel:
       if (listener_.parcel) {
         return listener_.parcel({message.head[1], message.head[2], message.head[3]},
-                                std::move(message.bytes));
+                                std::move(message.bytes), std::move(message.room));
       }
       waiting_.push_back(std::move(message));
       return;

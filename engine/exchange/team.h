@@ -46,7 +46,9 @@ class Team {
 
   /// The numbers are the sender's; parcels for a rank that has no listener wait.
   using Head = std::array<std::uint64_t, 3>;
-  using OnParcel = std::function<void(const Head& head, std::vector<std::byte> bytes)>;
+  /// room: of the bytes, what Listener::room returned.
+  using OnParcel = std::function<void(const Head& head, std::vector<std::byte> bytes,
+                                      std::shared_ptr<void> room)>;
   void send(int to, const Head& head, SharedBytes bytes);
   /// A number for the listeners of all other ranks.
   void signal(std::uint64_t number);
@@ -56,6 +58,9 @@ class Team {
   /// Who is told: of parcels, one at a time; that bytes have left; that a rank has failed.
   struct Listener {
     OnParcel parcel;
+    /// Optional, see TakeRoom: asked before a parcel's bytes are in memory, but not for those that
+    /// came before there was a listener.
+    std::function<std::shared_ptr<void>(std::uint64_t bytes)> room;
     std::function<void(std::uint64_t number)> signalled;
     std::function<void()> sent;
     std::function<void(const Error& error)> failed;
@@ -80,6 +85,7 @@ class Team {
   /// What the others say; nothing in the place of this rank.
   [[nodiscard]] std::vector<std::vector<std::byte>> hear(const Gathering& gathering);
   void receive(Message message);
+  [[nodiscard]] std::shared_ptr<void> take_room(std::uint64_t kind, std::uint64_t bytes);
   void note_failure(const Error& error);
 
   Exchange& exchange_;

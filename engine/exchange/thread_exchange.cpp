@@ -42,10 +42,11 @@ class LetterBox {
     changed_.notify_all();
   }
 
-  void listen(OnMessage receive) {
+  void listen(OnMessage receive, TakeRoom room) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !at_work_; });
     receive_ = std::move(receive);
+    room_ = std::move(room);
     changed_.notify_all();
   }
 
@@ -66,7 +67,9 @@ class LetterBox {
       letters_.erase(letters_.begin());
       at_work_ = true;
       lock.unlock();
-      receive_(std::move(letter.message));
+      Message& message = letter.message;
+      if (room_) message.room = room_(message.head[0], message.bytes.size());
+      receive_(std::move(message));
       letter.delivered();
       lock.lock();
       at_work_ = false;
@@ -78,6 +81,7 @@ class LetterBox {
   std::condition_variable changed_;
   std::multimap<Clock::time_point, Letter> letters_;
   OnMessage receive_;
+  TakeRoom room_;
   bool at_work_ = false;
   bool closed_ = false;
   std::thread postman_;
@@ -106,7 +110,7 @@ class ThreadExchange : public Exchange {
  public:
   ThreadExchange(std::shared_ptr<Office> office, int rank)
       : office_(std::move(office)), rank_(rank), sending_(std::make_shared<Sending>()) {}
-  ~ThreadExchange() override { listen({}, {}); }
+  ~ThreadExchange() override { listen({}); }
 
   [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int ranks() const override { return office_->options.ranks; }
@@ -127,12 +131,13 @@ class ThreadExchange : public Exchange {
     const std::lock_guard lock(sending_->mutex);
     sending_->held.clear();
   }
-  void listen(OnMessage receive, std::function<void()> sent) override {
+  void listen(ExchangeListener listener) override {
     {
       const std::lock_guard lock(sending_->telling);
-      sending_->sent = std::move(sent);
+      sending_->sent = std::move(listener.sent);
     }
-    office_->boxes[static_cast<std::size_t>(rank_)]->listen(std::move(receive));
+    office_->boxes[static_cast<std::size_t>(rank_)]->listen(std::move(listener.receive),
+                                                            std::move(listener.room));
   }
 
  private:

@@ -26,6 +26,11 @@ std::string failures(const audit::AuditReport& report) {
 }
 
 std::string obstacle(const MeshJob& job) {
+  if (job.certify == Certify::kAuto && job.team != nullptr && job.team->ranks() > 1) {
+    return "of several processes one alone would make it, while the others wait: give --certify "
+           "on, "
+           "or verify the file";
+  }
   if (job.memory / 4 < kShared + kPerThread) {
     return "needs --memory " + report::format_bytes(4 * (kShared + kPerThread)) + " or more";
   }

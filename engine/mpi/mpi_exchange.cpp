@@ -27,12 +27,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kTag = 1;
+/// Tags are the kinds of messages; the transport's own have this one.
+constexpr int kOwnTag = 0;
 constexpr std::size_t kMaxSends = 256;  ///< under way at a time
 constexpr std::chrono::microseconds kPause{100};
 constexpr std::chrono::seconds kBeat{1};
 
-/// Heads of the transport's own messages; those of a Team begin with small numbers.
+/// Kinds of the transport's own messages.
 constexpr std::uint64_t kAlive = ~std::uint64_t{0};
 constexpr std::uint64_t kLeaving = ~std::uint64_t{1};
 
@@ -71,6 +72,10 @@ bool is_launcher(pid_t process) {
                                     name == "orted" || name == "prterun" || name == "prted");
 }
 
+int tag_of(const MessageHead& head) {
+  return head[0] <= kMaxKind ? static_cast<int>(head[0]) : kOwnTag;
+}
+
 bool is_over(MPI_Request& request) {
   int over = 0;
   MPI_Test(&request, &over, MPI_STATUS_IGNORE);
@@ -106,10 +111,9 @@ class MpiExchange::Transport {
     const std::lock_guard lock(mutex_);
     return out_box_.empty() && sends_under_way_ == 0;
   }
-  void listen(OnMessage receive, std::function<void()> sent) {
+  void listen(ExchangeListener listener) {
     const std::lock_guard turn(listening_);
-    receive_ = std::move(receive);
-    sent_ = std::move(sent);
+    listener_ = std::move(listener);
   }
   /// Bytes that MPI still reads stay for good.
   void let_go() {
@@ -199,7 +203,7 @@ class MpiExchange::Transport {
     const bool empty = m.bytes == nullptr || m.bytes->empty();
     MPI_Datatype type =
         type_of(m.head, empty ? nullptr : m.bytes->data(), empty ? 0 : m.bytes->size());
-    MPI_Isend(MPI_BOTTOM, 1, type, m.to, kTag, MPI_COMM_WORLD, &sending.request);
+    MPI_Isend(MPI_BOTTOM, 1, type, m.to, tag_of(m.head), MPI_COMM_WORLD, &sending.request);
     MPI_Type_free(&type);  // once it is no longer needed
   }
 
@@ -212,7 +216,7 @@ class MpiExchange::Transport {
       sends_under_way_ = sends_.size();
     }
     const std::lock_guard turn(listening_);
-    if (sent_) sent_();
+    if (listener_.sent) listener_.sent();
     return true;
   }
 
@@ -236,18 +240,27 @@ class MpiExchange::Transport {
       int there = 0;
       MPI_Message handle = MPI_MESSAGE_NULL;
       MPI_Status status;
-      MPI_Improbe(MPI_ANY_SOURCE, kTag, MPI_COMM_WORLD, &there, &handle, &status);
+      MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &handle, &status);
       if (there == 0) return any;
       int size = 0;
       MPI_Get_count(&status, MPI_BYTE, &size);
       Receiving& r = receives_.emplace_back();
       r.message.from = status.MPI_SOURCE;
-      r.message.bytes.resize(static_cast<std::size_t>(size) - sizeof(MessageHead));
+      const std::size_t bytes = static_cast<std::size_t>(size) - sizeof(MessageHead);
+      r.message.room = take_room(status.MPI_TAG, bytes);
+      r.message.bytes.resize(bytes);
       MPI_Datatype type = type_of(r.message.head, r.message.bytes.data(), r.message.bytes.size());
       MPI_Imrecv(MPI_BOTTOM, 1, type, &handle, &r.request);
       MPI_Type_free(&type);
       any = true;
     }
+  }
+
+  std::shared_ptr<void> take_room(int tag, std::size_t bytes) {
+    if (tag == kOwnTag) return nullptr;
+    const std::lock_guard turn(listening_);
+    if (!listener_.room) return nullptr;
+    return listener_.room(static_cast<std::uint64_t>(tag), bytes);
   }
 
   void pass_on(Message message) {
@@ -259,12 +272,12 @@ class MpiExchange::Transport {
       return;
     }
     const std::lock_guard turn(listening_);
-    if (!receive_) {
+    if (!listener_.receive) {
       waiting_.push_back(std::move(message));
       return;
     }
-    for (Message& before : std::exchange(waiting_, {})) receive_(std::move(before));
-    receive_(std::move(message));
+    for (Message& before : std::exchange(waiting_, {})) listener_.receive(std::move(before));
+    listener_.receive(std::move(message));
   }
 
   /// Tells all that this one lives; ends it when another one does not.
@@ -275,8 +288,8 @@ class MpiExchange::Transport {
     {
       // What came before anybody listened.
       const std::lock_guard turn(listening_);
-      if (receive_) {
-        for (Message& before : std::exchange(waiting_, {})) receive_(std::move(before));
+      if (listener_.receive) {
+        for (Message& before : std::exchange(waiting_, {})) listener_.receive(std::move(before));
       }
     }
     for (int other = 0; other < ranks; ++other) {
@@ -315,8 +328,7 @@ class MpiExchange::Transport {
   bool ending_ = false;
 
   std::mutex listening_;  ///< guards the next lines; never taken inside mutex_
-  OnMessage receive_;
-  std::function<void()> sent_;
+  ExchangeListener listener_;
   std::vector<Message> waiting_;
 
   // The thread's own.
@@ -348,8 +360,8 @@ bool MpiExchange::is_idle() const {
 void MpiExchange::let_go() {
   transport_->let_go();
 }
-void MpiExchange::listen(OnMessage receive, std::function<void()> sent) {
-  transport_->listen(std::move(receive), std::move(sent));
+void MpiExchange::listen(ExchangeListener listener) {
+  transport_->listen(std::move(listener));
 }
 
 void MpiExchange::leave(int code) {

@@ -29,7 +29,7 @@ class MpiExchange : public Exchange {
   void send(int to, const MessageHead& head, SharedBytes bytes) override;
   [[nodiscard]] bool is_idle() const override;
   void let_go() override;
-  void listen(OnMessage receive, std::function<void()> sent) override;
+  void listen(ExchangeListener listener) override;
 
   /// The end of the program with this exit code.  After 0 everywhere MPI is ended in order.  After
   /// an error the other ranks, which have been told, get some seconds to put their things away;

@@ -44,8 +44,8 @@ struct FinishedMesh {
   std::uint64_t tets = 0;
   std::optional<audit::QualityReport> quality;
   std::optional<audit::ShapeReport> shape;
-  /// With measure_shape, by dense label: six times the volume that is written, exact, in cubic
-  /// units of the lattice.
+  /// With measure_shape, by dense label, else empty: six times the volume that is written, exact,
+  /// in cubic units of the lattice.
   std::vector<Int128> label_volumes6;
   /// With measure_edges, by dense label; physical units, 0 where nothing is written.
   std::vector<double> longest_edges;

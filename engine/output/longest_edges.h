@@ -30,6 +30,8 @@ class LongestEdges {
     }
   }
 
+  /// Squares of lengths(), so far.
+  [[nodiscard]] std::vector<double>& squares() { return squared_; }
   /// By dense label; 0 where there is no tet.
   [[nodiscard]] std::vector<double> lengths() const {
     std::vector<double> out = squared_;

@@ -116,12 +116,21 @@ ordered_json engine_json(const FinishedRun& run) {
   return out;
 }
 
+ordered_json all_interfaces_json(const std::optional<audit::ShapeReport>& shape) {
+  const audit::ShapeReport figures = shape.value_or(audit::ShapeReport{});
+  ordered_json out = interfaces_json(figures);
+  out["bend_histogram"] = figures.bend_histogram;
+  for (ordered_json& value : out) {
+    if (!shape) value = nullptr;
+  }
+  return out;
+}
+
 ordered_json shape_json(const FinishedRun& run) {
   audit::VolumeMeter volumes;
   for_each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
   ordered_json out = volume_summary_json(volumes.summary(), run.labels);
-  out.update(interfaces_json(run.engine.shape.value()));
-  out["bend_histogram"] = run.engine.shape->bend_histogram;
+  out.update(all_interfaces_json(run.engine.shape));
   out["per_label"] = kRows;
   return out;
 }
@@ -199,7 +208,7 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
           {"certificate", certificate_json(run)},
           {"performance", performance_json(run)},
           {"engine", engine_json(run)},
-          {"digest", run.digest}};
+          {"digest", run.digest.empty() ? ordered_json() : ordered_json(run.digest)}};
 }
 
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh,

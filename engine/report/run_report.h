@@ -26,8 +26,8 @@ struct FinishedRun {
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels
   Resources resources;        ///< times until the mesh was written, memory until its digest
-  std::string digest;
-  std::string fingerprint;                        ///< of the labels
+  std::string digest;         ///< empty: nobody made it
+  std::string fingerprint;    ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty: none was made
   std::string why_no_certificate;
 };
@@ -36,17 +36,17 @@ struct FinishedRun {
 [[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
 
 /// The report without its rows of labels (kRows stands for them).
-/// REQUIRES: run.engine.quality and shape.
+/// REQUIRES: run.engine.quality and volumes.
 [[nodiscard]] nlohmann::ordered_json run_report(const FinishedRun& run,
                                                 const std::filesystem::path& mesh,
                                                 nlohmann::ordered_json settings);
 
-/// Calls visit on each label that was written, ascending.  REQUIRES: run.engine.shape.
+/// Calls visit on each label that was written, ascending.  REQUIRES: run.engine's volumes.
 void for_each_volume(const FinishedRun& run,
                      const std::function<void(const audit::VolumeRow&)>& visit);
 
 /// What nobody measured is null.  Memory: no more for more labels.
-/// REQUIRES: run.engine.quality and shape.
+/// REQUIRES: run.engine.quality and volumes.
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh,
                        nlohmann::ordered_json settings, const AppendText& append);
 

@@ -18,12 +18,6 @@ namespace {
 /// Beside its bytes: the block, its place in the table, and the allocator's heads of these.
 constexpr std::uint64_t kBytesPerBlock = sizeof(EncodedBlock) + 144;
 
-/// What a block of so many bytes costs.  An eighth is for the holes between blocks of all sizes
-/// that come and go: without it a gigavoxel (280,000 windows) held 198 MiB under a budget of 192.
-std::uint64_t cost_of(std::uint64_t encoded) {
-  return encoded + encoded / 8 + kBytesPerBlock;
-}
-
 std::unique_ptr<SegmentFile> open_disk(WorkFiles* files) {
   if (files == nullptr) return nullptr;
   return std::make_unique<SegmentFile>(files->open(kBlocksFile));
@@ -226,6 +220,12 @@ TableRoom RunStore::room_for_index() {
   };
 }
 
+/// An eighth is for the holes between blocks of all sizes that come and go: without it a gigavoxel
+/// (280,000 windows) held 198 MiB under a budget of 192.
+std::uint64_t RunStore::cost_of(std::uint64_t encoded_bytes) {
+  return encoded_bytes + encoded_bytes / 8 + kBytesPerBlock;
+}
+
 BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh,
                           MemoryBudget::Reservation& room) {
   return hold(encode_block(key, mesh), memory_bytes(mesh), room);
@@ -243,12 +243,12 @@ BlockPin RunStore::hold(std::vector<std::byte> encoded, std::uint64_t memory_byt
 }
 
 bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
-  // Asked first: when it leaves afterwards, the march is told and asks again.
-  const bool is_sending = router_ != nullptr && router_->is_sending();
+  // Asked first: when it leaves or is here afterwards, the march is told and asks again.
+  const bool is_carrying = router_ != nullptr && router_->is_carrying();
   auto room = try_reserve(Purpose::kWindows, bytes);
   const std::lock_guard lock(mutex_);
   if (paused_) return false;
-  if (!room && in_flight_.empty() && !is_sending) budget_.fail(bytes);
+  if (!room && in_flight_.empty() && !is_carrying) budget_.fail(bytes);
   if (!room) return false;
   ++visiting_;
   in_flight_.emplace(layout_.window(key), std::move(*room));
@@ -327,9 +327,8 @@ void RunStore::send_away(const WindowKey& key, std::span<const BlockKey> blocks,
 /// The windows over the block that came before are done, wherever they were: the block's turn is
 /// that of the window that waits for it.
 void RunStore::receive(const BlockVersion& version, std::vector<std::byte> bytes,
-                       std::uint64_t memory_bytes) {
-  MemoryBudget::Reservation none;
-  BlockPin pin = hold(std::move(bytes), memory_bytes, none);
+                       std::uint64_t memory_bytes, MemoryBudget::Reservation room) {
+  BlockPin pin = hold(std::move(bytes), memory_bytes, room);
   const WindowOrder order = layout_.order(version.block.march);
   const std::uint64_t from = order.rank(version.from.window);
   const std::lock_guard lock(mutex_);

@@ -32,8 +32,8 @@ class BlockRouter {
   virtual void send(const BlockVersion& version, BlockPin block) = 0;
   /// Versions that stay can be taken from now on.
   virtual void committed(std::span<const BlockVersion> versions) = 0;
-  /// Whether blocks that were taken over still hold memory.
-  [[nodiscard]] virtual bool is_sending() const = 0;
+  /// Whether blocks on their way, away or here, hold memory.
+  [[nodiscard]] virtual bool is_carrying() const = 0;
 };
 
 struct StoreFacts {
@@ -72,10 +72,13 @@ class RunStore {
   /// The same.  ERRORS: mw::Error(kResource) with the least that works.
   [[nodiscard]] MemoryBudget::Reservation reserve(Purpose purpose, std::uint64_t bytes);
 
+  /// What a block of so many encoded bytes takes of the budget.
+  [[nodiscard]] static std::uint64_t cost_of(std::uint64_t encoded_bytes);
   /// Takes in a version that another process left: `bytes` as its pin had them.
+  /// room: what was reserved for it, cost_of(bytes) of blocks, or nothing.
   /// ERRORS: mw::Error(kResource) when there is no room for it.
   void receive(const BlockVersion& version, std::vector<std::byte> bytes,
-               std::uint64_t memory_bytes);
+               std::uint64_t memory_bytes, MemoryBudget::Reservation room = {});
 
   /// Epochs of a run of several processes: no window starts until go_on(), and once none runs and
   /// nothing is on its way between the processes, each makes what it has durable as one record;

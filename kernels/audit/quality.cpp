@@ -43,7 +43,8 @@ double TetShape::radius_ratio() const {
   }
   const double area = (lengths[0] + lengths[1] + lengths[2] + lengths[3]) / 2;
   const double below = area * norm(n);
-  return below > 0 ? std::min(3 * det * det / below, 1.0) : 0;
+  const double ratio = 3 * det * det / below;
+  return below > 0 && ratio > 0 ? std::min(ratio, 1.0) : 0;  // 0 also where squares overflow
 }
 
 /// Bin of an angle by its cosine.  Lattices are full of right angles and the like, which rounding
@@ -89,7 +90,7 @@ void QualityMeter::add(const QualityMeter& other) {
   take_worst(other.report_.worst_tet, other.report_.radius_ratio_min);
   tets_ += other.tets_;
   slivers_ += other.slivers_;
-  sum_.add(other.sum_);
+  ratios_ += other.ratios_;
   largest_cosine_ = std::max(largest_cosine_, other.largest_cosine_);
   smallest_cosine_ = std::min(smallest_cosine_, other.smallest_cosine_);
   const auto add_bins = [](const auto& from, auto& to) {
@@ -104,7 +105,7 @@ void QualityMeter::add(std::uint64_t number, const std::array<Position, 4>& corn
   const double ratio = tet.radius_ratio();
   take_worst(number, ratio);
   ++tets_;
-  sum_.add(ratio);
+  ratios_ += static_cast<Int128>(std::round(ratio * kUnits));
   if (ratio < kSliverRadiusRatio) ++slivers_;
   const auto bins = report_.radius_ratio_histogram.size();
   const auto bin = static_cast<std::size_t>(ratio * static_cast<double>(bins));
@@ -125,7 +126,7 @@ QualityReport QualityMeter::report() const {
   QualityReport report = report_;
   if (tets_ == 0) return report;
   const auto count = static_cast<double>(tets_);
-  report.radius_ratio_mean = sum_.value() / count;
+  report.radius_ratio_mean = static_cast<double>(ratios_) / kUnits / count;
   report.sliver_fraction = static_cast<double>(slivers_) / count;
   if (largest_cosine_ < -1) return report;
   report.dihedral_min_deg = degrees_of_cosine(largest_cosine_);

@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 
-#include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/subject.h"
+#include "kernels/core/int128.h"
 
 namespace mw::audit {
 
@@ -31,7 +31,8 @@ struct QualityReport {
 [[nodiscard]] double radius_ratio(const Position& a, const Position& b, const Position& c,
                                   const Position& d);
 
-/// Takes tets one after the other.
+/// Takes tets one after the other.  Sums are of whole numbers (radius ratios in units of 2^-40), so
+/// that parts of a mesh may be measured apart, in any order.
 class QualityMeter {
  public:
   /// REQUIRES: finite coordinates.
@@ -44,12 +45,14 @@ class QualityMeter {
   [[nodiscard]] QualityReport report() const;
 
  private:
+  static constexpr double kUnits = 1099511627776.0;
+
   void take_worst(std::uint64_t tet, double ratio);
 
   QualityReport report_;  ///< without the figures that need the number of tets
   std::uint64_t tets_ = 0;
   std::uint64_t slivers_ = 0;
-  CompensatedSum sum_;
+  Int128 ratios_ = 0;           ///< sum in units of 1 / kUnits
   double largest_cosine_ = -2;  ///< of the sharpest dihedral angle
   double smallest_cosine_ = 2;  ///< of the bluntest
 };

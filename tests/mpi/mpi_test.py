@@ -118,18 +118,40 @@ class SharedRuns(unittest.TestCase):
                 self.assertIn(f"written by  all {ranks} processes", done.stdout)
                 self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
 
+    def test_what_all_write_together_is_reported_like_the_mesh_of_one(self):
+        self.synth("voronoi", "40,48,56", 20)
+        options = ["--window", "8", "--size", "3=4"]
+        one, all_of_them = self.folder / "one.json", self.folder / "all.json"
+        self.alone(*options, "--report", one)
+        done = self.run_shared(3, *options, "--report", all_of_them)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        alone, shared = json.loads(one.read_text()), json.loads(all_of_them.read_text())
+        self.assertEqual(shared["engine"]["written_by"], "all")
+        for part in ("input", "lattice", "quality", "size"):
+            self.assertEqual(shared[part], alone[part], part)
+        for key, value in alone["shape"].items():
+            is_missing = key == "area" or key.startswith("bend") or key == "sharp_share"
+            self.assertEqual(shared["shape"][key], None if is_missing else value, key)
+        self.assertIn("longest_edge", json.dumps(shared["shape"]["per_label"]))
+        self.assertIsNone(shared["digest"])
+        self.assertIn("--certify on", shared["certificate"]["why"])
+
     def test_rank_0_writes_what_has_to_pass_by_as_a_whole(self):
         self.synth("spheres", "24,24,40", 4)
         report = self.folder / "r.json"
-        options = ["--window", "8"]
+        options = ["--window", "8", "--report", report]
         expected = self.alone(*options)
+        of_one = json.loads(report.read_text())
         for more, why in ((["--certify", "on"], "it makes the certificate"),
-                          (["--certify", "off", "--report", report], "for the report")):
+                          (["--html", self.folder / "page.html"], "it draws the page")):
             done = self.run_shared(2, *options, *more)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertRegex(done.stdout, f"written by  rank 0: .*{why}")
             self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
-        self.assertEqual(json.loads(report.read_text())["engine"]["written_by"], "first")
+            of_all = json.loads(report.read_text())
+            self.assertEqual(of_all["engine"]["written_by"], "first")
+            for part in ("quality", "size", "digest"):
+                self.assertEqual(of_all[part], of_one[part], part)
 
     def limit_files(self, run, rank, size):
         """From now on that rank of a run cannot write beyond `size` bytes of any file."""

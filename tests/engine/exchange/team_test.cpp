@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "engine/exchange/folded_lists.h"
 #include "engine/exchange/swapped_lists.h"
 #include "tests/engine/exchange/crowd.h"
 
@@ -85,6 +86,28 @@ TEST(Team, SwapsListsByPieces) {
             });
 }
 
+/// Lists of any length, by pieces of a few numbers; the order of ranks is kept.
+TEST(Team, FoldsListsOnRank0) {
+  constexpr int kRanks = 4;
+  for (const std::size_t size : {0U, 1U, 7U, 50U}) {
+    for_ranks({.ranks = kRanks, .seed = 8, .max_delay = std::chrono::microseconds(300)},
+              [&](Team& team) {
+                std::vector<std::int64_t> list(size);
+                std::iota(list.begin(), list.end(), 100 * team.rank());
+                const auto digits = [](std::int64_t a, std::int64_t b) { return 1000 * a + b; };
+                fold_lists(team, list, digits, 50);
+                if (!team.is_first()) return;
+                for (std::size_t i = 0; i < size; ++i) {
+                  std::int64_t expected = 0;
+                  for (int r = 0; r < kRanks; ++r) {
+                    expected = 1000 * expected + 100 * r + static_cast<std::int64_t>(i);
+                  }
+                  EXPECT_EQ(list[i], expected);
+                }
+              });
+  }
+}
+
 TEST(Team, ParcelsArriveOnceAlsoThoseThatCameTooEarly) {
   constexpr int kRanks = 4, kEach = 50;
   for_ranks({.ranks = kRanks, .seed = 4, .max_delay = std::chrono::microseconds(3000)},
@@ -101,7 +124,8 @@ TEST(Team, ParcelsArriveOnceAlsoThoseThatCameTooEarly) {
               std::set<std::pair<std::uint64_t, std::uint64_t>> seen;
               std::atomic<std::size_t> count = 0;
               team.listen({.parcel =
-                               [&](const Team::Head& head, std::vector<std::byte> got) {
+                               [&](const Team::Head& head, std::vector<std::byte> got,
+                                   const std::shared_ptr<void>&) {
                                  const std::lock_guard lock(mutex);
                                  EXPECT_EQ(got, bytes(head[0], static_cast<int>(head[1])));
                                  EXPECT_EQ(head[2], 7U);
@@ -118,6 +142,35 @@ TEST(Team, ParcelsArriveOnceAlsoThoseThatCameTooEarly) {
             });
 }
 
+/// A parcel brings what was returned for it; nobody asks for what is gathered.
+TEST(Team, RoomIsTakenForEachParcelBeforeItComes) {
+  constexpr std::uint64_t kParcels = 40;
+  for_ranks({.ranks = 2, .seed = 9, .max_delay = std::chrono::microseconds(500)}, [&](Team& team) {
+    std::atomic<std::uint64_t> count = 0, taken = 0;
+    team.listen({.parcel =
+                     [&](const Team::Head&, const std::vector<std::byte>& got,
+                         const std::shared_ptr<void>& room) {
+                       ASSERT_NE(room, nullptr);
+                       EXPECT_EQ(*std::static_pointer_cast<std::uint64_t>(room), got.size());
+                       ++count;
+                     },
+                 .room = [&](std::uint64_t size) -> std::shared_ptr<void> {
+                   EXPECT_EQ(taken, count) << "one at a time";
+                   ++taken;
+                   return std::make_shared<std::uint64_t>(size);
+                 }});
+    (void)team.gather(std::string("all listen"));
+    for (std::uint64_t i = 0; i < kParcels; ++i) {
+      team.send(1 - team.rank(), {i, 0, 0},
+                std::make_shared<std::vector<std::byte>>(bytes(10 * i, 1)));
+    }
+    while (count < kParcels) std::this_thread::yield();
+    (void)team.gather(std::string("done"));
+    EXPECT_EQ(taken, kParcels);
+    team.listen({});
+  });
+}
+
 TEST(Team, OneFailureReachesAllAndEndsWhatTheyWaitFor) {
   for_ranks({.ranks = 3, .seed = 5}, [](Team& team) {
     if (team.rank() == 1) {
@@ -125,7 +178,8 @@ TEST(Team, OneFailureReachesAllAndEndsWhatTheyWaitFor) {
       return;
     }
     std::atomic<bool> told = false;
-    team.listen({.parcel = [](const Team::Head&, std::vector<std::byte>) {},
+    team.listen({.parcel = [](const Team::Head&, const std::vector<std::byte>&,
+                              const std::shared_ptr<void>&) {},
                  .sent = {},
                  .failed = [&](const Error& e) { told = e.kind() == ErrorKind::kResource; }});
     try {

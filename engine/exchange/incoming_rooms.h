@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Room in the budget for blocks that are about to come in.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "engine/store/run_store.h"
+
+namespace mw::engine {
+
+/// Each message on its way has a ticket, which may outlive the run: MPI ends what it has begun.
+/// Thread safety: all members may be called from many threads.
+class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
+ public:
+  [[nodiscard]] static std::shared_ptr<IncomingRooms> of(RunStore& store) {
+    return std::shared_ptr<IncomingRooms>(new IncomingRooms(store));
+  }
+
+  /// A ticket for a block of so many encoded bytes; null where there is no room, or after close().
+  [[nodiscard]] std::shared_ptr<void> take(std::uint64_t encoded_bytes);
+  /// What the ticket stands for; it stays counted until it is gone.  Nothing without a ticket, or
+  /// after close().
+  [[nodiscard]] MemoryBudget::Reservation claim(const std::shared_ptr<void>& ticket);
+  /// Whether there are tickets.
+  [[nodiscard]] bool is_empty() const;
+  /// All rooms are given back, and nothing is taken any more.
+  void close();
+
+ private:
+  struct Ticket;
+
+  explicit IncomingRooms(RunStore& store) : store_(&store) {}
+  void forget(std::uint64_t number);
+
+  mutable std::mutex mutex_;  ///< guards the next lines
+  RunStore* store_;           ///< null: closed
+  std::uint64_t next_ = 0;
+  std::map<std::uint64_t, MemoryBudget::Reservation> rooms_;  ///< by ticket
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/output/block_figures.h"
+
+#include <utility>
+
+namespace mw::engine {
+namespace {
+
+Int128 volume6_of(const BlockMesh& block, const BlockTet& tet) {
+  const auto at = [&](std::size_t i) { return block.vertices[tet.vertices[i]].position; };
+  const Int128 volume = volume6(at(0), at(1), at(2), at(3));
+  return volume < 0 ? -volume : volume;
+}
+
+}  // namespace
+
+BlockFigures::BlockFigures(const OutputOptions& options, std::size_t labels)
+    : has_volumes(options.measure_shape) {
+  if (options.measure_quality) quality.emplace();
+  if (options.measure_edges) edges.emplace(labels);
+  if (has_volumes) volumes6.resize(labels);
+}
+
+void BlockFigures::add(const BlockMesh& block, std::span<const io::Position> positions,
+                       std::span<const io::TetRows> tets, std::uint64_t first_tet) {
+  for (std::size_t t = 0; quality && t < tets.size(); ++t) {
+    const auto& [a, b, c, d] = tets[t];
+    quality->add(first_tet + t, {positions[a], positions[b], positions[c], positions[d]});
+  }
+  if (edges) edges->add(block.tets, positions);
+  if (!has_volumes) return;
+  for (const BlockTet& tet : block.tets) volumes6[tet.label] += volume6_of(block, tet);
+}
+
+void BlockFigures::report(FinishedMesh& out) {
+  if (quality) out.quality = quality->report();
+  if (edges) out.longest_edges = edges->lengths();
+  out.label_volumes6 = std::move(volumes6);
+}
+
+}  // namespace mw::engine
