@@ -223,7 +223,13 @@ std::optional<std::size_t> DistanceGuard::receiver(const Wanderer& w) const {
 /// The same among unchanged neighbours.
 std::optional<std::size_t> DistanceGuard::receiver_nearby(const Wanderer& w) {
   if (mesh_ == nullptr) return std::nullopt;
-  if (neighbours_ == 0) add_neighbours();
+  if (neighbours_ == 0) {
+    order_ring();
+    const Changed& from = changed_[w.from];
+    const NearTriangle::Wanted wanted{w.point, w.limit, from.low, from.high};
+    if (!near_triangle_.may_be_at(*mesh_, ring_, ends_, wanted)) return std::nullopt;
+    add_neighbours();
+  }
   if (const auto to = nearest(w, neighbours_, kMinCosine)) return to;
   return nearest(w, neighbours_, kAnyCosine);
 }
@@ -248,18 +254,20 @@ std::optional<std::size_t> DistanceGuard::nearest(const Wanderer& w, std::size_t
   return to;
 }
 
+void DistanceGuard::order_ring() {
+  std::sort(ring_.begin(), ring_.end());
+  const auto end = std::unique(ring_.begin(), ring_.end());
+  ring_.erase(std::remove_if(ring_.begin(), end, [this](LocalVertex v) { return is_end(v); }),
+              ring_.end());
+}
+
 /// Interface triangles at the ring that the change leaves alone, each once.
 void DistanceGuard::add_neighbours() {
   neighbours_ = changed_.size();
-  std::sort(ring_.begin(), ring_.end());
-  ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
-  for (const LocalVertex w : ring_) {
-    if (w != ends_[0] && w != ends_[1]) add_neighbours_at(w);
-  }
+  for (const LocalVertex w : ring_) add_neighbours_at(w);
 }
 
 void DistanceGuard::add_neighbours_at(LocalVertex w) {
-  const auto is_end = [&](LocalVertex v) { return v == ends_[0] || v == ends_[1]; };
   const auto came_before = [&](LocalVertex v) {
     return v < w && std::binary_search(ring_.begin(), ring_.end(), v);
   };

@@ -8,6 +8,7 @@
 #include "kernels/distance/carried_samples.h"
 #include "kernels/distance/interface_fan.h"
 #include "kernels/distance/label_reach.h"
+#include "kernels/distance/near_triangle.h"
 #include "kernels/distance/point_triangle.h"
 
 namespace mw {
@@ -100,6 +101,8 @@ class DistanceGuard {
   [[nodiscard]] double sign_of(FaceSamples samples, Label low) const;
   void add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other, LocalVertex survivor,
                    Point target, std::span<const FanTriangle> fan);
+  void order_ring();
+  [[nodiscard]] bool is_end(LocalVertex v) const { return v == ends_[0] || v == ends_[1]; }
   void add_neighbours();
   void add_neighbours_at(LocalVertex w);
   [[nodiscard]] bool keeps_bound();
@@ -122,8 +125,9 @@ class DistanceGuard {
   const TetMesh* mesh_ = nullptr;      ///< of the change in question; null: a flip
   std::array<LocalVertex, 2> ends_{};  ///< what changes: both ends of an edge, or twice a vertex
   std::vector<LocalVertex> ring_;      ///< the other vertices of the changed triangles
-  std::vector<Changed> changed_;       ///< and behind them neighbours that stay
-  std::size_t neighbours_ = 0;         ///< row of the first of those; 0: not looked for
+  NearTriangle near_triangle_;
+  std::vector<Changed> changed_;  ///< and behind them neighbours that stay
+  std::size_t neighbours_ = 0;    ///< row of the first of those; 0: not looked for
   std::vector<Handover> handovers_;
   std::vector<bool> kept_;
 };
