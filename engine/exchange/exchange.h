@@ -12,8 +12,8 @@
 
 namespace mw::engine {
 
-/// What a message is about, for whoever made it; its bytes follow.  The first number is the kind of
-/// message, from 1 to kMaxKind.
+/// What a message is about, for whoever made it; its bytes follow.  The first number is its kind:
+/// those from 1 to kMaxKind are told to TakeRoom.
 using MessageHead = std::array<std::uint64_t, 4>;
 
 inline constexpr std::uint64_t kMaxKind = 255;

@@ -14,10 +14,6 @@ constexpr double kRoundingGuard = 1e-9;
 constexpr double kMinCosine = -0.1;
 constexpr double kAnyCosine = -2.0;
 
-Vec3 in_voxels(Point p) {
-  return Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
-}
-
 }  // namespace
 
 DistanceGuard::DistanceGuard(const LabelBox& labels, double max_distance, CarriedSamples& samples)

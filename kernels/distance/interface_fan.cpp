@@ -12,28 +12,72 @@ namespace {
 
 constexpr std::size_t kFirstSides = 128;
 
+std::uint64_t edge_of(LocalVertex a, LocalVertex b) {
+  const auto [low, high] = std::minmax(a, b);
+  return std::uint64_t{low} << 32 | high;
+}
+
 }  // namespace
 
 void InterfaceFan::collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out) {
   out.clear();
-  const auto star = mesh.star(v);
-  make_room(3 * star.size());
+  make_room(3 * mesh.star(v).size());
+  if (mesh.is_free(v) && mesh.planes(v) == 0 && mesh.order(v) == 2) {
+    collect_of_two(mesh, v, out);
+  } else {
+    collect_of_any(mesh, v, out);
+  }
+  std::sort(out.begin(), out.end(), [](const FanTriangle& s, const FanTriangle& t) {
+    return s.a != t.a ? s.a < t.a : s.b < t.b;
+  });
+}
+
+void InterfaceFan::collect_of_any(const TetMesh& mesh, LocalVertex v,
+                                  std::vector<FanTriangle>& out) {
   const std::uint64_t all = mesh.label_signature(v);
   const bool one_bit_each = std::popcount(all) == mesh.order(v);
-  for (const LinkTriangle& t : star) {
+  for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior) continue;
     // Both labels of an interface triangle lie at each of its corners.
     const std::uint64_t others = one_bit_each ? all & ~TetMesh::label_bit(t.label) : all;
     const std::uint64_t at_a = others & mesh.label_signature(t.a),
                         at_b = others & mesh.label_signature(t.b),
                         at_c = others & mesh.label_signature(t.c);
-    if ((at_a & at_b) != 0) add_side(t.a, t.b, t.label, out);
-    if ((at_b & at_c) != 0) add_side(t.b, t.c, t.label, out);
-    if ((at_c & at_a) != 0) add_side(t.c, t.a, t.label, out);
+    if ((at_a & at_b) != 0) pair_sides(t.a, t.b, t.label, out);
+    if ((at_b & at_c) != 0) pair_sides(t.b, t.c, t.label, out);
+    if ((at_c & at_a) != 0) pair_sides(t.c, t.a, t.label, out);
   }
-  std::sort(out.begin(), out.end(), [](const FanTriangle& s, const FanTriangle& t) {
-    return s.a != t.a ? s.a < t.a : s.b < t.b;
-  });
+}
+
+/// Where a closed star has two labels, a side that no second tet of one label has is one of the
+/// other: the label with fewer tets tells all.
+void InterfaceFan::collect_of_two(const TetMesh& mesh, LocalVertex v,
+                                  std::vector<FanTriangle>& out) {
+  const auto star = mesh.star(v);
+  const Label first = star.front().label;
+  const auto is_first = [first](const LinkTriangle& t) { return t.label == first; };
+  const Label second = std::find_if_not(star.begin(), star.end(), is_first)->label;
+  const auto of_first = static_cast<std::size_t>(std::count_if(star.begin(), star.end(), is_first));
+  const bool takes_first = 2 * of_first <= star.size();
+  const Label label = takes_first ? first : second, other = takes_first ? second : first;
+  const std::uint64_t bit = TetMesh::label_bit(other);
+  opened_.clear();
+  for (const LinkTriangle& t : star) {
+    if (t.label != label) continue;
+    const bool at_a = (mesh.label_signature(t.a) & bit) != 0,
+               at_b = (mesh.label_signature(t.b) & bit) != 0,
+               at_c = (mesh.label_signature(t.c) & bit) != 0;
+    if (at_a && at_b) open_or_close(t.a, t.b);
+    if (at_b && at_c) open_or_close(t.b, t.c);
+    if (at_c && at_a) open_or_close(t.c, t.a);
+  }
+  const auto [low, high] = std::minmax(label, other);
+  for (const std::size_t at : opened_) {
+    const Side& s = sides_[at];
+    if (!s.is_open) continue;
+    out.push_back({static_cast<LocalVertex>(s.edge >> 32), static_cast<LocalVertex>(s.edge), low,
+                   high, s.ascends == (label == high)});
+  }
 }
 
 /// For a new call; at most half of the table gets used.
@@ -45,23 +89,40 @@ void InterfaceFan::make_room(std::size_t sides) {
   }
 }
 
-/// The first side of a triangle waits for the other.
-void InterfaceFan::add_side(LocalVertex a, LocalVertex b, Label label,
-                            std::vector<FanTriangle>& out) {
+/// Where the edge is in the table, or would be.
+std::size_t InterfaceFan::place_of(std::uint64_t edge) const {
   constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;
-  const auto [low, high] = std::minmax(a, b);
-  const std::uint64_t edge = std::uint64_t{low} << 32 | high;
   const std::size_t mask = sides_.size() - 1;
   std::size_t at = static_cast<std::size_t>(edge * kOdd >> 32) & mask;
   while (sides_[at].stamp == stamp_ && sides_[at].edge != edge) at = (at + 1) & mask;
-  const Side other = sides_[at];
-  if (other.stamp != stamp_) {
-    sides_[at] = {edge, stamp_, label, a < b};
-  } else if (other.label < label) {
-    out.push_back({low, high, other.label, label, a < b});
-  } else if (label < other.label) {
-    out.push_back({low, high, label, other.label, other.ascends});
+  return at;
+}
+
+/// The first side of a triangle waits for the other.
+void InterfaceFan::pair_sides(LocalVertex a, LocalVertex b, Label label,
+                              std::vector<FanTriangle>& out) {
+  const std::uint64_t edge = edge_of(a, b);
+  Side& side = sides_[place_of(edge)];
+  const auto [low, high] = std::minmax(a, b);
+  if (side.stamp != stamp_) {
+    side = {edge, stamp_, label, a < b, true};
+  } else if (side.label < label) {
+    out.push_back({low, high, side.label, label, a < b});
+  } else if (label < side.label) {
+    out.push_back({low, high, label, side.label, side.ascends});
   }
+}
+
+void InterfaceFan::open_or_close(LocalVertex a, LocalVertex b) {
+  const std::uint64_t edge = edge_of(a, b);
+  const std::size_t at = place_of(edge);
+  Side& side = sides_[at];
+  if (side.stamp == stamp_) {
+    side.is_open = false;
+    return;
+  }
+  side = {edge, stamp_, 0, a < b, true};
+  opened_.push_back(at);
 }
 
 }  // namespace mw

@@ -32,12 +32,18 @@ class InterfaceFan {
     std::uint32_t stamp = 0;  ///< of the call that it belongs to
     Label label = 0;
     bool ascends = false;  ///< the normal of (v, smaller, larger) points into the tet
+    bool is_open = true;   ///< the other one did not come
   };
 
   void make_room(std::size_t sides);
-  void add_side(LocalVertex a, LocalVertex b, Label label, std::vector<FanTriangle>& out);
+  [[nodiscard]] std::size_t place_of(std::uint64_t edge) const;
+  void collect_of_any(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out);
+  void collect_of_two(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out);
+  void pair_sides(LocalVertex a, LocalVertex b, Label label, std::vector<FanTriangle>& out);
+  void open_or_close(LocalVertex a, LocalVertex b);
 
   std::vector<Side> sides_;  ///< hash table with linear probing; what bears another stamp is free
+  std::vector<std::size_t> opened_;  ///< places in it
   std::uint32_t stamp_ = 0;
 };
 

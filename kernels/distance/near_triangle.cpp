@@ -16,10 +16,6 @@ std::int32_t units(double voxels) {
   return static_cast<std::int32_t>(std::lround(voxels * kUnitsPerVoxel));
 }
 
-Vec3 in_voxels(Point p) {
-  return Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
-}
-
 /// Whether a tet of that label has the triangle (v, a, b).
 bool has_tet(const TetMesh& mesh, LocalVertex v, LocalVertex a, LocalVertex b, Label label) {
   const auto star = mesh.star(v);

@@ -6,9 +6,15 @@
 #include <array>
 
 #include "kernels/core/lanes.h"
+#include "kernels/core/lattice.h"
 #include "kernels/core/metric.h"
 
 namespace mw {
+
+/// Exact: units are a power of two to a voxel.
+[[nodiscard]] inline Vec3 in_voxels(Point p) {
+  return Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
+}
 
 /// x, y and z of some points.
 using PointLanes = std::array<StoredLanes, 3>;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "kernels/surface/bend.h"
@@ -29,18 +30,41 @@ void SurfaceStar::collect(const TetMesh& mesh, const Metric& metric, LocalVertex
 /// ways: it is a of one and b of the other.
 void SurfaceStar::find_spokes() {
   spokes_.clear();
+  gather_corners();
   const auto n = static_cast<std::uint32_t>(triangles_.size());
   for (std::uint32_t i = 0; i < n; ++i) {
     const SurfaceTriangle& t = triangles_[i];
-    std::uint32_t at_spoke = 0, other = n;
-    for (std::uint32_t k = 0; k < n; ++k) {
-      const SurfaceTriangle& u = triangles_[k];
-      if ((u.a != t.a && u.b != t.a) || !u.is_between(t.low, t.high)) continue;
-      ++at_spoke;
-      if (k != i) other = k;
+    int at_spoke = 0;
+    std::uint32_t other = n, first = 0;
+    for (const CornerLanes& group : corners_) {
+      unsigned found = group.of_triangles_at(t.a, t.low, t.high);
+      at_spoke += std::popcount(found);
+      if (i >= first && i - first < kLanes) found &= ~(1U << (i - first));
+      if (found != 0) other = first + static_cast<std::uint32_t>(std::countr_zero(found));
+      first += kLanes;
     }
     if (at_spoke == 2 && triangles_[other].b == t.a) spokes_.push_back({i, other});
   }
+}
+
+/// What is beyond the last triangle lies between a label and itself, so that nobody finds it.
+void SurfaceStar::gather_corners() {
+  corners_.assign((triangles_.size() + kLanes - 1) / kLanes, {});
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const SurfaceTriangle& t = triangles_[i];
+    CornerLanes& group = corners_[i / kLanes];
+    group.a[i % kLanes] = static_cast<std::int32_t>(t.a);
+    group.b[i % kLanes] = static_cast<std::int32_t>(t.b);
+    group.low[i % kLanes] = static_cast<std::int32_t>(t.low);
+    group.high[i % kLanes] = static_cast<std::int32_t>(t.high);
+  }
+}
+
+unsigned SurfaceStar::CornerLanes::of_triangles_at(LocalVertex w, Label l, Label h) const {
+  const auto vertex = static_cast<std::int32_t>(w);
+  return lane_bits(((load(a) == vertex) | (load(b) == vertex)) &
+                   (load(low) == static_cast<std::int32_t>(l)) &
+                   (load(high) == static_cast<std::int32_t>(h)));
 }
 
 void SurfaceStar::merge(const SurfaceStar& star, const Vec3& move, const SurfaceStar& other,

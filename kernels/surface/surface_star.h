@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/core/lanes.h"
 #include "kernels/distance/interface_fan.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/topology/edge_ring.h"
@@ -30,14 +31,14 @@ struct SurfaceTriangle {
   [[nodiscard]] Vec3 normal(const Vec3& x) const { return (to_a - x).cross(to_b - x); }
 };
 
-/// Two triangles at v that share an edge at v, are the only two of their labels there, and go on
-/// from each other: they run through the edge in opposite ways.
 /// A normal of any length.
 struct SurfaceNormal {
   Vec3 vector;
   double square = 0.0;  ///< of its length
 };
 
+/// Two triangles at v that share an edge at v, are the only two of their labels there, and go on
+/// from each other: they run through the edge in opposite ways.
 struct Spoke {
   std::uint32_t first = 0;  ///< rows of triangles
   std::uint32_t second = 0;
@@ -82,6 +83,15 @@ class SurfaceStar {
   [[nodiscard]] const std::vector<Rim>& rims() const { return rims_; }
 
  private:
+  /// Four triangles; low and high of the same label where there is none.
+  struct CornerLanes {
+    StoredInts a{}, b{}, low{}, high{};
+
+    /// One bit for each that has vertex w and lies between these labels.  REQUIRES: l < h.
+    [[nodiscard]] unsigned of_triangles_at(LocalVertex w, Label l, Label h) const;
+  };
+
+  void gather_corners();
   void add_without(LocalVertex vanishing, const SurfaceStar& star, const Vec3& move);
   void find_spokes();
   void find_rim(const TetMesh& mesh, const Metric& metric, std::uint32_t row);
@@ -93,6 +103,7 @@ class SurfaceStar {
   std::vector<SurfaceTriangle> triangles_;
   std::vector<Spoke> spokes_;
   std::vector<Rim> rims_;
+  std::vector<CornerLanes> corners_;  ///< scratch of find_spokes()
   EdgeRing ring_;
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch
 };

@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kRounding = 1e-8;
 
-Vec3 in_voxels(Point p) {
-  return Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
-}
-
 /// One quarter of one face, and the labels on its sides.
 struct Sample {
   FaceSamples quarter = 0;  ///< one bit

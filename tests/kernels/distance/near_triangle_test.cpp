@@ -16,10 +16,6 @@ using audit::test::below;
 using audit::test::random_volume_of;
 using audit::test::VolumeKind;
 
-Vec3 in_voxels(Point p) {
-  return Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
-}
-
 /// The least distance to a triangle of these labels at v without those two corners.
 double least_distance(const TetMesh& mesh, LocalVertex v, const std::array<LocalVertex, 2>& without,
                       const NearTriangle::Wanted& wanted) {
