@@ -85,7 +85,9 @@ Box3 LabelReach::voxels_near(const Triangle& t) const {
   std::array<std::int64_t, 3> lo{}, hi{};
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const auto [min, max] = std::minmax({t[0][i], t[1][i], t[2][i]});
+    // Without branches: which corner is the least cannot be foretold.
+    const double min = std::min(std::min(t[0][i], t[1][i]), t[2][i]);
+    const double max = std::max(std::max(t[0][i], t[1][i]), t[2][i]);
     lo[k] = floor_index(max - max_distance_);
     hi[k] = floor_index(min + max_distance_) + 1;
   }

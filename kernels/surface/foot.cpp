@@ -15,6 +15,19 @@ double share_of_way(double along, double square) {
   return square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
 }
 
+/// Of four lanes; see foot_on_triangle().
+MW_WIDE void find_feet(const PointLanes& points, const Vec3& a, const Vec3& b, FeetInside& out) {
+  const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm();
+  const double area = aa * bb - ab * ab;
+  const Lanes3 p{load(points[0]), load(points[1]), load(points[2])};
+  const Lanes pa = dot(p, lanes(a)), pb = dot(p, lanes(b));
+  const Lanes u = bb * pa - ab * pb, v = aa * pb - ab * pa, w = area - u - v;
+  const LaneMask inside = (u > 0.0) & (v > 0.0) & (w > 0.0);
+  const Lanes share = w / area;
+  std::memcpy(out.at_corner.data(), &share, sizeof share);
+  out.points = lane_bits(__builtin_convertvector(inside, LaneInts));
+}
+
 }  // namespace
 
 Foot foot_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -37,6 +50,12 @@ Foot foot_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b) {
   return *std::min_element(feet.begin(), feet.end(), [](const Foot& f, const Foot& g) {
     return f.squared_distance < g.squared_distance;
   });
+}
+
+FeetInside feet_inside(const PointLanes& p, const Vec3& a, const Vec3& b) {
+  FeetInside out;
+  find_feet(p, a, b, out);
+  return out;
 }
 
 }  // namespace mw

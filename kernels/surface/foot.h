@@ -6,6 +6,7 @@
 #include <array>
 
 #include "kernels/core/metric.h"
+#include "kernels/distance/point_triangle.h"
 
 namespace mw {
 
@@ -17,5 +18,14 @@ struct Foot {
 
 /// The foot of p on the triangle with corners 0, a and b; degenerate ones included.
 [[nodiscard]] Foot foot_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b);
+
+/// Feet of some points at once.
+struct FeetInside {
+  unsigned points = 0;      ///< one bit for each whose foot has positive weights
+  StoredLanes at_corner{};  ///< weights of corner 0, of those
+};
+
+/// Those on the triangle with corners 0, a and b; none when it is degenerate.
+[[nodiscard]] FeetInside feet_inside(const PointLanes& p, const Vec3& a, const Vec3& b);
 
 }  // namespace mw

@@ -64,14 +64,22 @@ void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard&
   const Vec3 voxel = metric.voxel();
   const Vec3 at = metric.vector({}, origin);
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
+  fits_.assign(triangles.size(), {});
+  PieceGroup group;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
     const TriangleKey key = triangle_key(star_->vertex(), t.a, t.b);
     guard.for_each_piece(key, t.low, [&](const DistanceGuard::Piece& piece) {
       const double area = piece.quarters / kSamplesPerFace * metric.face_area(piece.axis);
-      add_piece(piece.middle.cwiseProduct(voxel) - at, area, piece, i);
+      const Vec3 p = piece.middle.cwiseProduct(voxel) - at;
+      for (std::size_t k = 0; k < 3; ++k) group.middles[k][group.size] = p[static_cast<int>(k)];
+      group.areas[group.size] = piece.sign * area;
+      group.axes[group.size++] = piece.axis;
+      if (group.size == kLanes) add_pieces(group, i);
     });
+    if (group.size != 0) add_pieces(group, i);
   }
+  sum_up_fits();
 }
 
 /// The triangle that p's foot is on: the carrier when it is inside, else the nearest of its labels.
@@ -93,22 +101,40 @@ std::pair<std::size_t, Foot> SurfaceEnergy::foot_of(const Vec3& p, std::size_t c
   return best;
 }
 
-/// p: middle of the piece, from v.
-void SurfaceEnergy::add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece,
-                              std::size_t carrier) {
-  const auto [row, foot] = foot_of(p, carrier);
-  const SurfaceTriangle& t = star_->triangles()[row];
-  const Vec3& n = unit_normals_[row];
-  const double weight = area * piece.sign * n[static_cast<int>(piece.axis)];
-  if (!(weight > 0.0)) return;
-  const double r = n.dot(p - foot.weights[1] * t.to_a - foot.weights[2] * t.to_b);
-  const double share = foot.weights[0];
-  square_ += weight * share * share * n * n.transpose();
-  linear_ += weight * share * r * n;
-  mass_ += weight * share * share;
-  Balance& b = balance(t.low, t.high);
-  b.volume += weight * share * r;
-  b.slope += weight * share * share * n;
+/// Empties the group.  Most feet are on the carrier, which is found out for several at once.
+void SurfaceEnergy::add_pieces(PieceGroup& group, std::size_t carrier) {
+  const SurfaceTriangle& own = star_->triangles()[carrier];
+  const FeetInside feet = feet_inside(group.middles, own.to_a, own.to_b);
+  for (std::size_t k = 0; k < group.size; ++k) {
+    const Vec3 p(group.middles[0][k], group.middles[1][k], group.middles[2][k]);
+    std::size_t row = carrier;
+    double share = feet.at_corner[k];
+    if ((feet.points >> k & 1U) == 0) {
+      const auto [nearest, foot] = foot_of(p, carrier);
+      row = nearest;
+      share = foot.weights[0];
+    }
+    const Vec3& n = unit_normals_[row];
+    const double weight = group.areas[k] * n[static_cast<int>(group.axes[k])];
+    if (!(weight > 0.0)) continue;
+    // The triangle's plane goes through v, so that r is the height above it.
+    fits_[row].square += weight * share * share;
+    fits_[row].volume += weight * share * n.dot(p);
+  }
+  group.size = 0;
+}
+
+void SurfaceEnergy::sum_up_fits() {
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    const SurfaceTriangle& t = star_->triangles()[i];
+    const Vec3& n = unit_normals_[i];
+    square_ += fits_[i].square * n * n.transpose();
+    linear_ += fits_[i].volume * n;
+    mass_ += fits_[i].square;
+    Balance& b = balance(t.low, t.high);
+    b.volume += fits_[i].volume;
+    b.slope += fits_[i].square * n;
+  }
 }
 
 SurfaceEnergy::Balance& SurfaceEnergy::balance(Label low, Label high) {

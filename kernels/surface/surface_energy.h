@@ -79,11 +79,25 @@ class SurfaceEnergy {
     Vec3 slope = Vec3::Zero();  ///< sum of w f^2 n
   };
 
+  /// Sums of the fit at a triangle.
+  struct TriangleFit {
+    double square = 0.0;  ///< sum of w f^2
+    double volume = 0.0;  ///< sum of w f r
+  };
+
+  /// Some pieces of one carrier.
+  struct PieceGroup {
+    PointLanes middles{};                 ///< from v
+    StoredLanes areas{};                  ///< s, negative where the normal looks down its axis
+    std::array<unsigned, kLanes> axes{};  ///< of the normals
+    std::size_t size = 0;
+  };
+
   [[nodiscard]] Balance& balance(Label low, Label high);
   void fit(const Metric& metric, Point origin, const DistanceGuard& guard);
   [[nodiscard]] std::pair<std::size_t, Foot> foot_of(const Vec3& p, std::size_t carrier) const;
-  void add_piece(const Vec3& p, double area, const DistanceGuard::Piece& piece,
-                 std::size_t carrier);
+  void add_pieces(PieceGroup& group, std::size_t carrier);
+  void sum_up_fits();
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
@@ -101,6 +115,7 @@ class SurfaceEnergy {
   Vec3 linear_ = Vec3::Zero();
   Vec3 pressure_ = Vec3::Zero();
   double present_ = 0.0;
+  std::vector<TriangleFit> fits_;  ///< of the star's triangles
   std::vector<Balance> balances_;
   std::vector<VolumeDebt> debts_;
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch

@@ -72,6 +72,37 @@ TEST(Foot, IsAsNearAsAnyOfManyPoints) {
   }
 }
 
+TEST(Foot, SeveralInsideAreThoseOfEachAlone) {
+  std::mt19937 random(1104);
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const auto [a, b] = random_sides(random, i);
+    PointLanes points;
+    std::array<Vec3, kLanes> single;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      single[k] = random_point(random) - Vec3::Constant(2.0);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        points[axis][k] = single[k][static_cast<int>(axis)];
+      }
+    }
+    const FeetInside feet = feet_inside(points, a, b);
+    EXPECT_EQ(feet.points >> kLanes, 0U);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const auto& w = foot_on_triangle(single[k], a, b).weights;
+      const double least = std::min({w[0], w[1], w[2]});
+      const bool is_inside = (feet.points >> k & 1U) != 0;
+      // Close to an edge rounding decides.
+      ASSERT_TRUE(is_inside || least < 1e-9) << i;
+      (is_inside ? inside : outside) += 1;
+      if (!is_inside) continue;
+      ASSERT_GT(least, -1e-9);
+      ASSERT_NEAR(feet.at_corner[k], w[0], 1e-9);
+    }
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_GT(outside, 1000);
+}
+
 /// A point of the triangle is its own foot.
 TEST(Foot, OfAPointOfTheTriangleHasItsWeights) {
   std::mt19937 random(1103);
