@@ -89,15 +89,10 @@ void report(const Job& job) {
   print_prediction(marches, job);
 }
 
-}  // namespace
-}  // namespace mw::bench
-
-int main(int argc, char** argv) {
-  mw::bench::Job job;
-  CLI::App app("predicts the march's speed-up on more cores from a trace, as Markdown");
+void add_options(CLI::App& app, Job& job) {
+  const std::map<std::string, engine::Order> orders{{"raster", engine::Order::kRaster},
+                                                    {"colour", engine::Order::kColour}};
   app.add_option("TRACE", job.trace, "written by mwmesh mesh --trace")->required();
-  const std::map<std::string, mw::engine::Order> orders{{"raster", mw::engine::Order::kRaster},
-                                                        {"colour", mw::engine::Order::kColour}};
   app.add_option("--order", job.order, "in which the trace was taken")
       ->transform(CLI::CheckedTransformer(orders));
   app.add_flag("--wall", job.wall, "wall instead of processor time of windows");
@@ -106,8 +101,17 @@ int main(int argc, char** argv) {
   app.add_option("--look-ahead", job.look_ahead,
                  "of the march, in windows; by default the march's own")
       ->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
+}
+
+}  // namespace
+}  // namespace mw::bench
+
+int main(int argc, char** argv) {
   try {
+    mw::bench::Job job;
+    CLI::App app("predicts the march's speed-up on more cores from a trace, as Markdown");
+    mw::bench::add_options(app, job);
+    CLI11_PARSE(app, argc, argv);
     mw::bench::report(job);
   } catch (const std::exception& error) {
     std::cerr << "mw_scaling: error: " << error.what() << "\n";

@@ -275,7 +275,7 @@ py::array_t<std::uint64_t> synth_array(const std::string& kind, const Index& sha
 /// Errors become mwmesh.Error of the kind.
 void translate_errors(const py::module_& module) {
   static const py::object raise = module.attr("_error_of");
-  py::register_exception_translator([](std::exception_ptr thrown) {
+  py::register_exception_translator([](const std::exception_ptr& thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const Error& error) {

@@ -30,9 +30,9 @@ BlockTable::BlockTable(const RunLayout& layout, const DoneWindows& done, Segment
       pages_(pages_of(layout, kPageBlocks)) {}
 
 const StoredBlock& BlockTable::at(std::uint64_t slot) const {
-  static const StoredBlock kNone;
+  static const StoredBlock none;
   const auto& page = pages_[slot / kPageBlocks];
-  return page == nullptr ? kNone : page->blocks[slot % kPageBlocks];
+  return page == nullptr ? none : page->blocks[slot % kPageBlocks];
 }
 
 StoredBlock& BlockTable::held(std::uint64_t slot) {

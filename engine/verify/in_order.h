@@ -38,7 +38,7 @@ void each_in_order(int threads, std::uint32_t count,
   Crew crew(threads);
   crew.run([&] {
     tbb::parallel_pipeline(
-        static_cast<std::size_t>(2 * crew.size()),
+        2 * static_cast<std::size_t>(crew.size()),
         tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order, start) &
             tbb::make_filter<std::uint32_t, std::shared_ptr<Done>>(tbb::filter_mode::parallel,
                                                                    run) &

@@ -52,7 +52,6 @@ class MeshStage {
   MeshStage(const MeshTiles& mesh, std::size_t label_count, const audit::ValidityTask& validity,
             const VerifyTask& task, const InterfaceSinks& sinks)
       : mesh_(mesh),
-        label_count_(label_count),
         validity_(validity),
         task_(task),
         pieces_(sinks.pieces),
@@ -165,7 +164,6 @@ class MeshStage {
   }
 
   const MeshTiles& mesh_;
-  std::size_t label_count_;
   const audit::ValidityTask& validity_;
   const VerifyTask& task_;
   PieceBuckets* pieces_;

@@ -14,7 +14,7 @@ namespace {
 
 /// Without a '/' at its end; nothing may be there but an empty folder.
 std::filesystem::path free_target(const std::filesystem::path& target) {
-  const std::filesystem::path name = target.has_filename() ? target : target.parent_path();
+  std::filesystem::path name = target.has_filename() ? target : target.parent_path();
   std::error_code failed;
   const bool exists = std::filesystem::exists(name, failed);
   const bool is_free = !exists || (std::filesystem::is_directory(name, failed) &&

@@ -18,7 +18,7 @@ std::filesystem::path named_beside(const std::filesystem::path& header, std::str
     fail_input(header.string(), field, text("'", name, "' leads out of the header's folder"),
                "put the file beside the header and name it without a path");
   }
-  const std::filesystem::path path = header.parent_path() / relative;
+  std::filesystem::path path = header.parent_path() / relative;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     fail_input(header.string(), field, text(path.string(), " is missing or not a file"),

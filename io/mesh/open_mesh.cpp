@@ -73,7 +73,7 @@ std::unique_ptr<MeshSink> open_msh(const std::filesystem::path& path, Element el
                                        element);
 }
 
-const std::array kFormats{
+const std::array formats{
     MeshFormat{".vtkhdf", nullptr, &read_vtkhdf, &open_streamed<VtkhdfSink>},
     MeshFormat{".vtu", [](const auto& path) { return read_vtu(*open_bytes(path)); }, nullptr,
                &open_streamed<VtuSink>},
@@ -99,7 +99,7 @@ const std::array kFormats{
 };
 
 const MeshFormat* find_format(const std::filesystem::path& path) {
-  for (const MeshFormat& format : kFormats) {
+  for (const MeshFormat& format : formats) {
     if (path.extension() == format.extension) return &format;
   }
   return nullptr;
@@ -116,7 +116,7 @@ const MeshFormat& format_of(const std::filesystem::path& path) {
 
 std::string mesh_extensions() {
   std::string out;
-  for (const MeshFormat& format : kFormats)
+  for (const MeshFormat& format : formats)
     out += (out.empty() ? "" : ", ") + text(format.extension);
   return out;
 }

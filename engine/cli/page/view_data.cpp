@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace mw::cli {
@@ -104,7 +105,7 @@ void ViewData::write_vertices(const AppendText& append) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = hi_[k] - lo_[k];
       const double share = length > 0 ? (p[k] - lo_[k]) / length : 0;
-      numbers[k] = static_cast<std::uint16_t>(65535 * share + 0.5);
+      numbers[k] = static_cast<std::uint16_t>(std::lround(65535 * share));
     }
     out.add(std::as_bytes(std::span(numbers)));
   }

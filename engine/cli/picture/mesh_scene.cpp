@@ -105,7 +105,7 @@ void MeshScene::for_each_section(Label rank, const Visit& visit) {
 }
 
 Vec3 MeshScene::vertex(std::uint64_t row) {
-  const Vec3 point = vec(mesh_.node(row));
+  Vec3 point = vec(mesh_.node(row));
   if (!point.allFinite()) {
     throw Error(ErrorKind::kInput, io::text("vertex ", row, " is not at a finite place"));
   }

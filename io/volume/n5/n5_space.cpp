@@ -19,14 +19,14 @@ std::string short_unit(const std::string& unit) {
     const char* symbol;
     std::vector<std::string> names;
   };
-  const std::array<Unit, 5> kUnits{{
+  const std::array<Unit, 5> known_units{{
       {"nm", {"nanometer", "nanometers"}},
       {"um", {"micrometer", "micrometers", "micron", "microns", "\u00b5m", "\u03bcm"}},
       {"mm", {"millimeter", "millimeters"}},
       {"cm", {"centimeter", "centimeters"}},
       {"m", {"meter", "meters"}},
   }};
-  for (const auto& [symbol, names] : kUnits) {
+  for (const auto& [symbol, names] : known_units) {
     if (unit == symbol || std::find(names.begin(), names.end(), unit) != names.end()) return symbol;
   }
   return {};

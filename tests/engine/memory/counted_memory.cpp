@@ -18,13 +18,18 @@ std::uint64_t size_of(void* piece) {
   return malloc_usable_size(piece) + sizeof(std::size_t);
 }
 
-void* counted(void* piece) {
-  if (piece == nullptr) throw std::bad_alloc();
+void* counted_or_null(void* piece) {
+  if (piece == nullptr) return nullptr;
   const std::uint64_t now = allocated += size_of(piece);
   std::uint64_t max = peak;
   while (max < now && !peak.compare_exchange_weak(max, now)) {
   }
   return piece;
+}
+
+void* counted(void* piece) {
+  if (piece == nullptr) throw std::bad_alloc();
+  return counted_or_null(piece);
 }
 
 void give_back(void* piece) {
@@ -34,9 +39,13 @@ void give_back(void* piece) {
 
 }  // namespace
 
-// The array and nothrow forms end in these by default.
+// The array forms end in these by default; so does the nothrow form (std::stable_sort's), but not
+// under AddressSanitizer.
 void* operator new(std::size_t size) {
   return counted(std::malloc(size));
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted_or_null(std::malloc(size));
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto multiple = static_cast<std::size_t>(alignment);
