@@ -66,14 +66,14 @@ std::vector<RegionBetti> PartsUnion::betti_of_volume() {
   // The exterior is an open ball, hence one 3-cell; its closure adds the box's surface, chi 2.
   euler.closed[label_count_] = 1;
   euler.only[label_count_] = -1;
-  return betti(std::move(euler));
+  return betti(euler);
 }
 
 std::vector<RegionBetti> PartsUnion::betti_of_mesh() {
   EulerSums euler = sums();
   const auto exterior = static_cast<Label>(label_count_);
   euler.add(-1, std::span(&exterior, 1));
-  return betti(std::move(euler));
+  return betti(euler);
 }
 
 void PartsUnion::join() {
@@ -86,7 +86,7 @@ void PartsUnion::join() {
   vertex_pairs_ = renumbered(std::exchange(vertex_pairs_, {}), parts.of_member);
 }
 
-std::vector<RegionBetti> PartsUnion::betti(EulerSums euler) {
+std::vector<RegionBetti> PartsUnion::betti(const EulerSums& euler) {
   join();
   std::vector<RegionBetti> out = betti_of_parts(part_class_, face_pairs_, vertex_pairs_, euler);
   out.resize(label_count_ + 1);

@@ -63,7 +63,7 @@ class PartsUnion {
   /// Numbers parts that are one by one number.
   void join();
   /// The exterior is one cell that no tile has counted.
-  [[nodiscard]] std::vector<RegionBetti> betti(EulerSums euler);
+  [[nodiscard]] std::vector<RegionBetti> betti(const EulerSums& euler);
   [[nodiscard]] EulerSums sums() const;
   DisjointSets& sets();
 

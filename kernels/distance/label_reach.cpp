@@ -115,7 +115,7 @@ bool LabelReach::prove(const Triangle& t, Wanted wanted) const {
   if (edges[longest] <= squared_smallest_) return false;
   const Vec3 centroid = (t[0] + t[1] + t[2]) / 3.0;
   if (!unseen({centroid, centroid, centroid}, wanted).nothing()) return false;
-  const Vec3 apex = t[longest], p = t[(longest + 1) % 3], q = t[(longest + 2) % 3];
+  const Vec3 &apex = t[longest], &p = t[(longest + 1) % 3], &q = t[(longest + 2) % 3];
   const Vec3 middle = 0.5 * (p + q);
   return prove({apex, p, middle}, wanted) && prove({apex, middle, q}, wanted);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "io/file/errors.h"
 #include "tests/engine/cli/run_program.h"
 #include "tests/engine/settings/setting_samples.h"
 
@@ -43,10 +44,10 @@ TEST_F(ConfigTest, EverySettingComesFromFlagVariableAndFile) {
     std::transform(key.begin(), key.end(), variable.begin() + 3, ::toupper);
     const std::string flag = "--" + setting.name;
     const bool is_switch = setting.kind == engine::SettingKind::kSwitch;
-    const std::string printed = line(key, is_switch ? flag : flag + " " + text);
+    const std::string printed = line(key, is_switch ? flag : io::text(flag, " ", text));
     EXPECT_NE(printed.find(text), std::string::npos) << flag << ": " << printed;
     EXPECT_NE(printed, line(key, "")) << key;
-    EXPECT_EQ(printed, line(key, "", variable + "=" + text)) << variable;
+    EXPECT_EQ(printed, line(key, "", io::text(variable, "=", text))) << variable;
     write("one.toml", printed + "\n");
     EXPECT_EQ(printed, line(key, "--config one.toml")) << key;
     EXPECT_NE(help.find(setting.help), std::string::npos) << flag;

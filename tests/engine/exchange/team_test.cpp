@@ -124,7 +124,7 @@ TEST(Team, ParcelsArriveOnceAlsoThoseThatCameTooEarly) {
               std::set<std::pair<std::uint64_t, std::uint64_t>> seen;
               std::atomic<std::size_t> count = 0;
               team.listen({.parcel =
-                               [&](const Team::Head& head, std::vector<std::byte> got,
+                               [&](const Team::Head& head, const std::vector<std::byte>& got,
                                    const std::shared_ptr<void>&) {
                                  const std::lock_guard lock(mutex);
                                  EXPECT_EQ(got, bytes(head[0], static_cast<int>(head[1])));
