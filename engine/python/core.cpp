@@ -8,6 +8,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <cstring>
+#include <utility>
 
 #include "engine/mwmesh.h"
 #include "engine/python/watched_run.h"
@@ -275,9 +276,9 @@ py::array_t<std::uint64_t> synth_array(const std::string& kind, const Index& sha
 /// Errors become mwmesh.Error of the kind.
 void translate_errors(const py::module_& module) {
   static const py::object raise = module.attr("_error_of");
-  py::register_exception_translator([](const std::exception_ptr& thrown) {
+  py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const Error& error) {
       const py::object made = raise(static_cast<int>(error.kind()), error.what());
       PyErr_SetObject(py::type::handle_of(made).ptr(), made.ptr());

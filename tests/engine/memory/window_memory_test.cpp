@@ -104,7 +104,7 @@ TEST(WindowMemory, BoundsWhatVisitsAllocateOnAllKindsOfVolumes) {
   std::mt19937 random(4011);
   for (std::uint32_t kind = 0; kind < audit::test::kVolumeKinds; ++kind) {
     for (const StartMesh start : kStarts) {
-      const auto edge = [&] { return static_cast<std::int64_t>(9 + below(random, 14)); };
+      const auto edge = [&]() -> std::int64_t { return 9 + below(random, 14); };
       Trial trial{.volume = random_volume_of(random, static_cast<VolumeKind>(kind),
                                              {edge(), edge(), edge()}, 2 + below(random, 6)),
                   .settings = {.window = below(random, 2) == 0 ? 8 : 16, .start = start},
@@ -144,7 +144,7 @@ TEST(WindowMemory, BoundsTheLabelsThatLargeDistancesRead) {
   std::mt19937 random(4014);
   for (const double distance : {3.0, 6.0, 16.0}) {
     for (const VolumeKind kind : {VolumeKind::kBlobs, VolumeKind::kSheets}) {
-      const auto edge = [&] { return static_cast<std::int64_t>(16 + below(random, 12)); };
+      const auto edge = [&]() -> std::int64_t { return 16 + below(random, 12); };
       Trial trial{
           .volume = random_volume_of(random, kind, {edge(), edge(), edge()}, 2 + below(random, 4)),
           .settings = {.window = below(random, 2) == 0 ? 8 : 16},
