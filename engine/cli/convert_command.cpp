@@ -58,9 +58,8 @@ int run_convert(const ConvertJob& job) {
 void add_convert_command(CLI::App& program, Action& chosen) {
   CLI::App* command = program.add_subcommand("convert", "writes a mesh in another format");
   const auto job = std::make_shared<ConvertJob>();
-  const std::string formats = io::mesh_extensions();
-  command->add_option("MESH", job->from, "mesh to read: " + formats)->required();
-  command->add_option("OUT", job->to, "mesh to write: " + formats)->required();
+  command->add_option("MESH", job->from, "mesh to read: " + io::read_mesh_extensions())->required();
+  command->add_option("OUT", job->to, "mesh to write: " + io::mesh_extensions())->required();
   command->add_flag("--ascii", job->ascii, "a .msh as text instead of binary");
   command
       ->add_option("--element", job->element,

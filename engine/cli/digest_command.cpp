@@ -15,7 +15,7 @@ void add_digest_command(CLI::App& program, Action& chosen) {
   CLI::App* command =
       program.add_subcommand("digest", "prints the digest of a mesh, the same in every format");
   const auto mesh = std::make_shared<std::string>();
-  command->add_option("MESH", *mesh, "mesh: " + io::mesh_extensions())->required();
+  command->add_option("MESH", *mesh, "mesh: " + io::read_mesh_extensions())->required();
   command->callback([mesh, &chosen] {
     chosen = [mesh] {
       io::DigestSink sink(io::scratch_folder());

@@ -77,7 +77,7 @@ void add_stats_command(CLI::App& program, Action& chosen) {
   const auto job = std::make_shared<StatsJob>();
   job->options.add({.name = "mesh",
                     .value = "MESH",
-                    .help = "mesh to measure: " + io::mesh_extensions(),
+                    .help = "mesh to measure: " + io::read_mesh_extensions(),
                     .flags = "MESH,--mesh",
                     .assign = [job = job.get()](const std::string& text) { job->mesh = text; }});
   job->options.add(

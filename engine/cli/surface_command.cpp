@@ -132,7 +132,7 @@ void add_surface_command(CLI::App& program, Action& chosen) {
   CLI::App* command =
       program.add_subcommand("surface", "writes surfaces of labels, or where two of them meet");
   const auto flags = std::make_shared<SurfaceFlags>();
-  command->add_option("MESH", flags->mesh, "mesh: " + io::mesh_extensions())->required();
+  command->add_option("MESH", flags->mesh, "mesh: " + io::read_mesh_extensions())->required();
   command
       ->add_option("-o,--output", flags->output,
                    "file to write: .stl, .ply, .obj or .vtp; or a folder, for precomputed meshes "

@@ -30,7 +30,7 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
   add_input_option(options, request.volume.path);
   options.add({.name = "mesh",
                .value = "MESH",
-               .help = "mesh to check: " + io::mesh_extensions(),
+               .help = "mesh to check: " + io::read_mesh_extensions(),
                .flags = "MESH,--mesh",
                .assign = [&](const std::string& text) { request.mesh = text; }});
   add_volume_options(options, request.volume);

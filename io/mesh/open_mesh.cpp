@@ -17,6 +17,7 @@
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/medit/medit_reader.h"
 #include "io/mesh/medit/medit_sink.h"
+#include "io/mesh/pieces/pvtu_reader.h"
 #include "io/mesh/pieces/pvtu_sink.h"
 #include "io/mesh/tetgen/tetgen_reader.h"
 #include "io/mesh/tetgen/tetgen_writer.h"
@@ -107,6 +108,11 @@ const MeshFormat* find_format(const std::filesystem::path& path) {
 
 const MeshFormat& format_of(const std::filesystem::path& path) {
   if (const MeshFormat* format = find_format(path)) return *format;
+  if (path.extension() == kPiecesExtension) {
+    throw Error(ErrorKind::kUsage,
+                text(path.string(), ": a mesh in pieces; write it whole, and then with 'convert ",
+                     "--pieces N'"));
+  }
   throw Error(ErrorKind::kUsage,
               text(path.string(), ": extension '", path.extension().string(),
                    "' is no mesh format known here; supported are ", mesh_extensions()));
@@ -121,8 +127,12 @@ std::string mesh_extensions() {
   return out;
 }
 
+std::string read_mesh_extensions() {
+  return text(mesh_extensions(), ", ", kPiecesExtension);
+}
+
 bool is_mesh_path(const std::filesystem::path& path) {
-  return find_format(path) != nullptr;
+  return path.extension() == kPiecesExtension || find_format(path) != nullptr;
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
@@ -136,6 +146,7 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path)
 }
 
 MeshData read_mesh(const std::filesystem::path& path) {
+  if (path.extension() == kPiecesExtension) return read_pvtu(path);
   const MeshFormat& format = format_of(path);
   if (format.read != nullptr) return format.read(path);
   MeshDataSink sink;
@@ -144,11 +155,11 @@ MeshData read_mesh(const std::filesystem::path& path) {
 }
 
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
-  const MeshFormat& format = format_of(path);
-  if (format.stream != nullptr) {
-    format.stream(path, sink);
+  const MeshFormat* const format = find_format(path);
+  if (format != nullptr && format->stream != nullptr) {
+    format->stream(path, sink);
   } else {
-    write_mesh(format.read(path), sink);
+    write_mesh(read_mesh(path), sink);
   }
 }
 

@@ -21,6 +21,9 @@ enum class Encoding : std::uint8_t {
 
 /// The extensions that are read and written, as ".vtkhdf, .vtu, .mesh".
 [[nodiscard]] std::string mesh_extensions();
+/// Those that are read: these and kPiecesExtension.
+[[nodiscard]] std::string read_mesh_extensions();
+/// Whether it is read as a mesh.
 [[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
 
 /// What is written for a mesh of that name: that file first, then what goes beside it.
@@ -40,7 +43,7 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
                                                        Element element = Element::kTet4,
                                                        Encoding encoding = Encoding::kUsual);
 
-/// The ending of meshes in pieces, which are written only.
+/// The ending of meshes in pieces.
 inline constexpr const char* kPiecesExtension = ".pvtu";
 /// A mesh of four nodes a tet in so many pieces (pieces/pvtu_sink.h), for programs that run on many
 /// processes.

@@ -29,6 +29,7 @@ void fuzz_medit(Bytes bytes);
 void fuzz_gmsh(Bytes bytes);
 void fuzz_abaqus(Bytes bytes);
 void fuzz_febio(Bytes bytes);
+void fuzz_pvtu(Bytes bytes);
 void fuzz_tetgen(Bytes bytes);
 void fuzz_xdmf(Bytes bytes);
 // names.cpp

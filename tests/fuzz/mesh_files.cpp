@@ -9,6 +9,7 @@
 #include "io/mesh/febio/febio_reader.h"
 #include "io/mesh/gmsh/msh_reader.h"
 #include "io/mesh/medit/medit_reader.h"
+#include "io/mesh/pieces/pvtu_reader.h"
 #include "io/mesh/tetgen/tetgen_reader.h"
 #include "io/mesh/vtu/vtu_reader.h"
 #include "io/mesh/vtu/vtu_sink.h"
@@ -67,6 +68,10 @@ void read_tree(Bytes bytes, const char* name, ReadPath read) {
 
 void fuzz_vtu(Bytes bytes) {
   read_and_check([&] { return io::read_vtu(ByteFile(bytes)); });
+}
+
+void fuzz_pvtu(Bytes bytes) {
+  read_tree(bytes, "m.pvtu", io::read_pvtu);
 }
 
 void fuzz_medit(Bytes bytes) {

@@ -28,6 +28,7 @@ constexpr std::array kTargets{
     Target{"gmsh", fuzz_gmsh},
     Target{"abaqus", fuzz_abaqus},
     Target{"febio", fuzz_febio},
+    Target{"pvtu", fuzz_pvtu},
     Target{"tetgen", fuzz_tetgen},
     Target{"xdmf", fuzz_xdmf},
     Target{"names", fuzz_names},

@@ -9,6 +9,7 @@
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/kept_rows.h"
+#include "io/mesh/vtu/vtu_layout.h"
 #include "io/mesh/vtu/vtu_names.h"
 #include "io/vtk_xml/vtk_document.h"
 
@@ -125,12 +126,8 @@ void read_cells(pugi::xml_node piece, VtkDocument& document, MeshData& mesh, Kep
   mesh.labels_signed = mesh.labels_signed || type->is_signed;
 }
 
-}  // namespace
-
-MeshData read_vtu(const ByteSource& source) {
-  VtkDocument document(source, {"UnstructuredGrid", "give a .vtu file of tetrahedra"});
-  MeshData mesh;
-  KeptRows middles;
+/// All pieces, one after the other; which vertices are middles of edges goes to `middles`.
+void read_grid(VtkDocument& document, MeshData& mesh, KeptRows& middles) {
   bool found = false;
   for (const pugi::xml_node piece : document.grid().children("Piece")) {
     read_points(piece, document, mesh);
@@ -138,10 +135,47 @@ MeshData read_vtu(const ByteSource& source) {
     found = true;
   }
   if (!found) fail_input(document.file(), "Piece", "missing: the file holds no mesh");
+}
+
+std::vector<std::uint64_t> read_ids(VtkDocument& document) {
+  std::vector<std::uint64_t> out;
+  for (const pugi::xml_node piece : document.grid().children("Piece")) {
+    const std::uint64_t count = count_of(piece, "NumberOfPoints", document);
+    if (count == 0) continue;
+    const pugi::xml_node array = named_array(piece.child("PointData"), kNodeIds, document);
+    const std::vector<std::uint64_t> ids = document.integers(array, count);
+    out.insert(out.end(), ids.begin(), ids.end());
+  }
+  return out;
+}
+
+constexpr VtkKind kVtu{"UnstructuredGrid", "give a .vtu file of tetrahedra"};
+
+}  // namespace
+
+MeshData read_vtu(const ByteSource& source) {
+  VtkDocument document(source, kVtu);
+  MeshData mesh;
+  KeptRows middles;
+  read_grid(document, mesh, middles);
   drop_middles(mesh, middles);
   mesh.names = read_vtu_names(document);
   mesh.record = read_vtu_record(document);
   return mesh;
+}
+
+VtuPiece read_vtu_piece(const ByteSource& source) {
+  VtkDocument document(source, kVtu);
+  VtuPiece out;
+  KeptRows middles;
+  read_grid(document, out.mesh, middles);
+  if (middles.any()) {
+    fail_input(document.file(), "cells", "tets of ten nodes in a mesh of several pieces",
+               "write its pieces with tets of four");
+  }
+  out.ids = read_ids(document);
+  out.mesh.names = read_vtu_names(document);
+  return out;
 }
 
 }  // namespace mw::io

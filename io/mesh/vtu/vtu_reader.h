@@ -15,4 +15,13 @@ namespace mw::io {
 /// tetrahedra, without label, or when a row does not exist.
 [[nodiscard]] MeshData read_vtu(const ByteSource& source);
 
+/// A mesh that is part of another.
+struct VtuPiece {
+  MeshData mesh;
+  std::vector<std::uint64_t> ids;  ///< of its vertices in the whole: PointData/GlobalNodeIds
+};
+
+/// ERRORS: as read_vtu(); without ids, or with tets of ten nodes.
+[[nodiscard]] VtuPiece read_vtu_piece(const ByteSource& source);
+
 }  // namespace mw::io

@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 """VTK reads a mesh in pieces, whole or a share of them, and finds out which vertices are shared."""
+import json
 import os
 import sys
 import tempfile
@@ -68,6 +69,15 @@ class Pieces(unittest.TestCase):
         self.assertEqual(len(seen), self.whole.GetNumberOfPoints())
         self.assertGreater(max(seen.values()), 1)
         self.assertEqual(sorted(tets), tets_of(self.whole))
+
+    def test_they_are_read_as_the_mesh(self):
+        self.assertEqual(run("digest", "parts.pvtu"), run("digest", "whole.vtu"))
+        self.assertIn("all checks hold", run("verify", "v.npy", "parts.pvtu"))
+        facts = [json.loads(run("info", m, "--json")) for m in ("parts.pvtu", "whole.vtu")]
+        for key in ("vertices", "tets", "labels", "box", "digest"):
+            self.assertEqual(facts[0][key], facts[1][key])
+        run("convert", "parts.pvtu", "again.vtkhdf")
+        self.assertEqual(run("digest", "again.vtkhdf"), run("digest", "whole.vtu"))
 
 
 if __name__ == "__main__":
