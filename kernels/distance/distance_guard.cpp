@@ -150,11 +150,9 @@ bool DistanceGuard::carry_samples(std::size_t from) {
     if (all_stay) kept_.insert(kept_.end(), i, true);
     all_stay = false;
     for (std::size_t k = 0; k < group.size(); ++k) {
-      bool stays = (staying >> k & 1U) != 0;
-      const QuarterBits keeping = stays ? 0 : quarters_that_stay(group[k], changed_[from]);
-      stays = stays || keeping == quarters_of(group[k]);
+      const bool stays = (staying >> k & 1U) != 0;
       kept_.push_back(stays);
-      if (!stays && !carry(group[k], from, keeping)) return false;
+      if (!stays && !carry(group[k], from)) return false;
     }
   }
   changed_[from].kept_end = kept_.size();
@@ -178,23 +176,8 @@ unsigned DistanceGuard::keepers(std::span<const FaceSamples> samples, const Chan
   return looking == 0 ? 0 : looking & t.shape.within(points, limit * limit);
 }
 
-/// Those samples of a face that are near to what becomes of their triangle, which looks their way.
-QuarterBits DistanceGuard::quarters_that_stay(FaceSamples samples, const Changed& t) const {
-  const double cosine =
-      sign_of(samples, t.low) * t.shape.unit_normal()[static_cast<int>(axis_of(samples))];
-  if (t.vanishes || cosine < kMinCosine) return 0;
-  static_assert(kSamplesPerFace == kLanes);
-  PointLanes points;
-  for (unsigned quarter = 0; quarter < kSamplesPerFace; ++quarter) {
-    const Vec3 p = in_voxels(sample_position(samples, quarter));
-    for (std::size_t i = 0; i < 3; ++i) points[i][quarter] = p[static_cast<int>(i)];
-  }
-  return quarters_of(samples) & t.shape.within(points, placing_distance_ * placing_distance_);
-}
-
-/// Together when the centre of the face is so near to another triangle that all of them are, else
-/// one by one; those of `keeping` stay then.
-bool DistanceGuard::carry(FaceSamples samples, std::size_t from, QuarterBits keeping) {
+/// Together when the centre of the face is so near that all of them are, else one by one.
+bool DistanceGuard::carry(FaceSamples samples, std::size_t from) {
   Wanderer w{.point = in_voxels(face_centre(samples)),
              .from = from,
              .axis = axis_of(samples),
@@ -209,12 +192,20 @@ bool DistanceGuard::carry(FaceSamples samples, std::size_t from, QuarterBits kee
     const QuarterBits bit = 1U << quarter;
     if ((quarters_of(samples) & bit) == 0) continue;
     w.point = in_voxels(sample_position(samples, quarter));
-    auto to = (keeping & bit) != 0 ? std::optional(w.from) : receiver(w);
+    auto to = keeps(w) ? w.from : receiver(w);
     if (!to) to = receiver_nearby(w);
     if (!to) return false;
     handovers_.push_back({*to, with_quarters(samples, bit)});
   }
   return true;
+}
+
+/// What becomes of the sample's present triangle is near, and looks its way.
+bool DistanceGuard::keeps(const Wanderer& w) const {
+  const Changed& old = changed_[w.from];
+  return !old.vanishes &&
+         w.sign * old.shape.unit_normal()[static_cast<int>(w.axis)] >= kMinCosine &&
+         old.shape.squared_distance(w.point) <= w.limit * w.limit;
 }
 
 /// The nearest changed triangle, for a sample that cannot stay; none when that is farther than the

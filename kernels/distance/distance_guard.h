@@ -108,8 +108,8 @@ class DistanceGuard {
   [[nodiscard]] bool keeps_bound();
   [[nodiscard]] bool carry_samples(std::size_t from);
   [[nodiscard]] unsigned keepers(std::span<const FaceSamples> samples, const Changed& t) const;
-  [[nodiscard]] QuarterBits quarters_that_stay(FaceSamples samples, const Changed& t) const;
-  [[nodiscard]] bool carry(FaceSamples samples, std::size_t from, QuarterBits keeping);
+  [[nodiscard]] bool carry(FaceSamples samples, std::size_t from);
+  [[nodiscard]] bool keeps(const Wanderer& w) const;
   [[nodiscard]] std::optional<std::size_t> receiver(const Wanderer& w) const;
   [[nodiscard]] std::optional<std::size_t> receiver_nearby(const Wanderer& w);
   [[nodiscard]] std::optional<std::size_t> nearest(const Wanderer& w, std::size_t first,

@@ -182,7 +182,7 @@ struct Nearest {
 TEST(DistanceGuard, PrefersChangedTrianglesThatLookTheSamplesWay) {
   std::mt19937 random(942);
   int to_neighbours = 0, other_way = 0, carried = 0;
-  for (std::uint32_t i = 0; i < 150 && !HasFailure(); ++i) {
+  for (std::uint32_t i = 0; i < 60 && !HasFailure(); ++i) {
     const auto kind =
         std::array{VolumeKind::kSheets, VolumeKind::kBlobs, VolumeKind::kNoise}[i % 3];
     const SmallVolume volume = random_volume_of(random, kind, {4, 5, 4}, 2 + below(random, 2));
