@@ -74,7 +74,7 @@ std::unique_ptr<MeshSink> open_msh(const std::filesystem::path& path, Element el
                                        element);
 }
 
-const std::array formats{
+const std::array kFormats{
     MeshFormat{".vtkhdf", nullptr, &read_vtkhdf, &open_streamed<VtkhdfSink>},
     MeshFormat{".vtu", [](const auto& path) { return read_vtu(*open_bytes(path)); }, nullptr,
                &open_streamed<VtuSink>},
@@ -100,7 +100,7 @@ const std::array formats{
 };
 
 const MeshFormat* find_format(const std::filesystem::path& path) {
-  for (const MeshFormat& format : formats) {
+  for (const MeshFormat& format : kFormats) {
     if (path.extension() == format.extension) return &format;
   }
   return nullptr;
@@ -122,7 +122,7 @@ const MeshFormat& format_of(const std::filesystem::path& path) {
 
 std::string mesh_extensions() {
   std::string out;
-  for (const MeshFormat& format : formats)
+  for (const MeshFormat& format : kFormats)
     out += (out.empty() ? "" : ", ") + text(format.extension);
   return out;
 }

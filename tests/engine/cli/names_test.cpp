@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-const std::string names_file =
+const std::string kNames =
     "id,name,color\n1,\"liver, <left>\",#ff8000\n2,\"a \"\"b\"\" & "
     "Größe\",\n3,,#01020304\n99,none,\n";
 
@@ -20,7 +20,7 @@ class NamesTest : public ProgramTest {
  protected:
   void SetUp() override {
     make_volume();
-    write("names.csv", names_file);
+    write("names.csv", kNames);
   }
 
   /// The names of rows by label.
@@ -121,7 +121,7 @@ TEST_F(NamesTest, BadFilesFailBeforeTheWork) {
   expect_failure(3, "info v.npy --names bad.csv", "bad.csv: line 3");
   expect_failure(2, "mesh v.npy -o names.vtu --names names.vtu", "this is --names");
   expect_failure(2, "mesh v.npy -o v.vtu --names names.csv --report names.csv", "used twice");
-  EXPECT_EQ(read("names.csv"), names_file);
+  EXPECT_EQ(read("names.csv"), kNames);
 }
 
 /// A raw volume of random labels beside what a loop over its voxels finds.

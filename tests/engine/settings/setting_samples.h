@@ -18,7 +18,7 @@ struct Samples {
   std::vector<std::string> bad;
 };
 
-inline const std::map<std::string, Samples> all_setting_samples{
+inline const std::map<std::string, Samples> kSettingSamples{
     {"window", {{"4", "40", "256"}, {"-4", "2", "33", "258", "99999999999"}, {"4e1", "4.0", ""}}},
     {"marches", {{"1", "4"}, {"0", "5", "-1", "4294967297"}, {"two"}}},
     {"order", {{"colour"}, {}, {"color", "Raster", ""}}},
@@ -41,7 +41,7 @@ inline const std::map<std::string, Samples> all_setting_samples{
 };
 
 inline const Samples& samples(const Setting& setting) {
-  return all_setting_samples.at(setting.name);  // throws for a setting that has none: write some
+  return kSettingSamples.at(setting.name);  // throws for a setting that has none: write some
 }
 
 }  // namespace mw::engine::test

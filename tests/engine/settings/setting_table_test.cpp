@@ -78,7 +78,7 @@ TEST(SettingTable, NamesAreUnlikeAndPlain) {
     EXPECT_FALSE(setting.help.empty());
     EXPECT_EQ(setting.choices.empty(), setting.kind != SettingKind::kChoice);
   }
-  EXPECT_EQ(names.size(), test::all_setting_samples.size());
+  EXPECT_EQ(names.size(), test::kSettingSamples.size());
 }
 
 TEST(SettingTable, DefaultsAreAllowed) {

@@ -184,9 +184,9 @@ TEST(Codec, BombsTakeNoMemory) {
   if (!test::kResidentMemoryIsOurs) GTEST_SKIP() << "resident memory is a sanitizer's";
   const auto packed = bombs();
   const long growth = test::growth_of([&] {
-    for (const auto& [codec, bomb] : packed) {
-      expect_error(ErrorKind::kInput, {name(codec), "more than"},
-                   [&] { static_cast<void>(unpacked(codec, bomb, 1 << 20)); });
+    for (const auto& bomb : packed) {
+      expect_error(ErrorKind::kInput, {name(bomb.first), "more than"},
+                   [&] { static_cast<void>(unpacked(bomb.first, bomb.second, 1 << 20)); });
     }
   });
   EXPECT_GE(growth, 0);

@@ -3,6 +3,7 @@
 // Every format to every other: the same content, by its digest, with names and labels.
 #include <algorithm>
 
+#include "io/file/errors.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/grid_mesh.h"
@@ -44,7 +45,7 @@ TEST(EveryFormat, ToEveryOther) {
       const auto path = dir.path() / ("a" + from);
       write_mesh(mesh, *open_mesh_sink(path));
       for (const std::string& to : mesh_endings()) {
-        SCOPED_TRACE(from + " to " + to);
+        SCOPED_TRACE(text(from, " to ", to));
         const auto copy = dir.path() / ("b" + to);
         copy_mesh(path, *open_mesh_sink(copy));
         const MeshData back = read_mesh(copy);

@@ -34,9 +34,10 @@ inline MeshData grid_mesh(std::array<std::uint64_t, 3> cubes, unsigned seed) {
     return (z * (cubes[1] + 1) + y) * (cubes[0] + 1) + x;
   };
   for (std::uint64_t v = 0; v < (cubes[0] + 1) * (cubes[1] + 1) * (cubes[2] + 1); ++v) {
+    const std::uint64_t line = v / (cubes[0] + 1), layer = line / (cubes[1] + 1);
     mesh.vertices.push_back({static_cast<double>(v % (cubes[0] + 1)),
-                             static_cast<double>(v / (cubes[0] + 1) % (cubes[1] + 1)),
-                             static_cast<double>(v / (cubes[0] + 1) / (cubes[1] + 1))});
+                             static_cast<double>(line % (cubes[1] + 1)),
+                             static_cast<double>(layer)});
   }
   // The six ways from one end of a cube's diagonal to the other.
   constexpr std::array<std::array<std::size_t, 3>, 6> kWays{

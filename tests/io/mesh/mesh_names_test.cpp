@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-const char* const kFiles[] = {"m.vtkhdf", "m.vtu", "m.mesh"};
+constexpr const char* kFiles[] = {"m.vtkhdf", "m.vtu", "m.mesh"};
 
 void save(const MeshData& mesh, const std::filesystem::path& path) {
   write_mesh(mesh, *open_mesh_sink(path));

@@ -55,7 +55,7 @@ void write_array(hid_t group, const std::string& name, const Array& array, bool 
 }
 
 std::filesystem::path write_file(const TempDir& dir, const Sample& sample) {
-  const auto path = dir.path() / "other.vtkhdf";
+  auto path = dir.path() / "other.vtkhdf";
   const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
                         &H5Fclose);
   const Hdf5Handle group(H5Gcreate2(file.get(), "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "io/file/errors.h"
 #include "io/volume/npy_writer.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/sample_files.h"
@@ -143,7 +144,7 @@ TEST(Nrrd, EveryTypeAndByteOrderInlineAndDetached) {
       for (const bool packed : {false, true}) {
         const std::string encoding = packed ? "encoding: gzip\n" : "encoding: raw\n";
         const std::string body = packed ? gzip(data) : data;
-        const auto inside = dir.file("a.nrrd", head + encoding + "\n" + body);
+        const auto inside = dir.file("a.nrrd", text(head, encoding, "\n", body));
         EXPECT_EQ(read_all(*open_volume(inside)), labels);
         dir.file("a.bin", body);
         const auto outside = dir.file("a.nhdr", head + encoding + "data file: a.bin\n");

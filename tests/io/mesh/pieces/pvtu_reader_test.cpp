@@ -33,7 +33,7 @@ void put(const fs::path& file, const std::string& text) {
 class PvtuReaderTest : public testing::Test {
  protected:
   fs::path write(const MeshData& mesh, std::uint64_t pieces) {
-    const fs::path path = folder_.path() / ("m" + std::to_string(pieces) + ".pvtu");
+    fs::path path = folder_.path() / ("m" + std::to_string(pieces) + ".pvtu");
     write_mesh(mesh, *open_mesh_pieces(path, pieces));
     return path;
   }
