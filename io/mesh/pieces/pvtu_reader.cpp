@@ -8,6 +8,7 @@
 #include "io/file/errors.h"
 #include "io/file/named_beside.h"
 #include "io/file/open_bytes.h"
+#include "io/mesh/vtu/vtu_layout.h"
 #include "io/mesh/vtu/vtu_reader.h"
 #include "io/vtk_xml/vtk_document.h"
 
@@ -61,7 +62,7 @@ void join_vertices(MeshData& mesh, const std::vector<std::uint64_t>& ids, const 
     const Position& at = mesh.vertices[rows[i]];
     if (i == 0 || ids[rows[i]] != ids[rows[i - 1]]) joined.push_back(at);
     if (joined.back() != at) {
-      fail_input(file, text("GlobalNodeIds ", ids[rows[i]]), "is at two places",
+      fail_input(file, text(kNodeIds, " ", ids[rows[i]]), "is at two places",
                  "the pieces are not of one mesh");
     }
     new_row[rows[i]] = joined.size() - 1;
