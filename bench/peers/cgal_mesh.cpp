@@ -91,12 +91,7 @@ void run(const Job& job) {
   if (!out.flush()) throw Error(ErrorKind::kResource, job.report + ": cannot be written");
 }
 
-}  // namespace
-}  // namespace mw::peers
-
-int main(int argc, char** argv) {
-  mw::peers::Job job;
-  CLI::App app("meshes a labelled volume with CGAL Mesh_3, one thread");
+void add_options(CLI::App& app, Job& job) {
   app.add_option("VOLUME", job.volume, "any volume that mwmesh reads")->required();
   app.add_option("-o", job.mesh, "mesh to write: .vtkhdf, .vtu or .mesh")->required();
   app.add_option("--report", job.report, "writes time, memory and sizes as JSON");
@@ -106,15 +101,22 @@ int main(int argc, char** argv) {
   app.add_option("--facet-distance", job.criteria.facet_distance, "voxels");
   app.add_option("--cell-radius-edge-ratio", job.criteria.cell_radius_edge_ratio);
   app.add_option("--cell-size", job.criteria.cell_size, "voxels");
-  const std::map<std::string, mw::peers::Improvement> improvements{
-      {"none", mw::peers::Improvement::kNone},
-      {"timed", mw::peers::Improvement::kTimed},
-      {"full", mw::peers::Improvement::kFull}};
+  const std::map<std::string, Improvement> improvements{
+      {"none", Improvement::kNone}, {"timed", Improvement::kTimed}, {"full", Improvement::kFull}};
   app.add_option("--improve", job.criteria.improvement,
                  "perturb and exude: not, as long as CGAL does by default, or without time limit")
       ->transform(CLI::CheckedTransformer(improvements));
-  CLI11_PARSE(app, argc, argv);
+}
+
+}  // namespace
+}  // namespace mw::peers
+
+int main(int argc, char** argv) {
   try {
+    mw::peers::Job job;
+    CLI::App app("meshes a labelled volume with CGAL Mesh_3, one thread");
+    mw::peers::add_options(app, job);
+    CLI11_PARSE(app, argc, argv);
     mw::peers::run(job);
   } catch (const std::exception& error) {
     std::cerr << "cgal_mesh: error: " << error.what() << "\n";

@@ -57,10 +57,11 @@ std::string zsh_action(const FlagFacts& flag) {
 
 std::string zsh_spec(const FlagFacts& flag) {
   if (flag.positional) return "      " + quoted(zsh_action(flag)) + " \\\n";
+  const std::string action = flag.value.empty() ? "" : zsh_action(flag);
+  const std::string meaning = "[" + zsh_text(flag.help) + "]" + action;
   std::string out;
   for (const std::string& name : flag.names) {
-    const std::string action = flag.value.empty() ? "" : zsh_action(flag);
-    out += "      " + quoted(name + "[" + zsh_text(flag.help) + "]" + action) + " \\\n";
+    out.append("      ").append(quoted(name + meaning)).append(" \\\n");
   }
   return out;
 }

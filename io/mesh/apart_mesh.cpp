@@ -163,7 +163,7 @@ std::string pass_mesh_apart(const ApartLimits& limits, const std::function<void(
     read(out);
   };
   const auto consume = [&](ApartStream& stream) { finished = Receiver(stream, sink).receive(); };
-  const std::string death = stream_apart(limits, work, consume);
+  std::string death = stream_apart(limits, work, consume);
   if (!death.empty() || finished) return death;
   return "it did not finish the mesh";
 }

@@ -46,7 +46,8 @@ class Metric {
   }
 
   /// The lattice point nearest to origin + offset.  ERRORS: none; offsets are clamped to the
-  /// largest extent of a tetrahedron, beyond which no move is accepted anyway.
+  /// largest extent of a tetrahedron, beyond which no move is accepted anyway, and so is what is
+  /// not a number.
   [[nodiscard]] Point moved(Point origin, const Vec3& offset) const {
     return {origin.x + nearest(offset[0] / unit_[0]), origin.y + nearest(offset[1] / unit_[1]),
             origin.z + nearest(offset[2] / unit_[2])};
@@ -55,9 +56,10 @@ class Metric {
  private:
   static std::int32_t nearest(double units) {
     constexpr double kLimit = kMaxTetExtent;
+    // In this order of arguments the limit is the smaller of itself and NaN.
+    const double within = std::max(-kLimit, std::min(kLimit, units));
     // Rounded down from the limit's far side, where all is positive and a cast rounds down.
-    return static_cast<std::int32_t>(std::clamp(units, -kLimit, kLimit) + (0.5 + kLimit)) -
-           kMaxTetExtent;
+    return static_cast<std::int32_t>(within + (0.5 + kLimit)) - kMaxTetExtent;
   }
 
   Vec3 unit_;

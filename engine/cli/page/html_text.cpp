@@ -46,7 +46,7 @@ std::string with_commas(std::uint64_t number) {
 std::string short_number(double value) {
   const double size = std::abs(value);
   if (size >= 1000) {
-    return (value < 0 ? "-" : "") + with_commas(static_cast<std::uint64_t>(size + 0.5));
+    return (value < 0 ? "-" : "") + with_commas(static_cast<std::uint64_t>(std::llround(size)));
   }
   return format_fixed(value, size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3);
 }

@@ -14,7 +14,7 @@ import sys
 import tempfile
 import unittest
 
-from program import run, start
+from program import RESIDENT_MEMORY_IS_OURS, run, start
 
 try:
     import numpy
@@ -173,8 +173,11 @@ class RunPage(unittest.TestCase):
             self.assertAlmostEqual(volume / volumes[int(label["label"])], 1, delta=0.01)
         self.assertEqual(data["labels"][0]["colour"], [1, 2, 3])
 
+    @unittest.skipUnless(RESIDENT_MEMORY_IS_OURS, "resident memory is a sanitizer's")
     def test_memory_stays_under_the_budget(self):
         self.assertLess(self.peak, 192 << 20)
+
+    def test_budget_that_a_page_needs(self):
         done = start("mesh", "v.npy", "-o", "x.vtu", "--html", "x.html", "--memory", "191MiB")
         self.assertEqual(done.returncode, 2)
         self.assertIn("192MiB", done.stderr)

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 namespace mw::test {
@@ -41,6 +42,13 @@ TEST(Metric, MovesToTheNearestLatticePoint) {
             (Point{10, 10, 11}));
   EXPECT_EQ(metric.moved({10, 10, 10}, {1e30, -1e30, 0}),
             (Point{10 + kMaxTetExtent, 10 - kMaxTetExtent, 10}));
+}
+
+/// What a singular matrix gives.
+TEST(Metric, WhatIsNotANumberIsClamped) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(Metric().moved({10, 10, 10}, {nan, -nan, 0}),
+            (Point{10 + kMaxTetExtent, 10 + kMaxTetExtent, 10}));
 }
 
 }  // namespace

@@ -260,7 +260,7 @@ TEST(Replacement, RefusesPointsOnFacets) {
     for (std::size_t t = 0; t < tets; ++t) {
       auto& corners = trial.made.tets[t];
       const auto on_facet = [&](std::uint32_t v) { return std::ranges::count(facet, v) != 0; };
-      std::ranges::stable_partition(corners, on_facet);
+      std::stable_partition(corners.begin(), corners.end(), on_facet);
       if (!on_facet(corners[2])) continue;
       at = middle(trial, t, 3);
       const auto whole = corners;

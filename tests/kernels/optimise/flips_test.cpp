@@ -146,14 +146,19 @@ int flip_everywhere(TetMesh& mesh, const Metric& metric) {
   Flipper flipper(mesh, metric, kFloor);
   int flips = 0;
   for (const LocalTet& t : mesh.tets()) {
-    const auto [a, b, c, d] = t.vertices;
+    const auto& v = t.vertices;
     const auto is_there = [&] {
-      const auto star = mesh.star(a);
+      const auto star = mesh.star(v[0]);
       return std::any_of(star.begin(), star.end(), [&](const LinkTriangle& u) {
-        return u.has(b) && u.has(c) && u.has(d) && u.label != kExterior;
+        return u.has(v[1]) && u.has(v[2]) && u.has(v[3]) && u.label != kExterior;
       });
     };
-    for (const auto& [p, q] : {std::pair(a, b), {a, c}, {a, d}, {b, c}, {c, d}, {d, b}}) {
+    for (const auto& [p, q] : {std::pair(v[0], v[1]),
+                               {v[0], v[2]},
+                               {v[0], v[3]},
+                               {v[1], v[2]},
+                               {v[2], v[3]},
+                               {v[3], v[1]}}) {
       if (is_there()) flips += flipper.remove_edge(p, q) ? 1 : 0;
     }
   }

@@ -31,8 +31,12 @@ Pixels picture_of(const std::vector<ScreenTriangle>& triangles, int samples, int
   return out;
 }
 
+std::size_t index_of(int x, int y) {
+  return 4 * (static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x));
+}
+
 bool is_drawn(const Pixels& pixels, int x, int y) {
-  return pixels[static_cast<std::size_t>(4 * (y * kSide + x) + 3)] != 0;
+  return pixels[index_of(x, y) + 3] != 0;
 }
 
 /// Places on the grid of 1 / steps, so that sides often go through centres of pixels.
@@ -163,7 +167,7 @@ TEST(Raster, LinesAreAsWideAsAskedAndOnlyWhereAsked) {
                                    1);
   for (int y = 0; y < 15; ++y) {
     for (int x = 0; x < 19 - y; ++x) {
-      const std::uint8_t red = pixels[static_cast<std::size_t>(4 * (y * kSide + x))];
+      const std::uint8_t red = pixels[index_of(x, y)];
       EXPECT_EQ(red, x < 2 ? 200 : 10) << x << ", " << y;
     }
   }

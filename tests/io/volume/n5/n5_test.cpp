@@ -282,7 +282,7 @@ TEST(N5Errors, Blocks) {
   const auto expect = [&](const std::string& hex, std::vector<std::string> pieces) {
     write_file(block, from_hex(hex));
     pieces.push_back(block.string());
-    expect_error(ErrorKind::kInput, std::move(pieces),
+    expect_error(ErrorKind::kInput, pieces,
                  [&] { static_cast<void>(read_all(*open_volume(dir.path()))); });
   };
   const std::string size = "000000020000000100000001";

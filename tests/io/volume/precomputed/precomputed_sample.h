@@ -13,20 +13,21 @@ namespace mw::io {
 
 /// MurmurHash3_x86_128 of any bytes, in the form in which it is published.
 inline std::array<std::uint32_t, 4> murmur_reference(const std::string& bytes, std::uint32_t seed) {
-  constexpr std::array<std::uint32_t, 4> c{0x239b961bU, 0xab0e9789U, 0x38b34ae5U, 0xa1e38b93U};
-  constexpr std::array<int, 4> k_turn{15, 16, 17, 18}, h_turn{19, 17, 15, 13};
-  constexpr std::array<std::uint32_t, 4> plus{0x561ccd1bU, 0x0bcaa747U, 0x96cd1c35U, 0x32ac3b17U};
+  constexpr std::array<std::uint32_t, 4> kFactor{0x239b961bU, 0xab0e9789U, 0x38b34ae5U,
+                                                 0xa1e38b93U};
+  constexpr std::array<int, 4> kTurnKey{15, 16, 17, 18}, kTurnHash{19, 17, 15, 13};
+  constexpr std::array<std::uint32_t, 4> kPlus{0x561ccd1bU, 0x0bcaa747U, 0x96cd1c35U, 0x32ac3b17U};
   std::array<std::uint32_t, 4> h{seed, seed, seed, seed};
   const auto mixed = [&](std::uint32_t k, std::size_t i) {
-    return std::rotl(k * c[i], k_turn[i]) * c[(i + 1) % 4];
+    return std::rotl(k * kFactor[i], kTurnKey[i]) * kFactor[(i + 1) % 4];
   };
   std::string rest = bytes;
   for (; rest.size() >= 16; rest = rest.substr(16)) {
     for (std::size_t i = 0; i < 4; ++i) {
       std::uint32_t k = 0;
       std::memcpy(&k, rest.data() + 4 * i, 4);
-      h[i] = std::rotl(h[i] ^ mixed(k, i), h_turn[i]) + h[(i + 1) % 4];
-      h[i] = h[i] * 5 + plus[i];
+      h[i] = std::rotl(h[i] ^ mixed(k, i), kTurnHash[i]) + h[(i + 1) % 4];
+      h[i] = h[i] * 5 + kPlus[i];
     }
   }
   const std::string tail = rest + std::string(16 - rest.size(), '\0');
@@ -245,7 +246,7 @@ struct PrecomputedSample {
         last_id = id;
         last_end = data.size();
       }
-      const std::string index = ids + starts + sizes;
+      const std::string index = ids.append(starts).append(sizes);
       ranges[2 * minishard] = data.size();
       data += sharding->packed_index ? gzip(index) : index;
       ranges[2 * minishard + 1] = data.size();
