@@ -106,6 +106,12 @@ const MeshFormat* find_format(const std::filesystem::path& path) {
   return nullptr;
 }
 
+Error unknown_format(const std::filesystem::path& path, const std::string& supported) {
+  return {ErrorKind::kUsage, text(path.string(), ": extension '", path.extension().string(),
+                                  "' is no mesh format known here; supported are ", supported)};
+}
+
+/// What writes it.
 const MeshFormat& format_of(const std::filesystem::path& path) {
   if (const MeshFormat* format = find_format(path)) return *format;
   if (path.extension() == kPiecesExtension) {
@@ -113,9 +119,7 @@ const MeshFormat& format_of(const std::filesystem::path& path) {
                 text(path.string(), ": a mesh in pieces; write it whole, and then with 'convert ",
                      "--pieces N'"));
   }
-  throw Error(ErrorKind::kUsage,
-              text(path.string(), ": extension '", path.extension().string(),
-                   "' is no mesh format known here; supported are ", mesh_extensions()));
+  throw unknown_format(path, mesh_extensions());
 }
 
 }  // namespace
@@ -147,10 +151,11 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path)
 
 MeshData read_mesh(const std::filesystem::path& path) {
   if (path.extension() == kPiecesExtension) return read_pvtu(path);
-  const MeshFormat& format = format_of(path);
-  if (format.read != nullptr) return format.read(path);
+  const MeshFormat* const format = find_format(path);
+  if (format == nullptr) throw unknown_format(path, read_mesh_extensions());
+  if (format->read != nullptr) return format->read(path);
   MeshDataSink sink;
-  format.stream(path, sink);
+  format->stream(path, sink);
   return std::move(sink.mesh());
 }
 

@@ -74,14 +74,14 @@ TEST(Citations, OfDocumentsAreInTheTree) {
 
 /// "Suite.Name" of all tests.
 std::set<std::string> all_tests() {
-  static const std::regex kTest(R"(^TEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
+  static const std::regex named(R"(^TEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
   std::set<std::string> out;
   std::smatch match;
   for (const fs::path& source : files_below({"tests"}, {".cpp"})) {
     const std::string text = content_of(source);
     for (auto at = text.find("\nTEST"); at != text.npos; at = text.find("\nTEST", at + 1)) {
       const std::string head = text.substr(at + 1, 200);
-      if (std::regex_search(head, match, kTest)) out.insert(match[1].str() + "." + match[2].str());
+      if (std::regex_search(head, match, named)) out.insert(match[1].str() + "." + match[2].str());
     }
   }
   return out;

@@ -177,12 +177,12 @@ bool may(const std::string& file, const Include& include) {
 }  // namespace
 
 std::vector<Include> includes_of(const std::string& text) {
-  static const std::regex kLine(R"(^\s*#\s*include\s*(["<])([^">]+)[">])");
+  static const std::regex include(R"(^\s*#\s*include\s*(["<])([^">]+)[">])");
   std::vector<Include> out;
   std::istringstream lines(text);
   std::smatch match;
   for (std::string line; std::getline(lines, line);) {
-    if (!std::regex_search(line, match, kLine)) continue;
+    if (!std::regex_search(line, match, include)) continue;
     out.push_back({.name = match[2], .quoted = match[1] == "\""});
   }
   return out;

@@ -32,10 +32,10 @@ class MemoryProgramTest : public ProgramTest {
   /// Runs with less memory than works, then with the least that is asked for, until it is done;
   /// the report of the last run.
   json under_min_budget(const std::string& options) const {
+    const std::string start = "mesh v.npy -o v.vtu --report r.json " + options + " --memory ";
     std::string budget = "1";
     for (int i = 0; i < 8; ++i) {
-      const ProgramRun result =
-          run("mesh v.npy -o v.vtu --report r.json --memory " + budget + "MiB " + options);
+      const ProgramRun result = run((start + budget).append("MiB"));
       if (result.code == 0) return json::parse(read("r.json"));
       EXPECT_EQ(result.code, 4) << result.err;
       const std::uint64_t advised = advised_mebibytes(result.err);

@@ -153,7 +153,7 @@ TEST(MeshFiles, EveryTruncationIsRefused) {
 
 TEST(MeshFiles, UnknownExtensions) {
   for (const char* name : {"m.stl", "m"}) {
-    expect_error(ErrorKind::kUsage, {name, ".vtkhdf, .vtu, .mesh"},
+    expect_error(ErrorKind::kUsage, {name, ".vtkhdf, .vtu, .mesh", ".pvtu"},
                  [&] { static_cast<void>(read_mesh(name)); });
     expect_error(ErrorKind::kUsage, {name, ".vtkhdf, .vtu, .mesh"},
                  [&] { static_cast<void>(open_mesh_sink(name)); });

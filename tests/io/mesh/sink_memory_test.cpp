@@ -24,7 +24,8 @@ void stream_into(MeshSink& sink) {
   std::vector<RawLabel> labels(kBatch);
   for (std::uint64_t first = 0; first < kTets; first += kBatch) {
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      const auto x = static_cast<double>(first / 5 + i);
+      const std::uint64_t row = first / 5 + i;
+      const auto x = static_cast<double>(row);
       positions[i] = {x / 1024, -x / 3, 1 / (x + 1)};
     }
     for (std::size_t i = 0; i < kBatch; ++i) {

@@ -40,7 +40,7 @@ MeshData random_mesh(unsigned seed, bool labels_signed) {
 class SolverFiles : public testing::TestWithParam<Case> {
  protected:
   [[nodiscard]] std::filesystem::path write(const std::string& stem, const MeshData& mesh) const {
-    const auto path = dir_.path() / (stem + GetParam().extension);
+    auto path = dir_.path() / (stem + GetParam().extension);
     write_mesh(mesh, *open_mesh_sink(path, GetParam().element));
     return path;
   }

@@ -173,8 +173,9 @@ std::map<std::size_t, std::size_t> parts_at(const MeshData& mesh, RawLabel label
     changed = false;
     for (auto& [a, of_a] : part) {
       for (auto& [b, of_b] : part) {
+        const auto& others = corners[b];
         const auto shared = std::count_if(corners[a].begin(), corners[a].end(),
-                                          [&](std::uint64_t c) { return corners[b].contains(c); });
+                                          [&](std::uint64_t c) { return others.contains(c); });
         if (shared < 3 || of_a == of_b) continue;
         of_a = of_b = std::min(of_a, of_b);
         changed = true;

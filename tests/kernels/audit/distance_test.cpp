@@ -153,7 +153,8 @@ struct PlainLabel {
 
   void measure(const PlainFace& f) {
     for (int i = 0; i < 9; ++i) {
-      const std::array<double, 2> step{(i % 3) / 2.0, (i / 3) / 2.0};
+      const int row = i / 3;
+      const std::array<double, 2> step{(i % 3) / 2.0, row / 2.0};
       Point p = f.lo;
       for (std::size_t k = 0, used = 0; k < 3; ++k) {
         if (f.hi[k] > f.lo[k]) p[k] += step[used++];

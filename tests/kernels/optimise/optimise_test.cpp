@@ -69,9 +69,10 @@ TEST(Smoothing, LowersTheEnergyWithinPlanesAndQuadrics) {
     const Metric metric = i % 3 == 0 ? Metric({1.0, 1.0, 3.0}) : Metric();
     TetMesh mesh = random_mesh(random, metric, random_five(random));
     Smoother smoother(mesh, metric, kOptions);
+    TetMesh before = mesh;
     for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
       if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
-      const TetMesh before = mesh;
+      before = mesh;
       const bool moved = smoother.smooth(v);
       ASSERT_EQ(moved, mesh.position(v) != before.position(v));
       for (LocalVertex w = 0; w < mesh.vertex_count(); ++w) {

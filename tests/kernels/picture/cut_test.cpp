@@ -28,8 +28,8 @@ Vec3 area_vector(const Piece& piece) {
 std::vector<Tet> cubes_of_tets(int side) {
   std::vector<Tet> out;
   for (int cube = 0; cube < side * side * side; ++cube) {
-    const Vec3 lo{static_cast<double>(cube % side), static_cast<double>(cube / side % side),
-                  static_cast<double>(cube / side / side)};
+    const int x = cube % side, y = cube / side % side, z = cube / side / side;
+    const Vec3 lo = Eigen::Vector3i(x, y, z).cast<double>();
     std::array<int, 3> order{0, 1, 2};
     do {
       Tet tet{lo, lo, lo, lo};

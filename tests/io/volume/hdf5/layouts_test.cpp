@@ -16,7 +16,7 @@ constexpr VoxelType kEveryType[] = {
 
 std::filesystem::path one_data_set(const TempDir& dir, const Hdf5Sample& sample,
                                    const std::vector<RawLabel>& labels, bool latest = false) {
-  const auto path = dir.path() / "a.h5";
+  auto path = dir.path() / "a.h5";
   const Hdf5Handle file = create_hdf5(path, latest);
   write_data_set(file, "/labels", sample, labels);
   return path;

@@ -234,8 +234,8 @@ TEST(PrecomputedErrors, Chunks) {
   const auto labels = random_labels(random, sample.shape, sample.type);
   sample.write(random, dir.path(), labels);
   const std::filesystem::path chunk = dir.path() / "8_8_40" / "4-7_0-4_0-4";
-  const auto expect = [&](std::vector<std::string> pieces) {
-    expect_error(ErrorKind::kInput, std::move(pieces),
+  const auto expect = [&](const std::vector<std::string>& pieces) {
+    expect_error(ErrorKind::kInput, pieces,
                  [&] { static_cast<void>(read_all(*open_volume(dir.path()))); });
   };
   const std::string good = content_of(chunk);
@@ -262,7 +262,7 @@ TEST(PrecomputedErrors, Shards) {
   const auto expect = [&](const std::string& bytes, std::vector<std::string> pieces) {
     write_file(shard, bytes);
     pieces.push_back(shard.string());
-    expect_error(ErrorKind::kInput, std::move(pieces),
+    expect_error(ErrorKind::kInput, pieces,
                  [&] { static_cast<void>(read_all(*open_volume(dir.path()))); });
   };
   const std::string huge = number_bytes(~std::uint64_t{0}, 8, false);

@@ -97,7 +97,7 @@ TEST(NaturalOrder, IsAStrictTotalOrder) {
 }
 
 TEST(NaturalOrder, GapsAreFoundWhereOnlyANumberDiffers) {
-  const auto gap = [](std::vector<std::string> names) {
+  const auto gap = [](const std::vector<std::string>& names) {
     const auto found = find_gap(names);
     return found ? found->a + "-" + found->b : "none";
   };
