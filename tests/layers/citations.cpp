@@ -21,37 +21,37 @@ std::vector<std::string> all_matches(const std::string& text, const std::regex& 
 }  // namespace
 
 std::vector<Citation> citations_of(const std::string& source) {
-  static const std::regex kNextLine(R"(\n\s*(?:///?|#)[ \t]*)");
-  static const std::regex kCitation(R"re(([A-Za-z0-9_./-]+\.md)\b`?(?:,\s+"([^"\n]+)")?)re");
+  static const std::regex next_line(R"(\n\s*(?:///?|#)[ \t]*)");
+  static const std::regex citation(R"re(([A-Za-z0-9_./-]+\.md)\b`?(?:,\s+"([^"\n]+)")?)re");
   std::vector<Citation> out;
   if (source.find(".md") == source.npos) return out;  // most; the search is slow
-  const std::string text = std::regex_replace(source, kNextLine, " ");
-  for (std::sregex_iterator i(text.begin(), text.end(), kCitation), end; i != end; ++i) {
+  const std::string text = std::regex_replace(source, next_line, " ");
+  for (std::sregex_iterator i(text.begin(), text.end(), citation), end; i != end; ++i) {
     out.push_back({.file = (*i)[1], .section = (*i)[2]});
   }
   return out;
 }
 
 std::vector<std::string> titles_of(const std::string& document) {
-  static const std::regex kTitle(R"(^#+ (.*)$)");
+  static const std::regex title_line(R"(^#+ (.*)$)");
   std::vector<std::string> out;
   std::istringstream lines(document);
   std::smatch match;
   for (std::string line; std::getline(lines, line);) {
-    if (std::regex_match(line, match, kTitle)) out.push_back(match[1]);
+    if (std::regex_match(line, match, title_line)) out.push_back(match[1]);
   }
   return out;
 }
 
 std::vector<std::string> paths_in(const std::string& document) {
-  static const std::regex kPath(
+  static const std::regex path_name(
       R"(`((?:kernels|io|engine|tests|bench|configs|\.ci|\.github)/[A-Za-z0-9_./-]*)`)");
-  return all_matches(document, kPath);
+  return all_matches(document, path_name);
 }
 
 std::vector<std::string> tests_in(const std::string& document) {
-  static const std::regex kTest("`([A-Z][A-Za-z0-9]+\\.[A-Z][A-Za-z0-9]{3,})`");
-  return all_matches(document, kTest);
+  static const std::regex test_name("`([A-Z][A-Za-z0-9]+\\.[A-Z][A-Za-z0-9]{3,})`");
+  return all_matches(document, test_name);
 }
 
 }  // namespace mw::layers
