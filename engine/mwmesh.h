@@ -116,7 +116,7 @@ struct VolumeFile {
   std::optional<Vector> spacing{};  ///< instead of the file's
   std::optional<Vector> origin{};   ///< the same
   std::string frame = "file";       ///< world frame: "file", "ras", "lps" or "voxel"
-  std::optional<Box> crop{};
+  std::optional<Box> crop{};        ///< stays where it lies, unless origin is given
 };
 
 class VolumeAccess;

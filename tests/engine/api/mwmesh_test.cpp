@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -134,6 +135,40 @@ TEST(Library, ReadsArraysOfAnyTypeAndStrides) {
       EXPECT_EQ(read, labels);
     }
   }
+}
+
+TEST(Library, TellsWhatIsKnownOfAVolume) {
+  const std::vector<std::int16_t> voxels(4 * 3 * 2, -1);
+  ArrayVolume array{.data = voxels.data(), .type = VoxelType::kI16, .shape = {4, 3, 2}};
+  array.space = {.spacing = {1, 2, 1.5}, .origin = {5, 6, 7}, .unit = "um", .frame = "lps"};
+  array.names = {{3, "three"}};
+  const Volume volume = Volume::of(array).with_names({{1, "one"}, {3, "third"}});
+  EXPECT_EQ(volume.shape(), (Index{4, 3, 2}));
+  EXPECT_EQ(volume.type(), VoxelType::kI16);
+  EXPECT_TRUE(volume.labels_are_signed());
+  const Space space = volume.space();
+  EXPECT_EQ(space.spacing, array.space.spacing);
+  EXPECT_EQ(space.origin, array.space.origin);
+  EXPECT_EQ(space.axes, array.space.axes);
+  EXPECT_EQ(space.unit, "um");
+  EXPECT_EQ(space.frame, "lps");
+  std::map<std::uint64_t, std::string> names;
+  for (const LabelName& n : volume.names()) names[n.label] = n.name;
+  EXPECT_EQ(names, (std::map<std::uint64_t, std::string>{{1, "one"}, {3, "third"}}));
+  EXPECT_FALSE(volume_of(grains()).labels_are_signed());
+}
+
+TEST_F(LibraryTest, OpensAPartOfAFile) {
+  expect_done("synth voronoi --shape 22,18,20 --labels 6 --seed 3 -o v.npy");
+  const Box part{{2, 3, 4}, {12, 9, 11}};
+  const Volume volume =
+      Volume::open({.path = folder() / "v.npy", .spacing = Vector{1, 2, 1.5}, .crop = part});
+  EXPECT_EQ(volume.shape(), (Index{10, 6, 7}));
+  EXPECT_EQ(volume.space().origin, (Vector{2, 6, 6}));
+  std::vector<std::uint64_t> expected(10 * 6 * 7), read(expected.size());
+  volume_of(grains()).read(part, expected);
+  volume.read({{0, 0, 0}, {10, 6, 7}}, read);
+  EXPECT_EQ(read, expected);
 }
 
 TEST(Library, NamesTheVoxelThatIsNoLabel) {
