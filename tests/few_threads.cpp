@@ -37,11 +37,11 @@ void* run_and_count(void* argument) {
 
 extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
                               void* (*work)(void*), void* argument) {
-  static const auto kReal = reinterpret_cast<CreateThread>(dlsym(RTLD_NEXT, "pthread_create"));
-  static const int kAllowed = allowed_threads();
-  if (alive.fetch_add(1) >= kAllowed) {
+  static const auto real = reinterpret_cast<CreateThread>(dlsym(RTLD_NEXT, "pthread_create"));
+  static const int allowed = allowed_threads();
+  if (alive.fetch_add(1) >= allowed) {
     --alive;
     return EAGAIN;
   }
-  return kReal(thread, attributes, &run_and_count, new Start{work, argument});
+  return real(thread, attributes, &run_and_count, new Start{work, argument});
 }

@@ -61,18 +61,24 @@ std::optional<std::int64_t> scaled(T value, const VoxelScaling& scaling) {
   return whole(scaling.slope * static_cast<double>(value) + scaling.intercept);
 }
 
+/// Negative labels are kept in two's complement.
+template <class T>
+RawLabel label_of(T value) {
+  return static_cast<RawLabel>(value);  // NOLINT(bugprone-signed-char-misuse): with signs
+}
+
 // The byte order is a template parameter and neighbours a loop of its own, for the vectoriser.
 template <class T, ByteOrder kOrder>
 void decode_integers(const std::byte* bytes, std::size_t count, std::size_t step, RawLabel* out,
                      std::size_t stride) {
   if (stride == 1 && step == 1) {
     for (std::size_t i = 0; i < count; ++i) {
-      out[i] = static_cast<RawLabel>(load<T>(bytes + i * sizeof(T), kOrder));
+      out[i] = label_of(load<T>(bytes + i * sizeof(T), kOrder));
     }
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    out[i * stride] = static_cast<RawLabel>(load<T>(bytes + i * step * sizeof(T), kOrder));
+    out[i * stride] = label_of(load<T>(bytes + i * step * sizeof(T), kOrder));
   }
 }
 

@@ -51,16 +51,16 @@ double TetShape::radius_ratio() const {
 /// must not put on either side.
 std::size_t dihedral_bin(double cosine) {
   using Bins = decltype(QualityReport::dihedral_histogram);
-  static const std::array<double, std::tuple_size_v<Bins> - 1> kEnds = [] {
-    std::array<double, std::tuple_size_v<Bins> - 1> ends{};
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      const double share = static_cast<double>(i + 1) / static_cast<double>(ends.size() + 1);
-      ends[i] = std::cos(share * std::numbers::pi) + 1e-9;
+  static const std::array<double, std::tuple_size_v<Bins> - 1> ends = [] {
+    std::array<double, std::tuple_size_v<Bins> - 1> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double share = static_cast<double>(i + 1) / static_cast<double>(out.size() + 1);
+      out[i] = std::cos(share * std::numbers::pi) + 1e-9;
     }
-    return ends;
+    return out;
   }();
   return static_cast<std::size_t>(
-      std::lower_bound(kEnds.begin(), kEnds.end(), cosine, std::greater<>()) - kEnds.begin());
+      std::lower_bound(ends.begin(), ends.end(), cosine, std::greater<>()) - ends.begin());
 }
 
 /// For the report only, so a last bit that depends on the C library does no harm.

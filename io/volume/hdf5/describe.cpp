@@ -55,7 +55,7 @@ std::string find_data_set(hid_t hdf5, const std::string& wanted, const std::stri
     }
     return choose_data_set(list_data_sets(hdf5, "/", file), file);
   }
-  const std::string path = full_path(wanted);
+  std::string path = full_path(wanted);
   if (is_data_set(hdf5, path)) return path;
   if (is_group(hdf5, path)) return choose_data_set(list_data_sets(hdf5, path, file), file);
   fail_input(file, text("data set ", path),

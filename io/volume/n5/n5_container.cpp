@@ -95,7 +95,7 @@ fs::path dataset_folder(const fs::path& container, const std::string& dataset) {
   const fs::path inside = start == dataset.npos ? fs::path() : fs::path(dataset.substr(start));
   const bool leaves = std::find(inside.begin(), inside.end(), "..") != inside.end();
   std::error_code ignored;
-  const fs::path folder = container / inside;
+  fs::path folder = container / inside;
   if (!leaves && fs::is_directory(folder, ignored)) return folder;
   throw Error(ErrorKind::kUsage, text("--dataset ", dataset, ": not in ", container.string(),
                                       "; it has ", Search(container).names()));

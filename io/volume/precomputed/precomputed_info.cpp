@@ -40,7 +40,7 @@ std::string keys_of(const JsonFields& info) {
 
 JsonFields scale_of_key(const JsonFields& info, const std::string& key) {
   for (std::size_t i = 0; i < info.count("scales"); ++i) {
-    const JsonFields scale = info.element("scales", i);
+    JsonFields scale = info.element("scales", i);
     if (scale.text("key") == key) return scale;
   }
   throw Error(ErrorKind::kUsage, text("--dataset ", key, ": ", info.file(),
