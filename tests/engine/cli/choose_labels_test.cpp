@@ -94,9 +94,10 @@ TEST_F(ChooseLabelsTest, VerifyTakesMeshesOfSomeLabels) {
   const std::string judged = " --max-volume-error none --quality-floor 0.2 --max-distance 1.5 ";
   expect_done("verify v.npy some.vtkhdf --labels 2,3,7" + judged);
   expect_done("verify v.npy rest.vtkhdf --background 4" + judged);
-  for (const std::string wrong : {"some.vtkhdf", "rest.vtkhdf", "some.vtkhdf --labels 2,3",
-                                  "some.vtkhdf --labels 1,2,3,7", "rest.vtkhdf --background 5"}) {
-    EXPECT_EQ(run("verify v.npy " + wrong + judged).code, 5) << wrong;
+  const std::string judging = "verify v.npy" + judged;
+  for (const char* wrong : {"some.vtkhdf", "rest.vtkhdf", "some.vtkhdf --labels 2,3",
+                            "some.vtkhdf --labels 1,2,3,7", "rest.vtkhdf --background 5"}) {
+    EXPECT_EQ(run(judging + wrong).code, 5) << wrong;
   }
   expect_failure(2, "verify v.npy some.vtkhdf --labels 99", "no label 99");
   expect_failure(2, "verify v.npy some.vtkhdf --labels 2 --background 1", "one of them");
