@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <new>
 
 namespace {
 
@@ -43,5 +44,8 @@ extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attribute
     --alive;
     return EAGAIN;
   }
-  return real(thread, attributes, &run_and_count, new Start{work, argument});
+  auto* const start = new (std::nothrow) Start{work, argument};
+  if (start != nullptr) return real(thread, attributes, &run_and_count, start);
+  --alive;
+  return EAGAIN;
 }

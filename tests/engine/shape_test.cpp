@@ -82,8 +82,9 @@ double mean_tilt(const SmallMesh& mesh, double edge, const Vec3& normal) {
   double sum = 0.0, total = 0.0;
   for (const auto& [face, labels] : faces) {
     if (labels.size() != 2 || labels[0] == labels[1]) continue;
+    const auto& corners = face;
     const auto at = [&](std::size_t i) -> Vec3 {
-      const Position& p = mesh.vertices[face[i]];
+      const Position& p = mesh.vertices[corners[i]];
       return {p[0], p[1], p[2]};
     };
     const auto on_box = [&](std::size_t i) {

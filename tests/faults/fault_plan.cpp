@@ -41,8 +41,8 @@ struct Plan {
 };
 
 const Plan& plan() {
-  static const Plan kPlan;
-  return kPlan;
+  static const Plan only;
+  return only;
 }
 
 /// In one piece, since a child of the process has the same log.
@@ -54,10 +54,10 @@ void append(const std::string& bytes) {
 
 /// Calls so far, of this process and its children.
 std::atomic<std::uint64_t>& calls() {
-  static void* const kShared = ::mmap(nullptr, sizeof(std::atomic<std::uint64_t>),
-                                      PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  static auto* const kCalls = new (kShared) std::atomic<std::uint64_t>(0);
-  return *kCalls;
+  static void* const shared = ::mmap(nullptr, sizeof(std::atomic<std::uint64_t>),
+                                     PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  static auto* const counter = new (shared) std::atomic<std::uint64_t>(0);
+  return *counter;
 }
 
 bool takes_space(std::string_view call) {

@@ -97,7 +97,7 @@ void fuzz_codecs(Bytes bytes) {
 /// The first bytes are the layout; the others are a chunk, and then labels of one.
 void fuzz_segmentation(Bytes bytes) {
   Choices choices(bytes);
-  const auto edge = [&] { return static_cast<std::int64_t>(1 + choices.below(9)); };
+  const auto edge = [&] { return 1 + std::int64_t{choices.below(9)}; };
   const auto corner = [&] {
     const std::int64_t x = edge(), y = edge();
     return Index3{x, y, edge()};

@@ -89,7 +89,7 @@ TEST(Promise6BoundedMemory, OfTheMergeWithAllFigures) {
   std::mt19937 random(4021);
   for (std::uint32_t kind = 0; kind < audit::test::kVolumeKinds; ++kind) {
     for (const StartMesh start : {StartMesh::kCoarse, StartMesh::kDense}) {
-      const auto edge = [&] { return static_cast<std::int64_t>(16 + below(random, 9)); };
+      const auto edge = [&] { return 16 + std::int64_t{below(random, 9)}; };
       const Trial trial{.volume = random_volume_of(random, static_cast<VolumeKind>(kind),
                                                    {edge(), edge(), edge()}, 2 + below(random, 6)),
                         .settings = {.window = below(random, 2) == 0 ? 8 : 32, .start = start},
