@@ -229,7 +229,7 @@ TEST(ChunkedVolume, EmptyBoxesReadNothing) {
 TEST(ChunkedVolume, SaysWhatItHoldsAtMost) {
   Random random(8);
   const Volume volume = random_volume(random, {40, 40, 40}, {8, 4, 2}, 5000);
-  const auto chunk = static_cast<std::uint64_t>(64 * byte_size(volume.volume->info().type));
+  const auto chunk = 64 * static_cast<std::uint64_t>(byte_size(volume.volume->info().type));
   EXPECT_EQ(volume.volume->buffer_bytes(3), 5000 + 3 * (chunk + 7));
 }
 
