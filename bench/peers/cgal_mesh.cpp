@@ -8,12 +8,12 @@
 #include <iostream>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/peers/cgal_mesher.h"
 #include "engine/report/resource_meter.h"
 #include "engine/report/run_report.h"
+#include "io/json/json.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/open_mesh.h"
 #include "io/volume/open_volume.h"
@@ -57,8 +57,8 @@ io::MeshData with_raw_labels(io::MeshData mesh, const io::LabelTable& table) {
 }
 
 /// Keys as in the report of mwmesh.
-nlohmann::ordered_json report_of(const io::VolumeInfo& info, std::size_t labels,
-                                 const io::MeshData& mesh, const report::Resources& used) {
+io::Json report_of(const io::VolumeInfo& info, std::size_t labels, const io::MeshData& mesh,
+                   const report::Resources& used) {
   const auto voxels = static_cast<double>(info.shape.product());
   return {{"input",
            {{"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
@@ -84,10 +84,10 @@ void run(const Job& job) {
       mesh_with_cgal(subdomains_of(*volume, table, job), volume->info(), job.criteria), table);
   io::write_mesh(mesh, *sink);
   const auto report = report_of(volume->info(), table.size(), mesh, meter.read());
-  std::cout << report.dump(2) << "\n";
+  std::cout << report.dump_indented() << "\n";
   if (job.report.empty()) return;
   std::ofstream out(job.report);
-  out << report.dump(2) << "\n";
+  out << report.dump_indented() << "\n";
   if (!out.flush()) throw Error(ErrorKind::kResource, job.report + ": cannot be written");
 }
 

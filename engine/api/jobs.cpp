@@ -4,7 +4,6 @@
 #include "engine/api/jobs.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "engine/api/guarded.h"
 #include "engine/api/mesh_settings.h"
@@ -22,12 +21,12 @@ engine::Certify certify_of(mwmesh::Certify certify) {
   return certify == mwmesh::Certify::kOff ? engine::Certify::kOff : engine::Certify::kAuto;
 }
 
-nlohmann::ordered_json value_json(const engine::Setting& setting, const std::string& text) {
+io::Json value_json(const engine::Setting& setting, const std::string& text) {
   using Kind = engine::SettingKind;
   if (setting.kind == Kind::kChoice || setting.kind == Kind::kSizes) return text;
   if (text == "none") return nullptr;
   if (text == "auto") return text;
-  return nlohmann::ordered_json::parse(text);
+  return io::parse_json(text, setting.name);
 }
 
 }  // namespace
@@ -93,8 +92,8 @@ engine::JobHooks job_hooks(const mwmesh::Hooks& hooks) {
   return out;
 }
 
-nlohmann::ordered_json settings_json(const engine::MeshJob& job) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+io::Json settings_json(const engine::MeshJob& job) {
+  io::Json out = io::Json::object();
   for (const engine::Setting& setting : engine::setting_table()) {
     std::string key = setting.name;
     std::replace(key.begin(), key.end(), '-', '_');

@@ -3,10 +3,9 @@
 // What a caller's options are for the engine.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "engine/job/mesh_job.h"
 #include "engine/mwmesh.h"
+#include "io/json/json.h"
 
 namespace mw::api {
 
@@ -21,6 +20,6 @@ namespace mw::api {
 /// hooks outlives the result.  Its stop() throws mwmesh::Error(kCancelled).
 [[nodiscard]] engine::JobHooks job_hooks(const mwmesh::Hooks& hooks);
 /// Settings and options as reports tell them.
-[[nodiscard]] nlohmann::ordered_json settings_json(const engine::MeshJob& job);
+[[nodiscard]] io::Json settings_json(const engine::MeshJob& job);
 
 }  // namespace mw::api

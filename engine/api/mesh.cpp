@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Volumes to meshes.
-#include <nlohmann/json.hpp>
 
 #include "engine/api/guarded.h"
 #include "engine/api/jobs.h"

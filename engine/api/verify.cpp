@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Meshes held against volumes.
-#include <nlohmann/json.hpp>
 
 #include "engine/api/guarded.h"
 #include "engine/api/jobs.h"
@@ -28,8 +27,7 @@ Verdict library_verdict(const mw::report::Verdict& verdict) {
   for (const mw::audit::Check& check : verdict.audit.checks) {
     out.checks.push_back({.name = check.name, .passed = check.passed, .detail = check.detail});
   }
-  out.report = mw::report::verdict_json(verdict).dump(
-      2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  out.report = mw::report::verdict_json(verdict).dump_indented();
   return out;
 }
 

@@ -3,16 +3,17 @@
 // Facts, known as JSON, in lines of text.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "io/json/json.h"
 
 namespace mw::cli {
 
 /// One line a fact on stdout, and one for each object of a list; those of an object are named
 /// "object.fact".
-void print_facts(const nlohmann::ordered_json& facts, const std::string& prefix = {});
+void print_facts(const io::Json& facts, const std::string& prefix = {});
 
 /// One line: the name, and the row as "label 3, volume 12.5".
-void print_row(std::string name, const nlohmann::ordered_json& row);
+void print_row(std::string name, const io::Json& row);
 
 }  // namespace mw::cli

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
@@ -14,6 +13,7 @@
 #include "engine/cli/volume_facts.h"
 #include "engine/cli/volume_options.h"
 #include "engine/cli/voxel_counts.h"
+#include "io/json/json.h"
 #include "io/labels/label_set.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
@@ -24,7 +24,7 @@
 namespace mw::cli {
 namespace {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 struct InfoJob {
   OptionSet options;
@@ -33,7 +33,7 @@ struct InfoJob {
   bool json = false;
 };
 
-ordered_json labels_json(const io::LabelTable& table) {
+Json labels_json(const io::LabelTable& table) {
   if (table.size() == 0) return {{"count", 0}, {"min", nullptr}, {"max", nullptr}};
   const auto last = static_cast<Label>(table.size() - 1);
   return {{"count", table.size()},
@@ -61,12 +61,11 @@ class FactSink : public io::MeshSink {
 
   [[nodiscard]] bool labels_signed() const { return header_.labels_signed; }
   [[nodiscard]] const io::LabelNames& names() const { return header_.names; }
-  [[nodiscard]] ordered_json json() const {
-    return {
-        {"vertices", vertices_},
-        {"tets", header_.tets},
-        {"labels", labels_json(io::LabelTable(labels_.values(), header_.labels_signed))},
-        {"box", vertices_ == 0 ? ordered_json(nullptr) : ordered_json{{"lo", lo_}, {"hi", hi_}}}};
+  [[nodiscard]] Json json() const {
+    return {{"vertices", vertices_},
+            {"tets", header_.tets},
+            {"labels", labels_json(io::LabelTable(labels_.values(), header_.labels_signed))},
+            {"box", vertices_ == 0 ? Json(nullptr) : Json{{"lo", lo_}, {"hi", hi_}}}};
   }
 
  private:
@@ -78,8 +77,8 @@ class FactSink : public io::MeshSink {
 };
 
 /// Volumes of labels, and their errors when there is a volume to hold them against.
-ordered_json volumes_json(const ShapeSink& shape, bool labels_signed, const io::LabelNames& names,
-                          const std::optional<VoxelCounts>& counts) {
+Json volumes_json(const ShapeSink& shape, bool labels_signed, const io::LabelNames& names,
+                  const std::optional<VoxelCounts>& counts) {
   std::vector<RawLabel> labels;
   audit::CompensatedSum total;
   for (const auto& [label, volume] : shape.volumes()) {
@@ -88,10 +87,10 @@ ordered_json volumes_json(const ShapeSink& shape, bool labels_signed, const io::
   }
   const io::LabelTable table(std::move(labels), labels_signed);
   audit::VolumeMeter errors;
-  ordered_json rows = ordered_json::array();
+  Json rows = Json::array();
   for (Label l = 0; l < table.size(); ++l) {
     const double volume = shape.volumes().at(table.raw(l)).value();
-    ordered_json row = named_row_json(table.raw(l), labels_signed, names);
+    Json row = named_row_json(table.raw(l), labels_signed, names);
     row["volume"] = volume;
     row["share"] = volume / total.value();
     if (counts) {
@@ -103,22 +102,22 @@ ordered_json volumes_json(const ShapeSink& shape, bool labels_signed, const io::
     add_colour(row, table.raw(l), names);
     rows.push_back(std::move(row));
   }
-  ordered_json out{{"total", total.value()}};
+  Json out{{"total", total.value()}};
   if (counts) out.update(volume_summary_json(errors.summary(), table));
   out["per_label"] = std::move(rows);
   return out;
 }
 
 /// names: more of them than the mesh has; they win.
-ordered_json mesh_facts(const std::filesystem::path& path, const io::LabelNames& names,
-                        const std::optional<VoxelCounts>& counts) {
+Json mesh_facts(const std::filesystem::path& path, const io::LabelNames& names,
+                const std::optional<VoxelCounts>& counts) {
   FactSink facts;
   io::DigestSink digest(io::scratch_folder());
   ShapeSink shape(io::scratch_folder());
   io::TeeSink measured(facts, shape);
   io::TeeSink all(measured, digest);
   io::copy_mesh(path, all);
-  ordered_json out{{"kind", "mesh"}, {"file", path.string()}};
+  Json out{{"kind", "mesh"}, {"file", path.string()}};
   out.update(facts.json());
   out["shape"] = interfaces_json(shape.shape());
   out["volume"] =
@@ -127,8 +126,8 @@ ordered_json mesh_facts(const std::filesystem::path& path, const io::LabelNames&
   return out;
 }
 
-void print_json(const ordered_json& facts) {
-  std::cout << facts.dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+void print_json(const Json& facts) {
+  std::cout << facts.dump_indented() << "\n";
 }
 
 void tell_of_mesh(const InfoJob& job) {
@@ -140,7 +139,7 @@ void tell_of_mesh(const InfoJob& job) {
   } else if (!job.volume.names.empty()) {
     names = io::read_names(job.volume.names);
   }
-  const ordered_json facts = mesh_facts(job.file, names, counts);
+  const Json facts = mesh_facts(job.file, names, counts);
   job.json ? print_json(facts) : print_facts(facts);
 }
 

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "engine/cli/environment.h"
 #include "engine/cli/nearest.h"
@@ -170,8 +169,8 @@ std::string OptionSet::toml() const {
   return out;
 }
 
-nlohmann::ordered_json OptionSet::json() const {
-  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+io::Json OptionSet::json() const {
+  io::Json out = io::Json::object();
   for (const Entry& entry : entries_) {
     out[key_of(entry.option)] = json_of_text(entry.option.kind, entry.text);
   }

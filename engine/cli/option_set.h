@@ -6,10 +6,11 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "io/json/json.h"
 
 namespace CLI {
 class App;
@@ -59,7 +60,7 @@ class OptionSet {
   /// The effective values as a config file that gives the same ones; REQUIRES: resolve().
   [[nodiscard]] std::string toml() const;
   /// The same as JSON; unset is null.
-  [[nodiscard]] nlohmann::ordered_json json() const;
+  [[nodiscard]] io::Json json() const;
 
  private:
   struct Entry {

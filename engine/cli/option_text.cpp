@@ -3,8 +3,6 @@
 // The forms of an option's value: text, TOML, JSON.
 #include "engine/cli/option_text.h"
 
-#include <nlohmann/json.hpp>
-
 #include "engine/cli/values.h"
 
 namespace mw::cli {
@@ -171,17 +169,17 @@ std::string toml_of_text(ValueKind kind, const std::string& text) {
       break;
   }
   // A JSON string is a TOML string.
-  return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  return io::Json(text).dump_ascii();
 }
 
-nlohmann::ordered_json json_of_text(ValueKind kind, const std::string& text) {
+io::Json json_of_text(ValueKind kind, const std::string& text) {
   if (text.empty()) return nullptr;
   if (kind == ValueKind::kText || kind == ValueKind::kLabels || kind == ValueKind::kSize ||
       kind == ValueKind::kIntegerOrText) {
     return text;
   }
   if (text == kNone) return text;
-  return nlohmann::ordered_json::parse(toml_of_text(kind, text));
+  return io::parse_json(toml_of_text(kind, text), "settings");
 }
 
 }  // namespace mw::cli

@@ -4,11 +4,11 @@
 #pragma once
 
 #include <toml++/toml.h>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "engine/cli/option_set.h"
+#include "io/json/json.h"
 
 namespace mw::cli {
 
@@ -23,6 +23,6 @@ namespace mw::cli {
 
 /// REQUIRES: canonical text.
 [[nodiscard]] std::string toml_of_text(ValueKind kind, const std::string& text);
-[[nodiscard]] nlohmann::ordered_json json_of_text(ValueKind kind, const std::string& text);
+[[nodiscard]] io::Json json_of_text(ValueKind kind, const std::string& text);
 
 }  // namespace mw::cli

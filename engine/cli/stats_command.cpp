@@ -3,13 +3,13 @@
 // mwmesh stats: labels of a mesh one by one, and who touches whom.
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/stats/stats_facts.h"
 #include "engine/cli/stats/stats_json.h"
 #include "engine/cli/stats/stats_tables.h"
+#include "io/json/json.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/names/read_names.h"
@@ -18,7 +18,7 @@
 namespace mw::cli {
 namespace {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 struct StatsJob {
   OptionSet options;
@@ -57,8 +57,7 @@ int run_stats(StatsJob& job) {
   const StatsFacts facts{sink.mesh().table(), names, measure_mesh(sink.mesh(), !job.no_betti),
                          std::move(volume)};
   if (job.json) {
-    std::cout << stats_json(facts).dump(2, ' ', false, ordered_json::error_handler_t::replace)
-              << "\n";
+    std::cout << stats_json(facts).dump_indented() << "\n";
   } else if (job.csv) {
     print_csv(job.contacts ? contact_table(facts, Digits::kAll)
                            : label_table(facts, Digits::kAll, LabelColumns::kBoth),

@@ -7,20 +7,19 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "engine/cli/fact_text.h"
 
 namespace mw::cli {
 namespace {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 constexpr std::size_t kMaxPrinted = 1000;
 
 /// Rows of the matrix that takes corners of voxels, (i, j, k, 1), to the world.
-ordered_json affine_json(const io::VolumeSpace& space) {
-  ordered_json rows = ordered_json::array();
+Json affine_json(const io::VolumeSpace& space) {
+  Json rows = Json::array();
   for (std::size_t k = 0; k < 3; ++k) {
     rows.push_back({space.axes[0][k] * space.spacing[0], space.axes[1][k] * space.spacing[1],
                     space.axes[2][k] * space.spacing[2], space.origin[k]});
@@ -29,15 +28,15 @@ ordered_json affine_json(const io::VolumeSpace& space) {
   return rows;
 }
 
-ordered_json labels_json(const std::vector<engine::LabelRegion>& regions, bool is_signed) {
+Json labels_json(const std::vector<engine::LabelRegion>& regions, bool is_signed) {
   return {{"count", regions.size()},
           {"min", label_json(regions.front().label, is_signed)},
           {"max", label_json(regions.back().label, is_signed)},
           {"per_label", kRows}};
 }
 
-ordered_json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
-                      const std::vector<engine::LabelRegion>& regions) {
+Json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
+              const std::vector<engine::LabelRegion>& regions) {
   const io::VolumeSpace& space = info.space;
   return {{"kind", "volume"},
           {"file", request.path.string()},
@@ -46,7 +45,7 @@ ordered_json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
           {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
           {"spacing_xyz", space.spacing},
           {"origin_xyz", space.origin},
-          {"unit", space.unit.empty() ? ordered_json() : ordered_json(space.unit)},
+          {"unit", space.unit.empty() ? Json() : Json(space.unit)},
           {"frame", io::name(space.frame)},
           {"affine", affine_json(space)},
           {"voxels", info.shape.product()},
@@ -64,10 +63,10 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   if (input.specks()) facts_["specks"] = specks_json(input.specks());
 }
 
-ordered_json VolumeFacts::label_row(std::size_t i) const {
+Json VolumeFacts::label_row(std::size_t i) const {
   const engine::LabelRegion& region = regions_[i];
   const Index3 lo = region.box.lo, hi = region.box.hi;
-  ordered_json row = named_row_json(region.label, has_signed_labels(info_), info_.names);
+  Json row = named_row_json(region.label, has_signed_labels(info_), info_.names);
   row["voxels"] = region.voxels;
   row["lo"] = {lo.x, lo.y, lo.z};
   row["hi"] = {hi.x, hi.y, hi.z};
@@ -76,7 +75,7 @@ ordered_json VolumeFacts::label_row(std::size_t i) const {
 }
 
 void print_volume(const VolumeFacts& volume) {
-  ordered_json facts = volume.json();
+  Json facts = volume.json();
   facts["labels"].erase("per_label");
   print_facts(facts);
   const std::size_t shown = std::min(volume.labels(), kMaxPrinted);

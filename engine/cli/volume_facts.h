@@ -3,11 +3,11 @@
 // What `mwmesh info` says of a volume.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "engine/cli/volume_options.h"
 #include "engine/labels/label_regions.h"
+#include "io/json/json.h"
 
 namespace mw::cli {
 
@@ -18,16 +18,16 @@ class VolumeFacts {
   explicit VolumeFacts(const VolumeRequest& request);
 
   /// Everything but a row for each label.
-  [[nodiscard]] const nlohmann::ordered_json& json() const { return facts_; }
+  [[nodiscard]] const io::Json& json() const { return facts_; }
   [[nodiscard]] std::size_t labels() const { return regions_.size(); }
   /// Label, name, voxels, box (hi is one behind the last voxel) and colour.  i < labels(),
   /// ascending.
-  [[nodiscard]] nlohmann::ordered_json label_row(std::size_t i) const;
+  [[nodiscard]] io::Json label_row(std::size_t i) const;
 
  private:
   io::VolumeInfo info_;
   std::vector<engine::LabelRegion> regions_;
-  nlohmann::ordered_json facts_;
+  io::Json facts_;
 };
 
 /// The same as text on stdout: a line each, for the first 1,000 labels.

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
@@ -13,17 +12,17 @@
 
 namespace mw::report {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 namespace {
 
-ordered_json finite_json(double voxels) {
+Json finite_json(double voxels) {
   if (std::isfinite(voxels)) return voxels;
   return nullptr;
 }
 
 /// {"label": 3}, and its name if it has one.
-ordered_json label_row(Label label, const io::LabelTable& table, const io::LabelNames& names) {
+Json label_row(Label label, const io::LabelTable& table, const io::LabelNames& names) {
   if (label == audit::kUnknown) return {{"label", nullptr}};
   if (label == audit::kLeftOut) return {{"label", "left out"}};
   return named_row_json(table.raw(label), table.is_signed(), names);
@@ -59,11 +58,11 @@ std::string finite_text(const audit::DistanceReport& distance, const io::LabelTa
 
 }  // namespace
 
-ordered_json distance_json(const audit::DistanceReport& distance, const io::LabelTable& table,
-                           const io::LabelNames& names) {
-  ordered_json labels = ordered_json::array();
+Json distance_json(const audit::DistanceReport& distance, const io::LabelTable& table,
+                   const io::LabelNames& names) {
+  Json labels = Json::array();
   for (const auto& row : distance.per_label) {
-    ordered_json out = label_row(row.label, table, names);
+    Json out = label_row(row.label, table, names);
     out["input_to_mesh_max"] = finite_json(row.input_to_mesh_max);
     out["input_to_mesh_mean"] = finite_json(row.input_to_mesh_mean);
     out["mesh_to_input_max"] = finite_json(row.mesh_to_input_max);

@@ -3,16 +3,13 @@
 // JSON with a long list of rows, written one by one.
 #include "engine/report/json_rows.h"
 
-#include <nlohmann/json.hpp>
-
 namespace mw::report {
 
-using nlohmann::ordered_json;
+using io::Json;
 
-void append_with_rows(const ordered_json& value,
-                      const std::function<void(const TakeRow&)>& for_each_row,
+void append_with_rows(const Json& value, const std::function<void(const TakeRow&)>& for_each_row,
                       const AppendText& append) {
-  const std::string text = value.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+  const std::string text = value.dump_indented();
   // Inside of a string the quotes would be escaped, so this is the key and no part of a value.
   const std::string key = "\"per_label\": ";
   const std::string rows = "\"" + std::string(kRows) + "\"";
@@ -20,7 +17,7 @@ void append_with_rows(const ordered_json& value,
   append(std::string_view(text).substr(0, at));
   append("[");
   const char* before = "";
-  for_each_row([&](const ordered_json& row) {
+  for_each_row([&](const Json& row) {
     append(std::string(before) + "\n      " + row.dump());
     before = ",";
   });

@@ -4,8 +4,9 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <string_view>
+
+#include "io/json/json.h"
 
 namespace mw::report {
 
@@ -14,11 +15,11 @@ namespace mw::report {
 inline constexpr const char* kRows = "@rows";
 
 using AppendText = std::function<void(std::string_view)>;
-using TakeRow = std::function<void(const nlohmann::ordered_json&)>;
+using TakeRow = std::function<void(const io::Json&)>;
 
 /// Appends value, indented, and a line end; in place of kRows a list of what for_each_row() passes
 /// on. REQUIRES: value has kRows once, in an object of its outermost one.
-void append_with_rows(const nlohmann::ordered_json& value,
+void append_with_rows(const io::Json& value,
                       const std::function<void(const TakeRow&)>& for_each_row,
                       const AppendText& append);
 

@@ -4,15 +4,14 @@
 #include "engine/report/mesh_facts.h"
 
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "engine/report/figures.h"
 
 namespace mw::report {
 
-using nlohmann::ordered_json;
+using io::Json;
 
-ordered_json quality_json(const audit::QualityReport& quality) {
+Json quality_json(const audit::QualityReport& quality) {
   return {{"radius_ratio_min", quality.radius_ratio_min},
           {"radius_ratio_mean", quality.radius_ratio_mean},
           {"radius_ratio_histogram", quality.radius_ratio_histogram},
@@ -30,13 +29,13 @@ void print_quality(const audit::QualityReport& quality) {
             << format_fixed(quality.dihedral_max_deg, 2) << " degrees\n";
 }
 
-ordered_json label_json(RawLabel label, bool is_signed) {
+Json label_json(RawLabel label, bool is_signed) {
   if (is_signed) return static_cast<std::int64_t>(label);
   return label;
 }
 
-void write_json(io::AtomicFile& file, const ordered_json& value) {
-  file.append(value.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+void write_json(io::AtomicFile& file, const Json& value) {
+  file.append(value.dump_indented());
   file.append("\n");
   file.commit();
 }

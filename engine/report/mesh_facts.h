@@ -4,10 +4,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 
 #include "io/file/atomic_file.h"
+#include "io/json/json.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_data.h"
 #include "kernels/audit/quality.h"
@@ -15,15 +15,15 @@
 namespace mw::report {
 
 /// "quality" of a report.
-[[nodiscard]] nlohmann::ordered_json quality_json(const audit::QualityReport& quality);
+[[nodiscard]] io::Json quality_json(const audit::QualityReport& quality);
 
 /// Quality in two plain lines.
 void print_quality(const audit::QualityReport& quality);
 
 /// A label as a JSON number.
-[[nodiscard]] nlohmann::ordered_json label_json(RawLabel label, bool is_signed);
+[[nodiscard]] io::Json label_json(RawLabel label, bool is_signed);
 
 /// Writes the value, indented, and gives the file its name.
-void write_json(io::AtomicFile& file, const nlohmann::ordered_json& value);
+void write_json(io::AtomicFile& file, const io::Json& value);
 
 }  // namespace mw::report

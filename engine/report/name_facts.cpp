@@ -3,28 +3,26 @@
 // How outputs say what labels are called.
 #include "engine/report/name_facts.h"
 
-#include <nlohmann/json.hpp>
-
 #include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
 
 namespace mw::report {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 std::string label_text(RawLabel label, bool is_signed, const io::LabelNames& names) {
   const std::string& name = names.name(label);
   return format_label(label, is_signed) + (name.empty() ? "" : " \"" + name + "\"");
 }
 
-ordered_json named_row_json(RawLabel label, bool is_signed, const io::LabelNames& names) {
-  ordered_json row{{"label", label_json(label, is_signed)}};
+Json named_row_json(RawLabel label, bool is_signed, const io::LabelNames& names) {
+  Json row{{"label", label_json(label, is_signed)}};
   const std::string& name = names.name(label);
   if (!name.empty()) row["name"] = name;
   return row;
 }
 
-void add_colour(ordered_json& row, RawLabel label, const io::LabelNames& names) {
+void add_colour(Json& row, RawLabel label, const io::LabelNames& names) {
   const io::LabelName* found = names.find(label);
   if (found != nullptr && found->colour) row["colour"] = *found->colour;
 }

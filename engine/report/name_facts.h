@@ -3,9 +3,9 @@
 // How outputs say what labels are called.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "io/json/json.h"
 #include "io/names/label_names.h"
 
 namespace mw::report {
@@ -15,10 +15,9 @@ namespace mw::report {
 
 /// {"label": 7, "name": "liver"}, the name where there is one: what a row about a label begins
 /// with.
-[[nodiscard]] nlohmann::ordered_json named_row_json(RawLabel label, bool is_signed,
-                                                    const io::LabelNames& names);
+[[nodiscard]] io::Json named_row_json(RawLabel label, bool is_signed, const io::LabelNames& names);
 
 /// Adds "colour": [r, g, b, a], 0 to 255, where it is known.
-void add_colour(nlohmann::ordered_json& row, RawLabel label, const io::LabelNames& names);
+void add_colour(io::Json& row, RawLabel label, const io::LabelNames& names);
 
 }  // namespace mw::report

@@ -6,7 +6,6 @@
 #include "engine/version.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "engine/report/mesh_facts.h"
 #include "engine/report/shape_facts.h"
@@ -16,9 +15,9 @@
 namespace mw::report {
 namespace {
 
-using nlohmann::ordered_json;
+using io::Json;
 
-ordered_json input_json(const FinishedRun& run) {
+Json input_json(const FinishedRun& run) {
   const io::VolumeInfo& info = run.volume;
   return {{"format", info.format},
           {"type", io::name(info.type)},
@@ -27,30 +26,30 @@ ordered_json input_json(const FinishedRun& run) {
           {"origin_xyz", info.space.origin},
           {"axes_xyz", info.space.axes},
           {"frame", io::name(info.space.frame)},
-          {"unit", info.space.unit.empty() ? ordered_json() : ordered_json(info.space.unit)},
+          {"unit", info.space.unit.empty() ? Json() : Json(info.space.unit)},
           {"labels", run.labels.size()},
           {"voxels", info.shape.product()}};
 }
 
-ordered_json index_json(Index3 v) {
+Json index_json(Index3 v) {
   return {v.x, v.y, v.z};
 }
 
 /// What --window, --max-distance and --target-reduction count in.
-ordered_json lattice_json(const engine::LatticeFacts& lattice) {
+Json lattice_json(const engine::LatticeFacts& lattice) {
   return {{"shape_xyz", index_json(lattice.shape)},
           {"spacing_xyz", lattice.spacing},
           {"layers_xyz", index_json(lattice.layers)}};
 }
 
-ordered_json output_json(const FinishedRun& run, const std::filesystem::path& path) {
+Json output_json(const FinishedRun& run, const std::filesystem::path& path) {
   return {{"file", path.string()},
           {"vertices", run.engine.vertices},
           {"tets", run.engine.tets},
           {"vertex_fraction", vertex_fraction(run.engine.vertices, run.volume.shape)}};
 }
 
-ordered_json performance_json(const FinishedRun& run) {
+Json performance_json(const FinishedRun& run) {
   const auto voxels = static_cast<double>(run.volume.shape.product());
   const double rate = voxels / run.resources.wall_seconds;
   const engine::RunReport& engine = run.engine;
@@ -70,7 +69,7 @@ ordered_json performance_json(const FinishedRun& run) {
             {"output_s", engine.output_seconds}}}};
 }
 
-ordered_json codt_json(const engine::RunReport& run) {
+Json codt_json(const engine::RunReport& run) {
   const CodtStats& codt = run.codt;
   return {{"windows", codt.windows},
           {"iterations", codt.iterations},
@@ -84,13 +83,13 @@ ordered_json codt_json(const engine::RunReport& run) {
           {"seconds", run.codt_seconds}};
 }
 
-ordered_json purposes_json(const std::array<std::uint64_t, engine::kPurposes>& peaks) {
-  ordered_json out;
+Json purposes_json(const std::array<std::uint64_t, engine::kPurposes>& peaks) {
+  Json out;
   for (std::size_t i = 0; i < engine::kPurposes; ++i) out[engine::kPurposeNames[i]] = peaks[i];
   return out;
 }
 
-ordered_json rank_json(const engine::RankFacts& rank) {
+Json rank_json(const engine::RankFacts& rank) {
   return {{"windows", rank.windows},
           {"blocks_sent", rank.sent.blocks},
           {"bytes_sent", rank.sent.bytes},
@@ -98,50 +97,50 @@ ordered_json rank_json(const engine::RankFacts& rank) {
           {"peak_bytes_by_purpose", purposes_json(rank.peak_bytes_by_purpose)}};
 }
 
-ordered_json engine_json(const FinishedRun& run) {
+Json engine_json(const FinishedRun& run) {
   const engine::StoreFacts& store = run.engine.store;
-  ordered_json out{{"windows", run.engine.windows},
-                   {"windows_resumed", store.resumed_windows},
-                   {"threads", run.engine.threads},
-                   {"inner_quality", run.engine.inner_quality},
-                   {"memory_budget_bytes", run.engine.memory_budget_bytes},
-                   {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
-                   {"peak_bytes_by_purpose", purposes_json(run.engine.peak_bytes_by_purpose)},
-                   {"blocks_spilled", store.blocks_spilled},
-                   {"bytes_written", store.bytes_written},
-                   {"bytes_read", store.bytes_read}};
+  Json out{{"windows", run.engine.windows},
+           {"windows_resumed", store.resumed_windows},
+           {"threads", run.engine.threads},
+           {"inner_quality", run.engine.inner_quality},
+           {"memory_budget_bytes", run.engine.memory_budget_bytes},
+           {"peak_accounted_bytes", run.engine.peak_accounted_bytes},
+           {"peak_bytes_by_purpose", purposes_json(run.engine.peak_bytes_by_purpose)},
+           {"blocks_spilled", store.blocks_spilled},
+           {"bytes_written", store.bytes_written},
+           {"bytes_read", store.bytes_read}};
   for (const engine::RankFacts& rank : run.engine.ranks) out["ranks"].push_back(rank_json(rank));
   if (!run.engine.ranks.empty()) out["written_by"] = run.engine.written_together ? "all" : "first";
   if (run.engine.workers) out["codt"] = codt_json(run.engine);
   return out;
 }
 
-ordered_json all_interfaces_json(const std::optional<audit::ShapeReport>& shape) {
+Json all_interfaces_json(const std::optional<audit::ShapeReport>& shape) {
   const audit::ShapeReport figures = shape.value_or(audit::ShapeReport{});
-  ordered_json out = interfaces_json(figures);
+  Json out = interfaces_json(figures);
   out["bend_histogram"] = figures.bend_histogram;
-  for (ordered_json& value : out) {
-    if (!shape) value = nullptr;
+  for (Json::Field& field : out.items()) {
+    if (!shape) field.value = nullptr;
   }
   return out;
 }
 
-ordered_json shape_json(const FinishedRun& run) {
+Json shape_json(const FinishedRun& run) {
   audit::VolumeMeter volumes;
   for_each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
-  ordered_json out = volume_summary_json(volumes.summary(), run.labels);
+  Json out = volume_summary_json(volumes.summary(), run.labels);
   out.update(all_interfaces_json(run.engine.shape));
   out["per_label"] = kRows;
   return out;
 }
 
 /// What was asked of sizes; limits and longest edges are in the rows of labels.
-ordered_json size_json(const FinishedRun& run) {
+Json size_json(const FinishedRun& run) {
   return {{"labels", run.sizes.labels.size()}, {"inner_vertices_added", run.engine.inner_vertices}};
 }
 
 /// Adds to the row of a label that has a limit on its edges.
-void add_size(Label label, const FinishedRun& run, ordered_json& row) {
+void add_size(Label label, const FinishedRun& run, Json& row) {
   const auto& sizes = run.sizes.labels;  // ascending
   const RawLabel raw = run.labels.raw(label);
   const auto listed = std::lower_bound(
@@ -153,20 +152,20 @@ void add_size(Label label, const FinishedRun& run, ordered_json& row) {
 }
 
 /// Rows of labels have theirs.
-ordered_json distance_json(const FinishedRun& run) {
-  ordered_json out{{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}};
+Json distance_json(const FinishedRun& run) {
+  Json out{{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}};
   if (!run.certificate || !run.certificate->distance) return out;
   out["max_voxels"] = run.certificate->distance->max_voxels;
   out["mean_voxels"] = run.certificate->distance->mean_voxels;
   return out;
 }
 
-ordered_json topology_json(const FinishedRun& run) {
+Json topology_json(const FinishedRun& run) {
   if (!run.certificate) return {{"checked", false}, {"labels_changed", nullptr}};
   return {{"checked", true}, {"labels_changed", run.certificate->labels_changed.size()}};
 }
 
-ordered_json certificate_json(const FinishedRun& run) {
+Json certificate_json(const FinishedRun& run) {
   if (!run.certificate) return {{"made", false}, {"why", run.why_no_certificate}};
   return {{"made", true},
           {"label_fingerprint", run.fingerprint},
@@ -192,8 +191,7 @@ void for_each_volume(const FinishedRun& run,
   }
 }
 
-ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
-                        ordered_json settings) {
+Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json settings) {
   return {{"version", engine::version()},
           {"settings", std::move(settings)},
           {"input", input_json(run)},
@@ -208,14 +206,14 @@ ordered_json run_report(const FinishedRun& run, const std::filesystem::path& mes
           {"certificate", certificate_json(run)},
           {"performance", performance_json(run)},
           {"engine", engine_json(run)},
-          {"digest", run.digest.empty() ? ordered_json() : ordered_json(run.digest)}};
+          {"digest", run.digest.empty() ? Json() : Json(run.digest)}};
 }
 
-void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh,
-                       ordered_json settings, const AppendText& append) {
+void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json settings,
+                       const AppendText& append) {
   const auto for_each_row = [&](const TakeRow& take) {
     for_each_volume(run, [&](const audit::VolumeRow& row) {
-      ordered_json out = volume_row_json(row, run.labels, run.volume.names);
+      Json out = volume_row_json(row, run.labels, run.volume.names);
       add_size(row.label, run, out);
       if (run.certificate) add_topology(row.label, *run.certificate, out);
       take(out);
@@ -225,7 +223,7 @@ void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh
 }
 
 void write_run_report(io::AtomicFile& file, const FinishedRun& run,
-                      const std::filesystem::path& mesh, ordered_json settings) {
+                      const std::filesystem::path& mesh, Json settings) {
   append_run_report(run, mesh, std::move(settings),
                     [&](std::string_view text) { file.append(text); });
   file.commit();

@@ -5,12 +5,12 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 
 #include "engine/report/json_rows.h"
 #include "engine/report/resource_meter.h"
 #include "engine/run.h"
 #include "io/file/atomic_file.h"
+#include "io/json/json.h"
 #include "io/labels/despeckled_volume.h"
 #include "kernels/audit/audit.h"
 #include "kernels/audit/volumes.h"
@@ -37,9 +37,8 @@ struct FinishedRun {
 
 /// The report without its rows of labels (kRows stands for them).
 /// REQUIRES: run.engine.quality and volumes.
-[[nodiscard]] nlohmann::ordered_json run_report(const FinishedRun& run,
-                                                const std::filesystem::path& mesh,
-                                                nlohmann::ordered_json settings);
+[[nodiscard]] io::Json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
+                                  io::Json settings);
 
 /// Calls visit on each label that was written, ascending.  REQUIRES: run.engine's volumes.
 void for_each_volume(const FinishedRun& run,
@@ -47,11 +46,11 @@ void for_each_volume(const FinishedRun& run,
 
 /// What nobody measured is null.  Memory: no more for more labels.
 /// REQUIRES: run.engine.quality and volumes.
-void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh,
-                       nlohmann::ordered_json settings, const AppendText& append);
+void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, io::Json settings,
+                       const AppendText& append);
 
 /// The same into a file, which gets its name.
 void write_run_report(io::AtomicFile& file, const FinishedRun& run,
-                      const std::filesystem::path& mesh, nlohmann::ordered_json settings);
+                      const std::filesystem::path& mesh, io::Json settings);
 
 }  // namespace mw::report

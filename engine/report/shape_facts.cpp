@@ -4,7 +4,6 @@
 #include "engine/report/shape_facts.h"
 
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
@@ -13,7 +12,7 @@
 
 namespace mw::report {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 namespace {
 
@@ -23,11 +22,11 @@ std::string percent(double share, int digits) {
 
 }  // namespace
 
-ordered_json volume_summary_json(const audit::VolumeSummary& volumes, const io::LabelTable& table) {
-  ordered_json out{{"volume_error_mean_abs", nullptr},
-                   {"volume_error_max_abs", nullptr},
-                   {"volume_error_worst_label", nullptr},
-                   {"labels_measured", volumes.labels_measured}};
+Json volume_summary_json(const audit::VolumeSummary& volumes, const io::LabelTable& table) {
+  Json out{{"volume_error_mean_abs", nullptr},
+           {"volume_error_max_abs", nullptr},
+           {"volume_error_worst_label", nullptr},
+           {"labels_measured", volumes.labels_measured}};
   if (!volumes.worst) return out;
   out["volume_error_mean_abs"] = volumes.error_mean_abs;
   out["volume_error_max_abs"] = volumes.error_max_abs;
@@ -35,16 +34,16 @@ ordered_json volume_summary_json(const audit::VolumeSummary& volumes, const io::
   return out;
 }
 
-ordered_json volume_row_json(const audit::VolumeRow& row, const io::LabelTable& table,
-                             const io::LabelNames& names) {
-  ordered_json out = named_row_json(table.raw(row.label), table.is_signed(), names);
+Json volume_row_json(const audit::VolumeRow& row, const io::LabelTable& table,
+                     const io::LabelNames& names) {
+  Json out = named_row_json(table.raw(row.label), table.is_signed(), names);
   out["voxels"] = row.voxels;
   out["volume_voxels"] = row.volume_voxels;
   out["volume_error"] = row.error;
   return out;
 }
 
-ordered_json interfaces_json(const audit::ShapeReport& shape) {
+Json interfaces_json(const audit::ShapeReport& shape) {
   return {{"area", shape.area},
           {"bend_p50_deg", shape.bend_p50_deg},
           {"bend_p95_deg", shape.bend_p95_deg},

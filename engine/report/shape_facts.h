@@ -3,8 +3,7 @@
 // What can be said of label volumes and of the shape of interfaces, and how reports say it.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "io/json/json.h"
 #include "io/labels/label_table.h"
 #include "io/names/label_names.h"
 #include "kernels/audit/shape.h"
@@ -13,14 +12,13 @@
 namespace mw::report {
 
 /// "volume_error_..." and "labels_measured" of a report.
-[[nodiscard]] nlohmann::ordered_json volume_summary_json(const audit::VolumeSummary& volumes,
-                                                         const io::LabelTable& table);
+[[nodiscard]] io::Json volume_summary_json(const audit::VolumeSummary& volumes,
+                                           const io::LabelTable& table);
 /// A row of its "per_label".
-[[nodiscard]] nlohmann::ordered_json volume_row_json(const audit::VolumeRow& row,
-                                                     const io::LabelTable& table,
-                                                     const io::LabelNames& names);
+[[nodiscard]] io::Json volume_row_json(const audit::VolumeRow& row, const io::LabelTable& table,
+                                       const io::LabelNames& names);
 /// Area and bends.
-[[nodiscard]] nlohmann::ordered_json interfaces_json(const audit::ShapeReport& shape);
+[[nodiscard]] io::Json interfaces_json(const audit::ShapeReport& shape);
 
 /// A line each.
 void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table,

@@ -4,11 +4,10 @@
 #include "engine/report/speck_facts.h"
 
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 namespace mw::report {
 
-nlohmann::ordered_json specks_json(const std::optional<io::SpeckFacts>& specks) {
+io::Json specks_json(const std::optional<io::SpeckFacts>& specks) {
   if (!specks) return nullptr;
   return {
       {"components", specks->components}, {"voxels", specks->voxels}, {"rounds", specks->rounds}};

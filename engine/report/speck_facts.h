@@ -3,15 +3,15 @@
 // What --drop-specks did, as summaries and reports say it.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
+#include "io/json/json.h"
 #include "io/labels/despeckled_volume.h"
 
 namespace mw::report {
 
 /// "specks" of a report; null when none were to be dropped.
-[[nodiscard]] nlohmann::ordered_json specks_json(const std::optional<io::SpeckFacts>& specks);
+[[nodiscard]] io::Json specks_json(const std::optional<io::SpeckFacts>& specks);
 
 /// One line; nothing when none were to be dropped.
 void print_specks(const std::optional<io::SpeckFacts>& specks);

@@ -19,7 +19,7 @@
 namespace mw::report {
 namespace {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 constexpr const char* kNone = "none";
 constexpr const char* kInterfaces = "interfaces";
@@ -57,12 +57,12 @@ void print_bounds(const Bounds& bounds) {
             << (bounds.of_run ? " (what is not given is what the run promised)\n" : "\n");
 }
 
-ordered_json topology_json(const Verdict& verdict) {
+Json topology_json(const Verdict& verdict) {
   if (!verdict.looked_at()) return {{"checked", false}, {"labels_changed", nullptr}};
-  ordered_json out{{"checked", true},
-                   {"labels_changed", verdict.audit.labels_changed.size()},
-                   {"changed", changed_labels(verdict)},
-                   {"indicative_only", verdict.audit.topology_is_indicative}};
+  Json out{{"checked", true},
+           {"labels_changed", verdict.audit.labels_changed.size()},
+           {"changed", changed_labels(verdict)},
+           {"indicative_only", verdict.audit.topology_is_indicative}};
   if (const auto& junctions = verdict.audit.junctions) {
     out["interfaces"] = junctions->interfaces;
     out["interfaces_changed"] = junctions->interfaces_changed.size();
@@ -72,33 +72,34 @@ ordered_json topology_json(const Verdict& verdict) {
   return out;
 }
 
-ordered_json measured_distance(const Verdict& verdict) {
+Json measured_distance(const Verdict& verdict) {
   if (!verdict.audit.distance) return nullptr;
   return distance_json(*verdict.audit.distance, verdict.table, verdict.names);
 }
 
-ordered_json volume_json(const Verdict& verdict) {
+Json volume_json(const Verdict& verdict) {
   if (!verdict.looked_at()) return nullptr;
   const audit::VolumeReport& volumes = verdict.audit.volumes;
-  ordered_json out = volume_summary_json(volumes.summary, verdict.table);
+  Json out = volume_summary_json(volumes.summary, verdict.table);
   out["exact"] = volumes.exact;
-  ordered_json rows = ordered_json::array();
+  Json rows = Json::array();
   for (const audit::VolumeRow& row : volumes.per_label) {
-    rows.push_back(volume_row_json(row, verdict.table, verdict.names));
-    add_topology(row.label, verdict.audit, rows.back());
+    Json out_row = volume_row_json(row, verdict.table, verdict.names);
+    add_topology(row.label, verdict.audit, out_row);
+    rows.push_back(std::move(out_row));
   }
   out["per_label"] = std::move(rows);
   return out;
 }
 
-ordered_json betti_json(const audit::RegionBetti& betti) {
-  const auto numbers = [](const audit::Betti& b) { return ordered_json{b.b0, b.b1, b.b2}; };
+Json betti_json(const audit::RegionBetti& betti) {
+  const auto numbers = [](const audit::Betti& b) { return Json{b.b0, b.b1, b.b2}; };
   return {{"closed", numbers(betti.closed)}, {"open", numbers(betti.open)}};
 }
 
-ordered_json asked_json(const Bounds& bounds) {
+Json asked_json(const Bounds& bounds) {
   const io::MeshPromises& asked = bounds.promises;
-  return {{"max_distance", asked.max_distance ? ordered_json(*asked.max_distance) : ordered_json()},
+  return {{"max_distance", asked.max_distance ? Json(*asked.max_distance) : Json()},
           {"quality_floor", asked.quality_floor},
           {"topology", asked.interfaces ? kInterfaces : "labels"},
           {"surface", asked.smooth ? "smooth" : kVoxel},
@@ -137,20 +138,20 @@ void print_verdict(const Verdict& verdict) {
   std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail") << "\n";
 }
 
-ordered_json checks_json(const audit::AuditReport& audit) {
-  ordered_json out = ordered_json::array();
+Json checks_json(const audit::AuditReport& audit) {
+  Json out = Json::array();
   for (const audit::Check& check : audit.checks) {
     out.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
   }
   return out;
 }
 
-void add_topology(Label label, const audit::AuditReport& report, ordered_json& row) {
+void add_topology(Label label, const audit::AuditReport& report, Json& row) {
   row["betti_of_volume"] = betti_json(report.voxels[label]);
   row["betti_of_mesh"] = betti_json(report.mesh[label]);
 }
 
-ordered_json verdict_json(const Verdict& verdict) {
+Json verdict_json(const Verdict& verdict) {
   const bool measured = verdict.looked_at();
   return {{"asked", asked_json(verdict.bounds)},
           {"labels", verdict.table.size()},
@@ -158,16 +159,15 @@ ordered_json verdict_json(const Verdict& verdict) {
           {"lattice", {{"layers_xyz", {verdict.layers.x, verdict.layers.y, verdict.layers.z}}}},
           {"passed", verdict.audit.passed()},
           {"checks", checks_json(verdict.audit)},
-          {"quality", measured ? quality_json(verdict.audit.quality) : ordered_json(nullptr)},
+          {"quality", measured ? quality_json(verdict.audit.quality) : Json(nullptr)},
           {"volume", volume_json(verdict)},
-          {"shape", measured ? interfaces_json(verdict.audit.shape) : ordered_json(nullptr)},
+          {"shape", measured ? interfaces_json(verdict.audit.shape) : Json(nullptr)},
           {"distance", measured_distance(verdict)},
           {"topology", topology_json(verdict)}};
 }
 
-ordered_json verify_report(const ordered_json& settings, const Verdict& verdict,
-                           const Resources& resources) {
-  ordered_json out{{"version", engine::version()}, {"settings", settings}};
+Json verify_report(const Json& settings, const Verdict& verdict, const Resources& resources) {
+  Json out{{"version", engine::version()}, {"settings", settings}};
   out.update(verdict_json(verdict));
   out["performance"] = {{"wall_s", resources.wall_seconds},
                         {"cpu_s", resources.cpu_seconds},

@@ -3,9 +3,8 @@
 // What `mwmesh verify` found, in words and as JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "engine/report/resource_meter.h"
+#include "io/json/json.h"
 #include "io/labels/prepared_input.h"
 #include "io/mesh/mesh_promises.h"
 #include "kernels/audit/audit.h"
@@ -37,17 +36,16 @@ struct Verdict {
 void print_verdict(const Verdict& verdict);
 
 /// Name, verdict and detail of each.
-[[nodiscard]] nlohmann::ordered_json checks_json(const audit::AuditReport& audit);
+[[nodiscard]] io::Json checks_json(const audit::AuditReport& audit);
 
 /// Adds to the row of a label its Betti numbers on both sides.  REQUIRES: both were counted.
-void add_topology(Label label, const audit::AuditReport& report, nlohmann::ordered_json& row);
+void add_topology(Label label, const audit::AuditReport& report, io::Json& row);
 
 /// What was checked and found, without settings and performance.
-[[nodiscard]] nlohmann::ordered_json verdict_json(const Verdict& verdict);
+[[nodiscard]] io::Json verdict_json(const Verdict& verdict);
 
 /// The whole file.  settings: of the command.
-[[nodiscard]] nlohmann::ordered_json verify_report(const nlohmann::ordered_json& settings,
-                                                   const Verdict& verdict,
-                                                   const Resources& resources);
+[[nodiscard]] io::Json verify_report(const io::Json& settings, const Verdict& verdict,
+                                     const Resources& resources);
 
 }  // namespace mw::report

@@ -5,10 +5,11 @@
 
 #include <array>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/json/json.h"
 
 namespace mw::io {
 
@@ -18,7 +19,7 @@ namespace mw::io {
 class JsonFields {
  public:
   /// where: what errors call the object; empty for the whole document.
-  JsonFields(const nlohmann::json& object, std::string file, std::string where = {});
+  JsonFields(const Json& object, std::string file, std::string where = {});
 
   [[nodiscard]] const std::string& file() const { return file_; }
   /// What errors call a field.
@@ -51,16 +52,16 @@ class JsonFields {
                          std::string_view way_out = {}) const;
 
  private:
-  [[nodiscard]] const nlohmann::json& at(std::string_view key) const;
-  [[nodiscard]] const nlohmann::json& array_at(std::string_view key) const;
-  [[nodiscard]] std::vector<std::int64_t> integers_in(const nlohmann::json& array,
+  [[nodiscard]] const Json& at(std::string_view key) const;
+  [[nodiscard]] const Json::Array& array_at(std::string_view key) const;
+  [[nodiscard]] std::vector<std::int64_t> integers_in(const Json& array,
                                                       std::string_view name) const;
-  [[nodiscard]] std::array<std::int64_t, 3> integers3_in(const nlohmann::json& array,
+  [[nodiscard]] std::array<std::int64_t, 3> integers3_in(const Json& array,
                                                          std::string_view name) const;
   [[noreturn]] void fail_type(std::string_view name, std::string_view wanted,
-                              const nlohmann::json& found) const;
+                              const Json& found) const;
 
-  const nlohmann::json* object_;
+  const Json* object_;
   std::string file_;
   std::string where_;
 };

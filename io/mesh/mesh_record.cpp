@@ -3,30 +3,25 @@
 // What a mesh file tells of the run that made it, as a line of JSON.
 #include "io/mesh/mesh_record.h"
 
-#include <nlohmann/json.hpp>
-
+#include "io/json/json.h"
 #include "io/json/json_fields.h"
-#include "io/json/json_file.h"
 
 namespace mw::io {
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr const char* kInterfaces = "interfaces";
 constexpr const char* kSmooth = "smooth";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
-ordered_json box_json(const MeshBox& box) {
+Json box_json(const MeshBox& box) {
   return {{"origin", box.origin},
           {kAxes[0], box.edges[0]},
           {kAxes[1], box.edges[1]},
           {kAxes[2], box.edges[2]}};
 }
 
-ordered_json promises_json(const MeshPromises& promises) {
-  return {{"max_distance",
-           promises.max_distance ? ordered_json(*promises.max_distance) : ordered_json()},
+Json promises_json(const MeshPromises& promises) {
+  return {{"max_distance", promises.max_distance ? Json(*promises.max_distance) : Json()},
           {"quality_floor", promises.quality_floor},
           {"topology", promises.interfaces ? kInterfaces : "labels"},
           {"surface", promises.smooth ? kSmooth : "voxel"}};
@@ -61,7 +56,7 @@ MeshPromises promises_in(const JsonFields& fields) {
 }  // namespace
 
 std::string record_text(const MeshRecord& record) {
-  ordered_json out = ordered_json::object();
+  Json out = Json::object();
   if (record.box) out["box"] = box_json(*record.box);
   if (record.promises) out["promises"] = promises_json(*record.promises);
   return out.empty() ? std::string() : out.dump();
@@ -70,7 +65,7 @@ std::string record_text(const MeshRecord& record) {
 MeshRecord parse_record(std::string_view text, std::string_view file) {
   MeshRecord record;
   if (text.empty()) return record;
-  const nlohmann::json value = parse_json(text, file);
+  const Json value = parse_json(text, file);
   const JsonFields fields(value, std::string(file), kRecordName);
   if (fields.has("box")) record.box = box_in(fields.object("box"));
   if (fields.has("promises")) record.promises = promises_in(fields.object("promises"));

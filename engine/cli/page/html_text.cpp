@@ -4,7 +4,6 @@
 #include "engine/cli/page/html_text.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "engine/cli/values.h"
 
@@ -28,10 +27,10 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-std::string script_json(const nlohmann::ordered_json& value) {
+std::string script_json(const io::Json& value) {
   std::string out;
   // '<' occurs in strings alone.
-  for (const char c : value.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)) {
+  for (const char c : value.dump_ascii()) {
     c == '<' ? out += "\\u003c" : out += c;
   }
   return out;

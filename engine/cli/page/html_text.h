@@ -5,10 +5,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "io/json/json.h"
 
 namespace mw::cli {
 
@@ -16,7 +17,7 @@ namespace mw::cli {
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// JSON that may stand in a script element, whatever its strings hold.
-[[nodiscard]] std::string script_json(const nlohmann::ordered_json& value);
+[[nodiscard]] std::string script_json(const io::Json& value);
 
 /// "41,247".
 [[nodiscard]] std::string with_commas(std::uint64_t number);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "engine/cli/page/charts.h"
 #include "engine/cli/page/html_text.h"
@@ -15,19 +14,19 @@
 namespace mw::cli {
 namespace {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 std::string percent(double share, int digits) {
   return format_fixed(100 * share, digits) + " %";
 }
 
 /// A setting as its flag takes it.
-std::string flag_text(const ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return format_number(value.get<double>());
+std::string flag_text(const Json& value) {
+  if (value.is_string()) return value.text();
+  if (value.is_float()) return format_number(value.number());
   if (!value.is_array()) return value.dump();
   std::string out;
-  for (const ordered_json& part : value) out += (out.empty() ? "" : ",") + flag_text(part);
+  for (const Json& part : value.elements()) out += (out.empty() ? "" : ",") + flag_text(part);
   return out;
 }
 
@@ -61,9 +60,9 @@ Verdict unchecked(const char* name, const char* promise, std::string evidence) {
   return {name, promise, "open", "not checked here", std::move(evidence)};
 }
 
-Verdict shape_verdict(const ordered_json& report) {
-  const double min = report["quality"]["radius_ratio_min"];
-  const double floor = report["settings"]["quality_floor"];
+Verdict shape_verdict(const Json& report) {
+  const double min = report["quality"]["radius_ratio_min"].number();
+  const double floor = report["settings"]["quality_floor"].number();
   const std::string found = "least radius ratio " + format_fixed(min, 4);
   constexpr const char* kPromise = "No tet is below the quality floor.";
   if (floor <= 0) return unchecked("P3", kPromise, found + "; the run had no floor");
@@ -71,21 +70,21 @@ Verdict shape_verdict(const ordered_json& report) {
                 found + ", floor " + format_number(floor) + ", over all tets as they were written");
 }
 
-Verdict memory_verdict(const ordered_json& report) {
-  const std::uint64_t peak = report["performance"]["peak_rss_bytes"];
-  const std::uint64_t budget = report["engine"]["memory_budget_bytes"];
+Verdict memory_verdict(const Json& report) {
+  const std::uint64_t peak = report["performance"]["peak_rss_bytes"].integer();
+  const std::uint64_t budget = report["engine"]["memory_budget_bytes"].integer();
   return judged("P6", "Resident memory stays under the budget.", peak <= budget,
                 size_text(peak) + " at most, budget " + size_text(budget));
 }
 
-Verdict volume_verdict(const ordered_json& report) {
+Verdict volume_verdict(const Json& report) {
   constexpr double kAllowed = 0.05;  // the default of verify
   constexpr const char* kPromise = "Labels of 1,000 voxels and more keep their volumes.";
-  const ordered_json& shape = report["shape"];
+  const Json& shape = report["shape"];
   if (shape["volume_error_max_abs"].is_null()) {
     return unchecked("P8", kPromise, "no label is that large");
   }
-  const double worst = shape["volume_error_max_abs"];
+  const double worst = shape["volume_error_max_abs"].number();
   const std::string evidence = "off by " + percent(worst, 2) + " at most (label " +
                                shape["volume_error_worst_label"].dump() + "), 5 % allowed";
   if (report["settings"]["surface"] != "smooth") {
@@ -94,38 +93,37 @@ Verdict volume_verdict(const ordered_json& report) {
   return judged("P8", kPromise, worst <= kAllowed, evidence);
 }
 
-Verdict resume_verdict(const ordered_json& report) {
-  const std::uint64_t resumed = report["engine"]["windows_resumed"];
+Verdict resume_verdict(const Json& report) {
+  const std::uint64_t resumed = report["engine"]["windows_resumed"].integer();
   return {"P7", "A killed run goes on to the same bytes.", "open", "not checked here",
           resumed == 0 ? "this run was not interrupted"
                        : with_commas(resumed) + " windows were done before it was interrupted"};
 }
 
 /// What the certificate says of a promise; without one, how to check it.
-Verdict certified(const ordered_json& report, const char* name, const char* promise,
-                  const char* how) {
-  const ordered_json& certificate = report["certificate"];
-  if (!certificate["made"].get<bool>()) return unchecked(name, promise, how);
+Verdict certified(const Json& report, const char* name, const char* promise, const char* how) {
+  const Json& certificate = report["certificate"];
+  if (!certificate["made"].boolean()) return unchecked(name, promise, how);
   bool holds = true;
-  for (const ordered_json& check : certificate["checks"]) {
-    const bool is_of = check["name"].get<std::string>().starts_with(name);
-    holds = holds && (!is_of || check["passed"].get<bool>());
+  for (const Json& check : certificate["checks"].elements()) {
+    const bool is_of = check["name"].text().starts_with(name);
+    holds = holds && (!is_of || check["passed"].boolean());
   }
   return judged(name, promise, holds, "checked in the mesh before it got its name");
 }
 
-Verdict bound_verdict(const ordered_json& report) {
-  const ordered_json& bound = report["settings"]["max_distance"];
+Verdict bound_verdict(const Json& report) {
+  const Json& bound = report["settings"]["max_distance"];
   constexpr const char* kPromise = "No boundary moves farther than the bound, both ways.";
   if (bound == "none") return unchecked("P4", kPromise, "the run had no bound");
   Verdict out = certified(report, "P4", kPromise, "verify measures it");
-  const ordered_json& max = report["distance"]["max_voxels"];
+  const Json& max = report["distance"]["max_voxels"];
   out.evidence = "bound " + flag_text(bound) + " voxels of the lattice; " +
-                 (max.is_null() ? out.evidence : format_fixed(max.get<double>(), 2) + " at most");
+                 (max.is_null() ? out.evidence : format_fixed(max.number(), 2) + " at most");
   return out;
 }
 
-std::vector<Verdict> verdicts(const ordered_json& report) {
+std::vector<Verdict> verdicts(const Json& report) {
   return {
       certified(report, "P1", "Every label keeps its topology, background and exterior included.",
                 "kept by every step; verify counts Betti numbers of voxels and mesh"),
@@ -135,7 +133,7 @@ std::vector<Verdict> verdicts(const ordered_json& report) {
       shape_verdict(report),
       bound_verdict(report),
       unchecked("P5", "The mesh is a function of volume and settings alone.",
-                "the same run anywhere gives " + report["digest"].get<std::string>()),
+                "the same run anywhere gives " + report["digest"].text()),
       memory_verdict(report),
       resume_verdict(report),
       volume_verdict(report)};
@@ -149,10 +147,10 @@ std::string promise_row(const Verdict& verdict) {
 }
 
 /// Keys end in "_s", which people need not read.
-std::vector<BarRow> seconds_rows(const ordered_json& stages) {
+std::vector<BarRow> seconds_rows(const Json& stages) {
   std::vector<BarRow> out;
   for (const auto& [key, value] : stages.items()) {
-    const double seconds = value;
+    const double seconds = value.number();
     if (seconds > 0) {
       out.push_back({key.substr(0, key.size() - 2), seconds, short_number(seconds) + " s"});
     }
@@ -160,10 +158,10 @@ std::vector<BarRow> seconds_rows(const ordered_json& stages) {
   return out;
 }
 
-std::vector<BarRow> memory_rows(const ordered_json& purposes) {
+std::vector<BarRow> memory_rows(const Json& purposes) {
   std::vector<BarRow> out;
   for (const auto& [key, value] : purposes.items()) {
-    const std::uint64_t bytes = value;
+    const std::uint64_t bytes = value.integer();
     out.push_back({key, static_cast<double>(bytes), size_text(bytes)});
   }
   return out;
@@ -179,11 +177,11 @@ std::string facts_table(const std::vector<std::array<std::string, 2>>& rows) {
 
 }  // namespace
 
-std::string verify_command(const ordered_json& report) {
+std::string verify_command(const Json& report) {
   constexpr std::array kNeeded{"spacing", "origin",      "frame",     "shape", "dtype",
                                "endian",  "dataset",     "scale",     "crop",  "merge",
                                "labels",  "drop_specks", "background"};
-  const ordered_json& settings = report["settings"];
+  const Json& settings = report["settings"];
   std::string out = "mwmesh verify " + quoted(flag_text(settings["input"])) + " " +
                     quoted(flag_text(settings["output"]));
   for (const std::string key : kNeeded) {
@@ -204,40 +202,41 @@ std::string verify_command(const ordered_json& report) {
   return out;
 }
 
-std::string head_section(const ordered_json& report) {
-  const ordered_json& input = report["input"];
-  const ordered_json& output = report["output"];
-  const ordered_json& quality = report["quality"];
-  const ordered_json& shape = report["shape"];
-  const ordered_json& performance = report["performance"];
-  const std::filesystem::path mesh = output["file"].get<std::string>();
+std::string head_section(const Json& report) {
+  const Json& input = report["input"];
+  const Json& output = report["output"];
+  const Json& quality = report["quality"];
+  const Json& shape = report["shape"];
+  const Json& performance = report["performance"];
+  const std::filesystem::path mesh = output["file"].text();
   std::string voxels;
-  for (const ordered_json& side : input["shape_xyz"]) {
-    voxels += (voxels.empty() ? "" : " × ") + with_commas(side);
+  for (const Json& side : input["shape_xyz"].elements()) {
+    voxels += (voxels.empty() ? "" : " × ") + with_commas(side.integer());
   }
   std::string out = "<header><h1>" + escaped(mesh.filename().string()) + "</h1><p>" +
                     escaped(flag_text(report["settings"]["input"])) + " · " + voxels +
-                    " voxels · " + with_commas(input["labels"]) + " labels · mwmesh " +
-                    escaped(report["version"].get<std::string>()) + "</p>\n<div class=\"tiles\">\n";
-  out += tile("vertices", with_commas(output["vertices"]),
-              percent(output["vertex_fraction"], 2) + " of the voxel corners");
-  const double slivers = quality["sliver_fraction"];
-  out += tile("tets", with_commas(output["tets"]),
+                    " voxels · " + with_commas(input["labels"].integer()) + " labels · mwmesh " +
+                    escaped(report["version"].text()) + "</p>\n<div class=\"tiles\">\n";
+  out += tile("vertices", with_commas(output["vertices"].integer()),
+              percent(output["vertex_fraction"].number(), 2) + " of the voxel corners");
+  const double slivers = quality["sliver_fraction"].number();
+  out += tile("tets", with_commas(output["tets"].integer()),
               slivers == 0 ? "no slivers" : percent(slivers, 3) + " slivers");
-  out += tile("radius ratio, least", format_fixed(quality["radius_ratio_min"], 3),
-              format_fixed(quality["radius_ratio_mean"], 3) + " on average");
-  const ordered_json& error = shape["volume_error_max_abs"];
-  out += tile("volume error, at most", error.is_null() ? "–" : percent(error, 2),
-              error.is_null() ? "no label of 1,000 voxels"
-                              : percent(shape["volume_error_mean_abs"], 3) + " on average");
-  out += tile("time", short_number(performance["wall_s"]) + " s",
-              short_number(performance["voxels_per_s"]) + " voxels/s");
-  out += tile("memory, at most", size_text(performance["peak_rss_bytes"]),
-              size_text(report["engine"]["memory_budget_bytes"]) + " allowed");
+  out += tile("radius ratio, least", format_fixed(quality["radius_ratio_min"].number(), 3),
+              format_fixed(quality["radius_ratio_mean"].number(), 3) + " on average");
+  const Json& error = shape["volume_error_max_abs"];
+  out +=
+      tile("volume error, at most", error.is_null() ? "–" : percent(error.number(), 2),
+           error.is_null() ? "no label of 1,000 voxels"
+                           : percent(shape["volume_error_mean_abs"].number(), 3) + " on average");
+  out += tile("time", short_number(performance["wall_s"].number()) + " s",
+              short_number(performance["voxels_per_s"].number()) + " voxels/s");
+  out += tile("memory, at most", size_text(performance["peak_rss_bytes"].integer()),
+              size_text(report["engine"]["memory_budget_bytes"].integer()) + " allowed");
   return out + "</div></header>\n";
 }
 
-std::string promise_section(const ordered_json& report) {
+std::string promise_section(const Json& report) {
   std::string out = "<section><h2>Promises</h2><div class=\"card\"><table class=\"promises\">\n";
   for (const Verdict& verdict : verdicts(report)) out += promise_row(verdict);
   return out +
@@ -246,29 +245,29 @@ std::string promise_section(const ordered_json& report) {
          escaped(verify_command(report)) + "</code></p></section>\n";
 }
 
-std::string engine_section(const ordered_json& report) {
-  const ordered_json& engine = report["engine"];
+std::string engine_section(const Json& report) {
+  const Json& engine = report["engine"];
   std::string out = "<section><h2>Engine</h2><div class=\"charts\">\n";
   out += bar_figure("Seconds, summed over threads", seconds_rows(report["performance"]["stages"]));
   out += bar_figure("Memory set aside at most, by purpose",
                     memory_rows(engine["peak_bytes_by_purpose"]));
   out += "<figure class=\"card\"><figcaption><b>Run</b></figcaption>" +
-         facts_table({{"windows", with_commas(engine["windows"])},
-                      {"threads", with_commas(engine["threads"])},
-                      {"CPU seconds", short_number(report["performance"]["cpu_s"])},
-                      {"blocks spilled", with_commas(engine["blocks_spilled"])},
-                      {"bytes written", size_text(engine["bytes_written"])},
-                      {"bytes read", size_text(engine["bytes_read"])}}) +
+         facts_table({{"windows", with_commas(engine["windows"].integer())},
+                      {"threads", with_commas(engine["threads"].integer())},
+                      {"CPU seconds", short_number(report["performance"]["cpu_s"].number())},
+                      {"blocks spilled", with_commas(engine["blocks_spilled"].integer())},
+                      {"bytes written", size_text(engine["bytes_written"].integer())},
+                      {"bytes read", size_text(engine["bytes_read"].integer())}}) +
          "</figure>\n";
   return out + "</div></section>\n";
 }
 
-std::string settings_section(const ordered_json& report) {
+std::string settings_section(const Json& report) {
   std::vector<std::array<std::string, 2>> rows;
   for (const auto& [key, value] : report["settings"].items()) {
     if (!value.is_null()) rows.push_back({key, flag_text(value)});
   }
-  rows.push_back({"digest", report["digest"].get<std::string>()});
+  rows.push_back({"digest", report["digest"].text()});
   return "<section><h2>Settings</h2><details class=\"card\"><summary>All settings of the run, and "
          "the digest of the mesh</summary>" +
          facts_table(rows) + "</details></section>\n";

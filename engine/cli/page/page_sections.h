@@ -3,23 +3,24 @@
 // The parts of a run's page that come from its report.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "io/json/json.h"
 
 namespace mw::cli {
 
 // Each takes the report of a run (run_report) and gives HTML.
 
 /// Title, what went in, and the figures that matter first.
-[[nodiscard]] std::string head_section(const nlohmann::ordered_json& report);
+[[nodiscard]] std::string head_section(const io::Json& report);
 /// P1 to P8: what the run itself has seen to hold, or not; of the others how to check them.
-[[nodiscard]] std::string promise_section(const nlohmann::ordered_json& report);
+[[nodiscard]] std::string promise_section(const io::Json& report);
 /// Where time and memory went.
-[[nodiscard]] std::string engine_section(const nlohmann::ordered_json& report);
+[[nodiscard]] std::string engine_section(const io::Json& report);
 /// All settings, and the digest.
-[[nodiscard]] std::string settings_section(const nlohmann::ordered_json& report);
+[[nodiscard]] std::string settings_section(const io::Json& report);
 
 /// The command that checks the mesh, with the options of the run that the check needs.
-[[nodiscard]] std::string verify_command(const nlohmann::ordered_json& report);
+[[nodiscard]] std::string verify_command(const io::Json& report);
 
 }  // namespace mw::cli

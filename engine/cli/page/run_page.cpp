@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "engine/cli/page/assets.h"
 #include "engine/cli/page/charts.h"
@@ -17,7 +16,7 @@
 namespace mw::cli {
 namespace {
 
-using nlohmann::ordered_json;
+using io::Json;
 
 template <typename Counts>
 std::vector<double> shares_of(const Counts& counts) {
@@ -198,9 +197,9 @@ void add_pictures(io::AtomicFile& file, const PageLabels& labels) {
   file.append("</div></section>\n");
 }
 
-ordered_json view_json(const PageLabels& labels, const ViewData& view) {
-  ordered_json out = view.json();
-  ordered_json rows = ordered_json::array();
+Json view_json(const PageLabels& labels, const ViewData& view) {
+  Json out = view.json();
+  Json rows = Json::array();
   for (const Label rank : view.labels()) {
     rows.push_back({{"label", labels.digits(rank)},
                     {"colour", label_colour(labels.raw(rank), labels.mesh.names())}});
@@ -221,20 +220,20 @@ void add_data(io::AtomicFile& file, const PageLabels& labels, ViewData& view) {
 }
 
 /// The policy forbids what the page does not do: to ask a network for anything.
-std::string page_top(const ordered_json& report) {
+std::string page_top(const Json& report) {
   return R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
 <title>)" +
-         escaped(report["output"]["file"].get<std::string>()) + " – mwmesh</title>\n<style>\n" +
-         kPageStyle + "</style></head><body>\n";
+         escaped(report["output"]["file"].text()) + " – mwmesh</title>\n<style>\n" + kPageStyle +
+         "</style></head><body>\n";
 }
 
 }  // namespace
 
 void write_run_page(io::AtomicFile& file, const report::FinishedRun& run, io::GroupedMesh& mesh,
-                    const ordered_json& report) {
+                    const Json& report) {
   const PageLabels labels = labels_of(run, mesh);
   file.append(page_top(report) + head_section(report) + "<main>\n");
   add_pictures(file, labels);

@@ -3,9 +3,8 @@
 // The page of a run (--html): one file for the eye, without a network.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "engine/report/run_report.h"
+#include "io/json/json.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::cli {
@@ -17,6 +16,6 @@ namespace mw::cli {
 /// of a picture, then the triangles of the view), and 40 bytes a label. ERRORS: those of file and
 /// mesh.
 void write_run_page(io::AtomicFile& file, const report::FinishedRun& run, io::GroupedMesh& mesh,
-                    const nlohmann::ordered_json& report);
+                    const io::Json& report);
 
 }  // namespace mw::cli

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace mw::cli {
 namespace {
@@ -86,8 +85,8 @@ std::int64_t ViewData::index(Label rank) const {
   return found == labels_.end() || *found != rank ? -1 : found - labels_.begin();
 }
 
-nlohmann::ordered_json ViewData::json() const {
-  nlohmann::ordered_json groups = nlohmann::ordered_json::array();
+io::Json ViewData::json() const {
+  io::Json groups = io::Json::array();
   for (const io::FacetGroup& group : groups_) {
     groups.push_back({index(group.first), index(group.second), group.facets.size()});
   }

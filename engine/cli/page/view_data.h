@@ -3,9 +3,8 @@
 // The surfaces that a page carries for its view in three dimensions.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "engine/cli/page/html_text.h"
+#include "io/json/json.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::cli {
@@ -31,7 +30,7 @@ class ViewData {
   /// "lo", "hi": what the numbers of vertices count between, 0 to 65535; "box": its "origin" and
   /// "edges"; "groups": [place of the first label in labels() or -1, the same of the second, how
   /// many triangles], in the order of the triangles.
-  [[nodiscard]] nlohmann::ordered_json json() const;
+  [[nodiscard]] io::Json json() const;
   /// Base64 of three 16-bit numbers a vertex, little endian.
   void write_vertices(const AppendText& append);
   /// Base64 of three 32-bit numbers of vertices a triangle, little endian.

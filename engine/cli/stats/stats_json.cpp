@@ -5,26 +5,24 @@
 
 #include "engine/cli/report_names.h"
 
-#include <nlohmann/json.hpp>
-
 namespace mw::cli {
 namespace {
 
-using nlohmann::ordered_json;
+using io::Json;
 
-ordered_json betti_json(const audit::Betti& betti) {
+Json betti_json(const audit::Betti& betti) {
   return {betti.b0, betti.b1, betti.b2};
 }
 
-ordered_json label_json(const StatsFacts& facts, Label rank) {
+Json label_json(const StatsFacts& facts, Label rank) {
   const LabelStats& label = facts.mesh.labels[rank];
   const RawLabel raw = facts.table.raw(rank);
-  ordered_json row = named_row_json(raw, facts.table.is_signed(), facts.names);
+  Json row = named_row_json(raw, facts.table.is_signed(), facts.names);
   row["volume"] = label.volume;
   if (facts.volume) {
     const auto voxels = voxels_of(facts, rank);
-    row["voxels"] = voxels ? ordered_json(voxels->voxels) : ordered_json(0);
-    row["volume_error"] = voxels ? ordered_json(voxels->error) : ordered_json();
+    row["voxels"] = voxels ? Json(voxels->voxels) : Json(0);
+    row["volume_error"] = voxels ? Json(voxels->error) : Json();
   }
   row["area"] = label.area;
   row["area_on_box"] = label.area_on_box;
@@ -43,9 +41,9 @@ ordered_json label_json(const StatsFacts& facts, Label rank) {
   return row;
 }
 
-ordered_json contact_json(const StatsFacts& facts, const Contact& contact) {
+Json contact_json(const StatsFacts& facts, const Contact& contact) {
   const bool is_signed = facts.table.is_signed();
-  ordered_json row{
+  Json row{
       {"labels",
        {cli::label_json(contact.first, is_signed), cli::label_json(contact.second, is_signed)}},
       {"triangles", contact.triangles},
@@ -56,10 +54,10 @@ ordered_json contact_json(const StatsFacts& facts, const Contact& contact) {
 
 }  // namespace
 
-ordered_json stats_json(const StatsFacts& facts) {
-  ordered_json labels = ordered_json::array();
+Json stats_json(const StatsFacts& facts) {
+  Json labels = Json::array();
   for (Label rank = 0; rank < facts.table.size(); ++rank) labels.push_back(label_json(facts, rank));
-  ordered_json contacts = ordered_json::array();
+  Json contacts = Json::array();
   for (const Contact& c : contacts_of(facts)) contacts.push_back(contact_json(facts, c));
   return {{"labels", std::move(labels)}, {"contacts", std::move(contacts)}};
 }

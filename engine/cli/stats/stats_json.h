@@ -3,13 +3,12 @@
 // `mwmesh stats --json`.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "engine/cli/stats/stats_facts.h"
+#include "io/json/json.h"
 
 namespace mw::cli {
 
 /// {"labels": [..], "contacts": [..]}, all digits; what is not known of a volume is left out.
-[[nodiscard]] nlohmann::ordered_json stats_json(const StatsFacts& facts);
+[[nodiscard]] io::Json stats_json(const StatsFacts& facts);
 
 }  // namespace mw::cli

@@ -3,27 +3,24 @@
 // A folder of neuroglancer's precomputed meshes.
 #include "io/surface/precomputed/mesh_folder.h"
 
-#include <nlohmann/json.hpp>
-
 #include "io/file/atomic_file.h"
 #include "io/file/errors.h"
+#include "io/json/json.h"
 #include "io/surface/precomputed/draco_sink.h"
 #include "io/surface/precomputed/legacy_sink.h"
 
 namespace mw::io {
 namespace {
 
-using nlohmann::ordered_json;
-
 constexpr const char* kProperties = "segment_properties";
 
-void write_json(const std::filesystem::path& path, const ordered_json& json) {
+void write_json(const std::filesystem::path& path, const Json& json) {
   AtomicFile file(path);
   file.append(json.dump() + "\n");
   file.commit();
 }
 
-ordered_json info_json(FragmentKind kind) {
+Json info_json(FragmentKind kind) {
   if (kind == FragmentKind::kLegacy) return {{"@type", "neuroglancer_legacy_mesh"}};
   return {{"@type", "neuroglancer_multilod_draco"},
           {"vertex_quantization_bits", kDracoBits},
@@ -32,18 +29,18 @@ ordered_json info_json(FragmentKind kind) {
 }
 
 /// Segments without a name have their number, which the viewer shows for them.
-ordered_json properties_json(const std::vector<RawLabel>& segments, const LabelNames& names) {
-  ordered_json ids = ordered_json::array();
-  ordered_json values = ordered_json::array();
+Json properties_json(const std::vector<RawLabel>& segments, const LabelNames& names) {
+  Json ids = Json::array();
+  Json values = Json::array();
   for (const RawLabel segment : segments) {
     if (names.name(segment).empty()) continue;
     ids.push_back(text(segment));
     values.push_back(names.name(segment));
   }
   if (ids.empty()) return nullptr;
-  const ordered_json property{{"id", "label"}, {"type", "label"}, {"values", values}};
+  const Json property{{"id", "label"}, {"type", "label"}, {"values", values}};
   return {{"@type", "neuroglancer_segment_properties"},
-          {"inline", {{"ids", ids}, {"properties", ordered_json::array({property})}}}};
+          {"inline", {{"ids", ids}, {"properties", Json::Array{property}}}}};
 }
 
 }  // namespace
@@ -58,8 +55,8 @@ std::unique_ptr<SurfaceSink> MeshFolder::sink(RawLabel label) {
 }
 
 void MeshFolder::finish(const LabelNames& names) {
-  ordered_json info = info_json(options_.kind);
-  const ordered_json properties = properties_json(segments_, names);
+  Json info = info_json(options_.kind);
+  const Json properties = properties_json(segments_, names);
   if (!properties.is_null()) {
     info[kProperties] = kProperties;
     std::filesystem::create_directory(folder_.path() / kProperties);

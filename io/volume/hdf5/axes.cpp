@@ -4,9 +4,9 @@
 #include "io/volume/hdf5/axes.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "io/file/errors.h"
+#include "io/json/json_fields.h"
 #include "io/volume/hdf5/catalogue.h"
 
 namespace mw::io {
@@ -21,21 +21,18 @@ namespace {
 /// The key of each axis: "zyxc"; empty without axistags.
 std::string keys_of(const Hdf5Description& description, std::string_view file) {
   if (description.axistags.empty()) return {};
-  const auto json = nlohmann::json::parse(description.axistags, nullptr,
-                                          /*allow_exceptions=*/false);
-  constexpr const char* kNoList = "its axistags are no list of axes";
-  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) {
-    fail(description, file, kNoList);
-  }
-  std::string keys;
-  for (const auto& axis : json["axes"]) {
-    if (!axis.is_object() || !axis.contains("key") || !axis["key"].is_string()) {
-      fail(description, file, kNoList);
+  try {
+    std::string keys;
+    const Json tags = parse_json(description.axistags, file);
+    const JsonFields fields(tags, std::string(file));
+    for (std::size_t i = 0; i < fields.count("axes"); ++i) {
+      const std::string key = fields.element("axes", i).text("key");
+      keys += key.size() == 1 ? key[0] : '?';
     }
-    const auto& key = axis["key"].get_ref<const std::string&>();
-    keys += key.size() == 1 ? key[0] : '?';
+    return keys;
+  } catch (const Error&) {
+    fail(description, file, "its axistags are no list of axes");
   }
-  return keys;
 }
 
 Hdf5Axes tagged_axes(const Hdf5Description& description, const std::string& keys,

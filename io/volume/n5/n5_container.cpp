@@ -9,7 +9,7 @@
 
 #include "io/chunks/chunk_bytes.h"
 #include "io/file/errors.h"
-#include "io/json/json_file.h"
+#include "io/json/json.h"
 #include "io/volume/n5/n5_array.h"
 
 namespace mw::io {

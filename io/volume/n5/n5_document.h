@@ -4,16 +4,16 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "io/json/json.h"
 #include "io/json/json_fields.h"
 
 namespace mw::io {
 
 struct N5Document {
-  nlohmann::json json;
+  Json json;
   std::string file;
 
   /// Looks at json, which must outlive it.  ERRORS: mw::Error(kInput) when that is no object.

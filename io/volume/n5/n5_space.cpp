@@ -102,7 +102,7 @@ std::optional<Vector3> factors_of(const N5Attributes& attributes, const N5Array&
   const JsonFields group = attributes.group->fields();
   for (const char* key : {kKey, "scales"}) {
     if (!group.has(key) || attributes.level >= group.count(key)) continue;
-    const nlohmann::json row{{key, attributes.group->json[key][attributes.level]}};
+    const Json row{{key, attributes.group->json[key].elements()[attributes.level]}};
     return along_xyz(JsonFields(row, attributes.group->file), key, array, 1);
   }
   return std::nullopt;

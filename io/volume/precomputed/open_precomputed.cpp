@@ -3,11 +3,9 @@
 // Finds the chunks that `info` speaks of.
 #include "io/volume/precomputed/open_precomputed.h"
 
-#include <nlohmann/json.hpp>
-
 #include "io/chunks/chunked_volume.h"
 #include "io/file/errors.h"
-#include "io/json/json_file.h"
+#include "io/json/json.h"
 #include "io/volume/precomputed/precomputed_chunks.h"
 #include "io/volume/precomputed/precomputed_info.h"
 

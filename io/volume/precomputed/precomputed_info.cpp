@@ -206,7 +206,7 @@ VolumeSpace space_of(const JsonFields& fields, Index3 offset, const OpenOptions&
 
 }  // namespace
 
-PrecomputedScale parse_precomputed_info(const nlohmann::json& json, std::string_view file,
+PrecomputedScale parse_precomputed_info(const Json& json, std::string_view file,
                                         const OpenOptions& options) {
   const JsonFields info(json, std::string(file));
   if (info.has("@type") && info.text("@type") != "neuroglancer_multiscale_volume") {

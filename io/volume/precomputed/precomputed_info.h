@@ -3,11 +3,11 @@
 // One scale of a precomputed volume, from its `info` file.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "io/json/json.h"
 #include "io/volume/open_options.h"
 #include "io/volume/precomputed/compressed_segmentation.h"
 #include "io/volume/precomputed/sharding.h"
@@ -30,8 +30,7 @@ struct PrecomputedScale {
 /// The scale that the options ask for: by its key (dataset), by its number (scale), or the first.
 /// Checks all numbers, and bounds what chunks may take.
 /// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such scale.
-[[nodiscard]] PrecomputedScale parse_precomputed_info(const nlohmann::json& info,
-                                                      std::string_view file,
+[[nodiscard]] PrecomputedScale parse_precomputed_info(const Json& info, std::string_view file,
                                                       const OpenOptions& options);
 
 /// Chunks along each axis.

@@ -5,18 +5,17 @@
 
 namespace mw::io {
 
-Extension parse_extension(const nlohmann::json& value, const std::string& file,
-                          const std::string& where) {
-  Extension out{.configuration = nlohmann::json::object(), .where = where + ".configuration"};
+Extension parse_extension(const Json& value, const std::string& file, const std::string& where) {
+  Extension out{.configuration = Json::object(), .where = where + ".configuration"};
   if (value.is_string()) {
-    out.name = value.get<std::string>();
+    out.name = value.text();
     return out;
   }
   const JsonFields fields(value, file, where);
   out.name = fields.text("name");
   if (fields.has("configuration")) {
     static_cast<void>(fields.object("configuration"));  // checks that it is one
-    out.configuration = value.at("configuration");
+    out.configuration = value["configuration"];
   }
   return out;
 }

@@ -6,18 +6,15 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "io/file/errors.h"
 
 namespace mw::io {
 namespace {
 
-[[noreturn]] void fail_fill(const nlohmann::json& value, VoxelType type, std::string_view file) {
+[[noreturn]] void fail_fill(const Json& value, VoxelType type, std::string_view file) {
   const std::string shown =
-      value.is_structured()
-          ? "a structure"
-          : value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace).substr(0, 60);
+      value.is_structured() ? "a structure" : value.dump_ascii().substr(0, 60);
   fail_input(file, "fill_value", text(shown, " is no ", name(type)), "the file is damaged");
 }
 
@@ -39,11 +36,10 @@ std::optional<double> float_of_bits(std::string_view digits, VoxelType type) {
   return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
 }
 
-std::optional<RawLabel> parse_float(const nlohmann::json& value, VoxelType type,
-                                    std::string_view file) {
-  if (value.is_number()) return label_of(value.get<double>());
+std::optional<RawLabel> parse_float(const Json& value, VoxelType type, std::string_view file) {
+  if (value.is_number()) return label_of(value.number());
   if (!value.is_string()) fail_fill(value, type, file);
-  const auto word = value.get<std::string>();
+  const std::string& word = value.text();
   if (word == "NaN" || word == "Infinity" || word == "-Infinity") return std::nullopt;
   const auto number = float_of_bits(word, type);
   if (!number) fail_fill(value, type, file);
@@ -59,17 +55,16 @@ bool holds_unsigned(VoxelType type, std::uint64_t number) {
   return number <= UINT64_MAX >> (64 - 8 * byte_size(type));
 }
 
-RawLabel parse_integer(const nlohmann::json& value, VoxelType type, std::string_view file) {
-  if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
-  if (value.is_number_unsigned()) {
-    const auto number = value.get<std::uint64_t>();
+RawLabel parse_integer(const Json& value, VoxelType type, std::string_view file) {
+  if (value.is_boolean()) return value.boolean() ? 1 : 0;
+  if (value.is_unsigned()) {
+    const std::uint64_t number = value.integer();
     const bool fits = is_signed(type) ? number <= static_cast<std::uint64_t>(INT64_MAX) &&
                                             holds_signed(type, static_cast<std::int64_t>(number))
                                       : holds_unsigned(type, number);
     if (fits) return number;
   } else if (value.is_number()) {  // negative, or written as 0.0
-    const auto label = value.is_number_float() ? label_of(value.get<double>())
-                                               : std::optional(value.get<std::uint64_t>());
+    const auto label = value.is_float() ? label_of(value.number()) : std::optional(value.integer());
     if (label) {
       const auto number = static_cast<std::int64_t>(*label);
       if (is_signed(type) ? holds_signed(type, number)
@@ -83,8 +78,7 @@ RawLabel parse_integer(const nlohmann::json& value, VoxelType type, std::string_
 
 }  // namespace
 
-std::optional<RawLabel> parse_fill_value(const nlohmann::json& value, VoxelType type,
-                                         std::string_view file) {
+std::optional<RawLabel> parse_fill_value(const Json& value, VoxelType type, std::string_view file) {
   if (value.is_null()) return 0;
   if (is_float(type)) return parse_float(value, type, file);
   return parse_integer(value, type, file);

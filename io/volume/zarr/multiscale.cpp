@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "io/file/errors.h"
@@ -16,12 +15,12 @@ namespace mw::io {
 namespace {
 
 /// From 0.5 on everything is in "ome".
-const nlohmann::json& ome_of(const nlohmann::json& attributes) {
-  const auto found = attributes.find("ome");
-  return found != attributes.end() && found->is_object() ? *found : attributes;
+const Json& ome_of(const Json& attributes) {
+  const Json* found = attributes.find("ome");
+  return found != nullptr && found->is_object() ? *found : attributes;
 }
 
-std::string where_of(const nlohmann::json& attributes) {
+std::string where_of(const Json& attributes) {
   return &ome_of(attributes) == &attributes ? "" : "ome";
 }
 
@@ -49,10 +48,10 @@ std::string short_unit(const std::string& unit) {
 }
 
 /// Versions before 0.4 have names only.
-void add_axis(const nlohmann::json& axis, const JsonFields& fields, std::size_t index,
+void add_axis(const Json& axis, const JsonFields& fields, std::size_t index,
               std::vector<bool>& spatial, Multiscale& out) {
   if (axis.is_string()) {
-    out.axis_names.push_back(axis.get<std::string>());
+    out.axis_names.push_back(axis.text());
     out.axis_units.emplace_back();
     spatial.push_back(false);
     return;
@@ -75,13 +74,13 @@ void name_axes(const std::vector<bool>& spatial, std::vector<std::string>& names
   }
 }
 
-void parse_axes(const nlohmann::json& multiscale, const JsonFields& fields, Multiscale& out) {
+void parse_axes(const Json& multiscale, const JsonFields& fields, Multiscale& out) {
   if (!fields.has("axes")) return;
   const std::size_t count = fields.count("axes");
   check_axes(fields.file(), fields.name_of("axes"), count);
   std::vector<bool> spatial;
   for (std::size_t i = 0; i < count; ++i) {
-    add_axis(multiscale.at("axes")[i], fields, i, spatial, out);
+    add_axis(multiscale["axes"].elements()[i], fields, i, spatial, out);
   }
   name_axes(spatial, out.axis_names);
 }
@@ -144,20 +143,19 @@ std::string common_unit(const Multiscale& multiscale, const AxisMap& axes, std::
 
 }  // namespace
 
-bool has_multiscale(const nlohmann::json& attributes) {
-  const nlohmann::json& ome = ome_of(attributes);
-  const auto found = ome.find("multiscales");
-  return found != ome.end() && found->is_array() && !found->empty();
+bool has_multiscale(const Json& attributes) {
+  const Json* found = ome_of(attributes).find("multiscales");
+  return found != nullptr && found->is_array() && !found->empty();
 }
 
-Multiscale parse_multiscale(const nlohmann::json& attributes, const std::string& file) {
-  const nlohmann::json& ome = ome_of(attributes);
+Multiscale parse_multiscale(const Json& attributes, const std::string& file) {
+  const Json& ome = ome_of(attributes);
   const JsonFields fields(ome, file, where_of(attributes));
   check_version(fields);
   const JsonFields multiscale = fields.element("multiscales", 0);
   check_version(multiscale);
   Multiscale out;
-  parse_axes(ome.at("multiscales")[0], multiscale, out);
+  parse_axes(ome["multiscales"].elements()[0], multiscale, out);
   for (std::size_t i = 0; i < multiscale.count("datasets"); ++i) {
     const JsonFields dataset = multiscale.element("datasets", i);
     MultiscaleLevel level{.path = dataset.text("path")};
@@ -193,13 +191,12 @@ FileSpace space_of(const Multiscale& multiscale, const MultiscaleLevel& level, c
   return space;
 }
 
-std::vector<std::string> label_images(const nlohmann::json& attributes) {
+std::vector<std::string> label_images(const Json& attributes) {
   std::vector<std::string> out;
-  const nlohmann::json& ome = ome_of(attributes);
-  const auto found = ome.find("labels");
-  if (found == ome.end() || !found->is_array()) return out;
-  for (const nlohmann::json& name : *found) {
-    if (name.is_string()) out.push_back(name.get<std::string>());
+  const Json* found = ome_of(attributes).find("labels");
+  if (found == nullptr || !found->is_array()) return out;
+  for (const Json& name : found->elements()) {
+    if (name.is_string()) out.push_back(name.text());
   }
   return out;
 }

@@ -3,11 +3,11 @@
 // A multiscale image of OME-NGFF: one volume at several resolutions.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/json/json.h"
 #include "io/volume/file_space.h"
 #include "io/volume/zarr/axis_map.h"
 
@@ -33,12 +33,11 @@ struct Multiscale {
 };
 
 /// Whether the attributes of a group have multiscales, of OME-NGFF 0.1 to 0.5.
-[[nodiscard]] bool has_multiscale(const nlohmann::json& attributes);
+[[nodiscard]] bool has_multiscale(const Json& attributes);
 
 /// The first multiscale.  REQUIRES: has_multiscale(attributes), an object.
 /// ERRORS: mw::Error(kInput) naming file and field.
-[[nodiscard]] Multiscale parse_multiscale(const nlohmann::json& attributes,
-                                          const std::string& file);
+[[nodiscard]] Multiscale parse_multiscale(const Json& attributes, const std::string& file);
 
 /// The place of a level whose array has `axes`; unit: unless the caller gives a spacing, those of
 /// x, y and z must be the same.
@@ -47,6 +46,6 @@ struct Multiscale {
                                  const AxisMap& axes, std::string_view file);
 
 /// Names of the labels that the attributes of an image's group `labels` list.
-[[nodiscard]] std::vector<std::string> label_images(const nlohmann::json& attributes);
+[[nodiscard]] std::vector<std::string> label_images(const Json& attributes);
 
 }  // namespace mw::io

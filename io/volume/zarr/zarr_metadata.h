@@ -3,9 +3,9 @@
 // The metadata of a Zarr array, in both versions of the format.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "io/json/json.h"
 #include "io/volume/zarr/zarr_array.h"
 
 namespace mw::io {
@@ -15,10 +15,10 @@ namespace mw::io {
 
 /// .zarray (Zarr specification, version 2).  Not read: filters, structured types and compressors
 /// beyond those of Codec.
-[[nodiscard]] ZarrArray parse_zarr_v2(const nlohmann::json& document, const std::string& file);
+[[nodiscard]] ZarrArray parse_zarr_v2(const Json& document, const std::string& file);
 
 /// zarr.json (Zarr core specification, version 3.0), with the codecs bytes, transpose, gzip, zstd,
 /// blosc, crc32c and sharding_indexed.  Not read: extensions that must be understood.
-[[nodiscard]] ZarrArray parse_zarr_v3(const nlohmann::json& document, const std::string& file);
+[[nodiscard]] ZarrArray parse_zarr_v3(const Json& document, const std::string& file);
 
 }  // namespace mw::io

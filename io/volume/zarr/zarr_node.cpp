@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "io/json/json.h"
 #include "io/json/json_fields.h"
-#include "io/json/json_file.h"
 
 namespace mw::io {
 namespace {
@@ -16,12 +16,11 @@ bool has_file(const std::filesystem::path& folder, const char* name) {
   return std::filesystem::is_regular_file(folder / name, ignored);
 }
 
-nlohmann::json object_or_none(const nlohmann::json& document, const std::string& file,
-                              const char* key) {
+Json object_or_none(const Json& document, const std::string& file, const char* key) {
   const JsonFields fields(document, file);
-  if (!fields.has(key)) return nlohmann::json::object();
+  if (!fields.has(key)) return Json::object();
   static_cast<void>(fields.object(key));  // checks that it is one
-  return document.at(key);
+  return document[key];
 }
 
 ZarrNode read_v3(const std::filesystem::path& folder) {
@@ -45,7 +44,7 @@ ZarrNode read_v2(const std::filesystem::path& folder) {
   node.is_array = has_file(folder, ".zarray");
   node.metadata_file = (folder / ".zarray").string();
   node.attributes_file = (folder / ".zattrs").string();
-  node.attributes = nlohmann::json::object();
+  node.attributes = Json::object();
   if (node.is_array) {
     node.metadata = read_json(node.metadata_file);
     return node;

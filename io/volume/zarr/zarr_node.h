@@ -4,11 +4,12 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/json/json.h"
 
 namespace mw::io {
 
@@ -17,10 +18,10 @@ struct ZarrNode {
   std::filesystem::path folder;
   int version = 2;
   bool is_array = false;
-  nlohmann::json metadata;  ///< of an array: .zarray or zarr.json
+  Json metadata;  ///< of an array: .zarray or zarr.json
   /// Of a group, always an object.  Those of arrays of version 2 are not read: nothing here is in
   /// them, and NaN, which some writers put there, is no JSON.
-  nlohmann::json attributes;
+  Json attributes;
   std::string metadata_file;  ///< what errors about the two name
   std::string attributes_file;
 };

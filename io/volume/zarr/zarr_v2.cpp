@@ -4,7 +4,6 @@
 #include "io/volume/zarr/zarr_metadata.h"
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -99,7 +98,7 @@ void check_filters(const JsonFields& fields) {
 
 }  // namespace
 
-ZarrArray parse_zarr_v2(const nlohmann::json& document, const std::string& file) {
+ZarrArray parse_zarr_v2(const Json& document, const std::string& file) {
   const JsonFields fields(document, file);
   if (fields.integer("zarr_format") != 2) {
     fields.fail("zarr_format", "is not 2", "the file is damaged");
@@ -115,7 +114,7 @@ ZarrArray parse_zarr_v2(const nlohmann::json& document, const std::string& file)
   check_filters(fields);
   parse_compressor(fields, array);
   if (fields.has("fill_value")) {
-    array.fill = parse_fill_value(document.at("fill_value"), array.type, file);
+    array.fill = parse_fill_value(document["fill_value"], array.type, file);
   } else {
     array.fill = 0;
   }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "io/chunks/store_type.h"
@@ -17,17 +16,21 @@
 namespace mw::io {
 namespace {
 
+bool is_optional(const Json& extension) {
+  const Json* needed = extension.is_object() ? extension.find("must_understand") : nullptr;
+  return needed != nullptr && needed->is_boolean() && !needed->boolean();
+}
+
 /// A field that is none of the core's and does not say that it may be passed over is an extension
 /// that changes what the bytes mean.
-void check_fields(const nlohmann::json& document, const JsonFields& fields) {
+void check_fields(const Json& document, const JsonFields& fields) {
   constexpr std::array<std::string_view, 11> kKnown{
       "zarr_format",    "node_type", "shape",      "data_type",          "chunk_grid",
       "fill_value",     "codecs",    "attributes", "chunk_key_encoding", "storage_transformers",
       "dimension_names"};
   for (const auto& [key, value] : document.items()) {
     if (std::find(kKnown.begin(), kKnown.end(), key) != kKnown.end()) continue;
-    if (value.is_object() && value.value("must_understand", nlohmann::json(true)) == false)
-      continue;
+    if (is_optional(value)) continue;
     fields.fail(key, "an extension that is not known here", "write the array without it");
   }
   if (fields.has("storage_transformers") && fields.count("storage_transformers") > 0) {
@@ -35,8 +38,8 @@ void check_fields(const nlohmann::json& document, const JsonFields& fields) {
   }
 }
 
-VoxelType parse_type(const nlohmann::json& document, const JsonFields& fields) {
-  const Extension type = parse_extension(document.at("data_type"), fields.file(), "data_type");
+VoxelType parse_type(const Json& document, const JsonFields& fields) {
+  const Extension type = parse_extension(document["data_type"], fields.file(), "data_type");
   if (type.name == "bool") return VoxelType::kU8;
   const auto known = parse_store_type(type.name);
   if (known && type.configuration.empty()) return *known;
@@ -44,8 +47,8 @@ VoxelType parse_type(const nlohmann::json& document, const JsonFields& fields) {
               "read are bool, integers of 8 to 64 bits, float32 and float64");
 }
 
-std::vector<std::int64_t> parse_grid(const nlohmann::json& document, const JsonFields& fields) {
-  const Extension grid = parse_extension(document.at("chunk_grid"), fields.file(), "chunk_grid");
+std::vector<std::int64_t> parse_grid(const Json& document, const JsonFields& fields) {
+  const Extension grid = parse_extension(document["chunk_grid"], fields.file(), "chunk_grid");
   if (grid.name != "regular") {
     fields.fail("chunk_grid", "'" + grid.name.substr(0, 60) + "' is not known here",
                 "write the array with a regular grid");
@@ -53,9 +56,9 @@ std::vector<std::int64_t> parse_grid(const nlohmann::json& document, const JsonF
   return grid.fields(fields.file()).integers("chunk_shape");
 }
 
-ChunkKeys parse_keys(const nlohmann::json& document, const JsonFields& fields) {
+ChunkKeys parse_keys(const Json& document, const JsonFields& fields) {
   const Extension keys =
-      parse_extension(document.at("chunk_key_encoding"), fields.file(), "chunk_key_encoding");
+      parse_extension(document["chunk_key_encoding"], fields.file(), "chunk_key_encoding");
   const bool is_default = keys.name == "default";
   if (!is_default && keys.name != "v2") {
     fields.fail("chunk_key_encoding", "'" + keys.name.substr(0, 60) + "' is not known here",
@@ -72,13 +75,12 @@ ChunkKeys parse_keys(const nlohmann::json& document, const JsonFields& fields) {
 }
 
 /// An axis without a name has null.
-std::vector<std::string> parse_axis_names(const nlohmann::json& document,
-                                          const JsonFields& fields) {
+std::vector<std::string> parse_axis_names(const Json& document, const JsonFields& fields) {
   std::vector<std::string> names;
   if (!fields.has("dimension_names")) return names;
   const std::size_t count = fields.count("dimension_names");
-  for (const nlohmann::json& name : document.at("dimension_names")) {
-    names.push_back(name.is_string() ? name.get<std::string>() : "");
+  for (const Json& name : document["dimension_names"].elements()) {
+    names.push_back(name.is_string() ? name.text() : "");
   }
   if (count != fields.count("shape")) {
     fields.fail("dimension_names", "are not as many as the array has axes", "the file is damaged");
@@ -95,7 +97,7 @@ void check_is_there(const JsonFields& fields) {
 
 }  // namespace
 
-ZarrArray parse_zarr_v3(const nlohmann::json& document, const std::string& file) {
+ZarrArray parse_zarr_v3(const Json& document, const std::string& file) {
   const JsonFields fields(document, file);
   if (fields.integer("zarr_format") != 3) fields.fail("zarr_format", "is not 3");
   check_is_there(fields);
@@ -108,11 +110,11 @@ ZarrArray parse_zarr_v3(const nlohmann::json& document, const std::string& file)
   check_grid(file, "chunk_grid.configuration.chunk_shape", array.chunk.shape, array.shape.size());
   array.keys = parse_keys(document, fields);
   array.axis_names = parse_axis_names(document, fields);
-  parse_codecs(document.at("codecs"), file, array);
+  parse_codecs(document["codecs"], file, array);
   // Of shards it was the chunks' shape that was bounded; this is for arrays without.
   check_chunk(file, "chunk_grid.configuration.chunk_shape", array.chunk.shape, array.shape.size(),
               array.type);
-  array.fill = parse_fill_value(document.at("fill_value"), array.type, file);
+  array.fill = parse_fill_value(document["fill_value"], array.type, file);
   return array;
 }
 

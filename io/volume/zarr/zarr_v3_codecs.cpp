@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -100,12 +99,13 @@ void add_codec(Extension codec, const std::string& file, int voxel_bytes, Chain&
   }
 }
 
-Chain parse_chain(const nlohmann::json& codecs, const std::string& file, const std::string& where,
+Chain parse_chain(const Json& codecs, const std::string& file, const std::string& where,
                   std::vector<std::size_t> order, int voxel_bytes) {
   if (!codecs.is_array()) fail_input(file, where, "is no array", "the file is damaged");
   Chain chain{.order = std::move(order)};
-  for (std::size_t i = 0; i < codecs.size(); ++i) {
-    add_codec(parse_extension(codecs[i], file, text(where, "[", i, "]")), file, voxel_bytes, chain);
+  for (std::size_t i = 0; i < codecs.elements().size(); ++i) {
+    add_codec(parse_extension(codecs.elements()[i], file, text(where, "[", i, "]")), file,
+              voxel_bytes, chain);
   }
   if (!chain.bytes && !chain.shards) {
     fail_input(file, where, "no codec makes bytes of the voxels", "the file is damaged");
@@ -118,7 +118,7 @@ void parse_index(const Extension& shards, const std::string& file, ShardCoding& 
   const JsonFields fields = shards.fields(file);
   const std::string where = fields.name_of("index_codecs");
   static_cast<void>(fields.count("index_codecs"));  // checks that it is there
-  const Chain index = parse_chain(shards.configuration.at("index_codecs"), file, where, {}, 8);
+  const Chain index = parse_chain(shards.configuration["index_codecs"], file, where, {}, 8);
   const bool is_plain =
       std::all_of(index.steps.begin(), index.steps.end(), [](auto step) { return step.is_crc32c; });
   if (index.shards || !is_plain || index.steps.size() > 1) {
@@ -166,7 +166,7 @@ void parse_chunks_of_shard(const Extension& shards, const std::string& file,
 
 }  // namespace
 
-void parse_codecs(const nlohmann::json& codecs, const std::string& file, ZarrArray& array) {
+void parse_codecs(const Json& codecs, const std::string& file, ZarrArray& array) {
   std::vector<std::size_t> order(array.shape.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const int bytes = byte_size(array.type);
@@ -179,7 +179,7 @@ void parse_codecs(const nlohmann::json& codecs, const std::string& file, ZarrArr
     array.shard = std::move(shard);
     const JsonFields fields = shards.fields(file);
     static_cast<void>(fields.count("codecs"));  // checks that it is there
-    chain = parse_chain(shards.configuration.at("codecs"), file, fields.name_of("codecs"),
+    chain = parse_chain(shards.configuration["codecs"], file, fields.name_of("codecs"),
                         std::move(chain.order), bytes);
     if (chain.shards) {
       fail_codec(*chain.shards, file, "shards within shards are not read here",

@@ -3,9 +3,9 @@
 // The chain of codecs of a Zarr array of version 3.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "io/json/json.h"
 #include "io/volume/zarr/zarr_array.h"
 
 namespace mw::io {
@@ -14,6 +14,6 @@ namespace mw::io {
 /// REQUIRES: type and shape of the array are set, and array.chunk.shape is the one of the grid:
 /// with sharding it becomes that of the shards' chunks. ERRORS: mw::Error(kInput) naming file and
 /// codec for an unknown one, a wrong order, and sharding within shards or below further codecs.
-void parse_codecs(const nlohmann::json& codecs, const std::string& file, ZarrArray& array);
+void parse_codecs(const Json& codecs, const std::string& file, ZarrArray& array);
 
 }  // namespace mw::io

@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Holds JSON values; a library parses texts and writes numbers and strings.
+#include "io/json/json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "io/file/errors.h"
+#include "io/file/file_source.h"
+
+namespace mw::io {
+namespace {
+
+using Library = nlohmann::json;
+
+/// How a value is written.
+struct Style {
+  bool indented = false;
+  bool ascii = false;
+};
+
+std::string scalar_text(const Library& value, Style style) {
+  return value.dump(-1, ' ', style.ascii, Library::error_handler_t::replace);
+}
+
+/// Null, boolean, number or text.
+Library scalar_of(const Json& value) {
+  if (value.is_boolean()) return value.boolean();
+  if (value.is_string()) return value.text();
+  if (value.is_unsigned()) return value.integer();
+  if (value.is_integer()) return static_cast<std::int64_t>(value.integer());
+  if (value.is_float()) return value.number();
+  return nullptr;
+}
+
+/// Writes values, one into the other.
+class Writer {
+ public:
+  explicit Writer(Style style) : style_(style) {}
+
+  void write(const Json& value) {
+    if (value.is_object()) {
+      write_all(value.items(), "{}", [&](const Json::Field& field) {
+        text_ += scalar_text(field.key, style_) + (style_.indented ? ": " : ":");
+        write(field.value);
+      });
+    } else if (value.is_array()) {
+      write_all(value.elements(), "[]", [&](const Json& element) { write(element); });
+    } else {
+      text_ += scalar_text(scalar_of(value), style_);
+    }
+  }
+  [[nodiscard]] std::string&& text() { return std::move(text_); }
+
+ private:
+  template <typename Values, typename WriteOne>
+  void write_all(const Values& values, const char* brackets, const WriteOne& write_one) {
+    text_ += brackets[0];
+    ++depth_;
+    bool is_first = true;
+    for (const auto& value : values) {
+      if (!is_first) text_ += ',';
+      is_first = false;
+      start_line();
+      write_one(value);
+    }
+    --depth_;
+    if (!is_first) start_line();
+    text_ += brackets[1];
+  }
+  void start_line() {
+    if (style_.indented) text_.append("\n").append(2 * depth_, ' ');
+  }
+
+  Style style_;
+  std::string text_;
+  std::size_t depth_ = 0;
+};
+
+std::string text_of(const Json& value, Style style) {
+  Writer writer(style);
+  writer.write(value);
+  return writer.text();
+}
+
+/// Takes what the library has parsed.
+Json taken(Library& value) {
+  if (value.is_boolean()) return value.get<bool>();
+  if (value.is_string()) return std::move(value.get_ref<std::string&>());
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+  if (value.is_number_integer()) return value.get<std::int64_t>();
+  if (value.is_number_float()) return value.get<double>();
+  if (value.is_array()) {
+    Json::Array out;
+    out.reserve(value.size());
+    for (Library& element : value) out.push_back(taken(element));
+    return out;
+  }
+  if (!value.is_object()) return nullptr;
+  Json::Object out;
+  out.reserve(value.size());
+  for (const auto& [key, field] : value.items()) out.push_back({key, taken(field)});
+  return Json(std::move(out));
+}
+
+/// The library's words without its name and number in front: "[json.exception...] ".
+std::string_view reason_of(const Library::exception& error) {
+  const std::string_view what = error.what();
+  const std::size_t end = what.find("] ");
+  return end == what.npos ? what : what.substr(end + 2);
+}
+
+}  // namespace
+
+Json::Json() = default;
+Json::Json(std::nullptr_t) {}
+Json::Json(double value) : value_(value) {}
+Json::Json(const char* text) : value_(std::string(text)) {}
+Json::Json(std::string_view text) : value_(std::string(text)) {}
+Json::Json(std::string text) : value_(std::move(text)) {}
+Json::Json(Array elements) : value_(std::move(elements)) {}
+Json::Json(Object fields) : value_(std::move(fields)) {}
+Json::Json(Value value) : value_(std::move(value)) {}
+
+Json::Json(std::initializer_list<Part> parts) {
+  const bool is_object = std::all_of(parts.begin(), parts.end(), [](const Part& part) {
+    const Array* pair = std::get_if<Array>(&part.value.value_);
+    return pair != nullptr && pair->size() == 2 && pair->front().is_string();
+  });
+  value_ = is_object ? Value(Object()) : Value(Array());
+  for (const Part& part : parts) {
+    if (!is_object) {
+      push_back(std::move(part.value));
+      continue;
+    }
+    Array& pair = std::get<Array>(part.value.value_);
+    (*this)[pair[0].text()] = std::move(pair[1]);
+  }
+}
+
+Json::Json(const Json& other) = default;
+Json::Json(Json&& other) noexcept = default;
+Json& Json::operator=(const Json& other) = default;
+Json& Json::operator=(Json&& other) noexcept = default;
+Json::~Json() = default;
+
+Json Json::array() {
+  return Array();
+}
+
+Json Json::object() {
+  return Object();
+}
+
+bool Json::is_integer() const {
+  return is_unsigned() || std::holds_alternative<std::int64_t>(value_);
+}
+
+bool Json::empty() const {
+  if (is_array()) return elements().empty();
+  return is_object() ? items().empty() : is_null();
+}
+
+std::uint64_t Json::integer() const {
+  if (is_unsigned()) return std::get<std::uint64_t>(value_);
+  return static_cast<std::uint64_t>(std::get<std::int64_t>(value_));
+}
+
+double Json::number() const {
+  if (is_float()) return std::get<double>(value_);
+  if (is_unsigned()) return static_cast<double>(integer());
+  return static_cast<double>(std::get<std::int64_t>(value_));
+}
+
+const Json* Json::find(std::string_view key) const {
+  const auto found = std::find_if(items().begin(), items().end(),
+                                  [&](const Field& field) { return field.key == key; });
+  return found == items().end() ? nullptr : &found->value;
+}
+
+const Json& Json::operator[](std::string_view key) const {
+  const Json* found = find(key);
+  if (found == nullptr) throw std::out_of_range(mw::io::text("no field ", key));
+  return *found;
+}
+
+Json& Json::operator[](std::string_view key) {
+  if (is_null()) value_ = Object();
+  for (Field& field : items()) {
+    if (field.key == key) return field.value;
+  }
+  items().push_back({std::string(key), nullptr});
+  return items().back().value;
+}
+
+void Json::push_back(Json element) {
+  if (is_null()) value_ = Array();
+  std::get<Array>(value_).push_back(std::move(element));
+}
+
+void Json::update(Json other) {
+  for (Field& field : other.items()) {
+    (*this)[field.key] = std::move(field.value);
+  }
+}
+
+void Json::erase(std::string_view key) {
+  std::erase_if(items(), [&](const Field& field) { return field.key == key; });
+}
+
+std::string Json::dump() const {
+  return text_of(*this, {});
+}
+
+std::string Json::dump_indented() const {
+  return text_of(*this, {.indented = true});
+}
+
+std::string Json::dump_ascii() const {
+  return text_of(*this, {.ascii = true});
+}
+
+Json parse_json(std::string_view text, std::string_view file) {
+  const auto check_depth = [&](int depth, Library::parse_event_t, Library&) {
+    if (depth <= kMaxJsonDepth) return true;
+    fail_input(file, "JSON", mw::io::text("nested deeper than ", kMaxJsonDepth, " levels"),
+               "the file is damaged");
+  };
+  try {
+    Library value = Library::parse(text, check_depth);
+    return taken(value);
+  } catch (const Library::exception& error) {
+    fail_input(file, "JSON", reason_of(error), "the file is damaged or not JSON");
+  }
+}
+
+Json read_json(const std::filesystem::path& path) {
+  const FileSource source(path);
+  const std::optional<std::string> content = read_whole(source, kMaxJsonBytes);
+  if (!content) {
+    fail_input(source.name(), "JSON",
+               text("the file has ", source.size(), " bytes, and at most ", kMaxJsonBytes,
+                    " are read of a description"),
+               "check that it is the store's own");
+  }
+  return parse_json(*content, source.name());
+}
+
+}  // namespace mw::io

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// JSON values, and their texts.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace mw::io {
+
+/// Null, a boolean, a number, a text, an array or an object, whose fields stay in the order in
+/// which they came.  Only what makes and takes texts knows a JSON library, which is slow to
+/// compile. ERRORS: std::bad_variant_access where a value is not of the kind that is asked for.
+class Json {
+ public:
+  struct Field;
+  struct Part;
+  using Array = std::vector<Json>;
+  using Object = std::vector<Field>;
+
+  Json();
+  Json(std::nullptr_t);
+  template <std::same_as<bool> T>
+  Json(T value) : Json(Value(value)) {}
+  template <std::signed_integral T>
+  Json(T value) : Json(Value(std::int64_t{value})) {}
+  template <std::unsigned_integral T>
+  requires(!std::same_as<T, bool>) Json(T value) : Json(Value(std::uint64_t{value})) {}
+  /// Infinite ones and NaN are written as null.
+  Json(double value);
+  Json(const char* text);
+  Json(std::string_view text);
+  Json(std::string text);
+  /// An array of what any container has.
+  template <typename T>
+  requires(!std::convertible_to<T, std::string_view>) && requires(const T& t) { t.begin(); }
+  Json(const T& values) : Json(Array(values.begin(), values.end())) {}
+  Json(Array elements);
+  Json(Object fields);
+  /// {{"key", value}, ...} is an object; any other list is an array.
+  Json(std::initializer_list<Part> parts);
+
+  Json(const Json& other);
+  Json(Json&& other) noexcept;
+  Json& operator=(const Json& other);
+  Json& operator=(Json&& other) noexcept;
+  ~Json();
+
+  [[nodiscard]] static Json array();
+  [[nodiscard]] static Json object();
+
+  [[nodiscard]] bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
+  [[nodiscard]] bool is_boolean() const { return std::holds_alternative<bool>(value_); }
+  [[nodiscard]] bool is_string() const { return std::holds_alternative<std::string>(value_); }
+  [[nodiscard]] bool is_array() const { return std::holds_alternative<Array>(value_); }
+  [[nodiscard]] bool is_object() const { return std::holds_alternative<Object>(value_); }
+  [[nodiscard]] bool is_structured() const { return is_array() || is_object(); }
+  /// Whole and not negative, as texts write it.
+  [[nodiscard]] bool is_unsigned() const { return std::holds_alternative<std::uint64_t>(value_); }
+  [[nodiscard]] bool is_float() const { return std::holds_alternative<double>(value_); }
+  [[nodiscard]] bool is_integer() const;
+  [[nodiscard]] bool is_number() const { return is_integer() || is_float(); }
+  /// Whether there is nothing in the array or object, or in its place.
+  [[nodiscard]] bool empty() const;
+
+  [[nodiscard]] bool boolean() const { return std::get<bool>(value_); }
+  [[nodiscard]] const std::string& text() const { return std::get<std::string>(value_); }
+  /// Of an integer; of a negative one in two's complement.
+  [[nodiscard]] std::uint64_t integer() const;
+  /// Of any number.
+  [[nodiscard]] double number() const;
+  [[nodiscard]] const Array& elements() const { return std::get<Array>(value_); }
+  [[nodiscard]] const Object& items() const { return std::get<Object>(value_); }
+  [[nodiscard]] Object& items() { return std::get<Object>(value_); }
+  [[nodiscard]] bool contains(std::string_view key) const { return find(key) != nullptr; }
+  /// Of an object; nullptr: it has none.
+  [[nodiscard]] const Json* find(std::string_view key) const;
+  /// ERRORS: std::out_of_range when there is none.
+  [[nodiscard]] const Json& operator[](std::string_view key) const;
+  [[nodiscard]] friend bool operator==(const Json& json, std::string_view text) {
+    return json.is_string() && json.text() == text;
+  }
+
+  /// The field, null if it is new.  Null becomes an object.
+  [[nodiscard]] Json& operator[](std::string_view key);
+  /// Null becomes an array.
+  void push_back(Json element);
+  /// Adds the fields of another object, or puts them in the place of its own.
+  void update(Json other);
+  void erase(std::string_view key);
+
+  /// The text on one line, on lines with indents of two, and on one line in ASCII.  What is no
+  /// UTF-8 becomes U+FFFD.
+  [[nodiscard]] std::string dump() const;
+  [[nodiscard]] std::string dump_indented() const;
+  [[nodiscard]] std::string dump_ascii() const;
+
+ private:
+  using Value = std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string,
+                             Array, Object>;
+  explicit Json(Value value);
+
+  Value value_;
+};
+
+struct Json::Field {
+  std::string key;
+  Json value;
+};
+
+/// A value on its way into an array or object, from where it can be moved though lists are const.
+struct Json::Part {
+  template <typename T>
+  requires std::constructible_from<Json, T&&> Part(T&& from) : value(std::forward<T>(from)) {}
+  Part(std::initializer_list<Part> parts) : value(parts) {}
+
+  mutable Json value;
+};
+
+/// The largest document that is read.  Reading one takes up to 40 times its text.
+inline constexpr std::uint64_t kMaxJsonBytes = 4ULL << 20U;
+/// The deepest nesting that is read.
+inline constexpr int kMaxJsonDepth = 64;
+
+/// Fields are in the order of their keys; of several with one key the last one counts.
+/// ERRORS: mw::Error(kInput) naming `file` and the place in it when the text is no JSON, or nested
+/// deeper than kMaxJsonDepth.
+[[nodiscard]] Json parse_json(std::string_view text, std::string_view file);
+
+/// ERRORS: those of parse_json; kInput when the file is missing or larger than kMaxJsonBytes.
+[[nodiscard]] Json read_json(const std::filesystem::path& path);
+
+}  // namespace mw::io
