@@ -130,8 +130,10 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
   options.add(
       {.name = "drop-specks",
        .value = "N",
-       .help = "then components of fewer than N voxels, joined by faces, take the label that most "
-               "of their faces touch; N/26: joined by edges and corners as well",
+       .help =
+           "then components of fewer than N voxels, joined by faces, take the label that most "
+           "of their faces touch, in rounds, components found anew after each: with N = 2 the row "
+           "1 1 1 2 1 3 4 4 becomes 1 1 1 1 1 4 4 4; N/26: joined by edges and corners as well",
        .kind = ValueKind::kIntegerOrText,
        .assign = [&](const std::string& text) { request.steps.specks = parse_specks(text); }});
 }

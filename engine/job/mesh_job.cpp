@@ -59,6 +59,14 @@ RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink&
   }
 }
 
+/// Tells of a mesh that does not pass its check because the labels are no longer those that were
+/// read first.
+void refuse_changed_input(const io::LabelVolume& volume, std::uint64_t first, int threads) {
+  const FingerprintVolume again(volume);
+  static_cast<void>(collect_labels(again, threads));
+  if (again.sum() != first) io::fail_input_changed();
+}
+
 }  // namespace
 
 report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::MeshSink& sink,
@@ -84,7 +92,14 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   marches.store = store_options(job, run.fingerprint, job.memory - input.held_bytes());
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, sink, hooks.stop);
-  run.engine = march(labels, job, certifier ? certifier->sink() : sink, marches, hooks);
+  try {
+    run.engine = march(labels, job, certifier ? certifier->sink() : sink, marches, hooks);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kCheckFailed) {
+      refuse_changed_input(input.volume(), volume.sum(), job.threads);
+    }
+    throw;
+  }
   run.why_no_certificate = plan.why_not;
   if (certifier) run.certificate = certifier->report();
   run.resources = meter.read();

@@ -62,7 +62,9 @@ struct CertificatePlan {
 /// Meshes a volume into `sink`, begin to finish; a certificate is made before finish().
 /// ENSURES: promises P1 to P3 and P5 of the README.  Digest and resources are the caller's to add.
 /// ERRORS: those of the volume, its steps, mesh_volume() and the sink; kCheckFailed when the
-///         certificate does not hold; what the hooks throw.
+///         certificate does not hold; io::fail_input_changed() when that is because the labels
+///         changed, or when a later reading finds labels that the first did not; what the hooks
+///         throw.
 [[nodiscard]] report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job,
                                        io::MeshSink& sink, const JobHooks& hooks = {});
 

@@ -53,10 +53,16 @@ std::size_t LabelTable::slot(RawLabel raw) const {
   return at;
 }
 
-bool LabelTable::contains(RawLabel raw) const {
-  if (labels_.empty()) return false;
+Label LabelTable::find(RawLabel raw) const {
+  if (labels_.empty()) return kExterior;
   const std::size_t at = slot(raw);
-  return at < slots_.size() && slots_[at] != kExterior;
+  return at < slots_.size() ? slots_[at] : kExterior;
+}
+
+void fail_input_changed() {
+  throw Error(ErrorKind::kInput,
+              "the input changed while it was read: its labels are not those of the first reading; "
+              "leave it as it is until the program has ended, and start again");
 }
 
 LabelTable collect_labels(const LabelVolume& volume) {
@@ -72,12 +78,13 @@ void DenseVolume::read(const Box3& box, std::span<Label> out) const {
   for_each_z_slab(box, kSlabVoxels, [&](const Box3& slab) {
     buffer.resize(static_cast<std::size_t>(slab.voxels()));
     volume_->read(slab, buffer);
-    RawLabel last = buffer[0];
-    Label dense = table_->dense(last);
+    RawLabel last = ~buffer[0];
+    Label dense = kExterior;
     for (const RawLabel raw : buffer) {
       if (raw != last) {
         last = raw;
-        dense = table_->dense(raw);
+        dense = table_->find(raw);
+        if (dense == kExterior) fail_input_changed();
       }
       *next++ = dense;
     }

@@ -22,7 +22,9 @@ class LabelTable {
   [[nodiscard]] RawLabel raw(Label dense) const { return labels_[dense]; }
   /// REQUIRES: raw is in the table.
   [[nodiscard]] Label dense(RawLabel raw) const { return slots_[slot(raw)]; }
-  [[nodiscard]] bool contains(RawLabel raw) const;
+  /// The same for any number; kExterior for one that is not in the table.
+  [[nodiscard]] Label find(RawLabel raw) const;
+  [[nodiscard]] bool contains(RawLabel raw) const { return find(raw) != kExterior; }
 
  private:
   /// Where raw is or would be in slots_.
@@ -40,6 +42,10 @@ class LabelTable {
 /// One pass over the volume in slabs of bounded memory.
 [[nodiscard]] LabelTable collect_labels(const LabelVolume& volume);
 
+/// ERRORS: always mw::Error(kInput), which says that the input is not what it was when its labels
+/// were collected.
+[[noreturn]] void fail_input_changed();
+
 /// A volume seen through its table.  Thread safety: as LabelVolume.
 class DenseVolume {
  public:
@@ -50,6 +56,7 @@ class DenseVolume {
   [[nodiscard]] const VolumeInfo& info() const { return volume_->info(); }
   [[nodiscard]] const LabelTable& table() const { return *table_; }
   /// As LabelVolume::read, with dense labels.
+  /// ERRORS: fail_input_changed() for a label that is not in the table.
   void read(const Box3& box, std::span<Label> out) const;
 
  private:

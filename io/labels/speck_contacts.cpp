@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "io/labels/label_runs.h"
+#include "io/labels/label_table.h"
 #include "io/labels/speck_memory.h"
 
 namespace mw::io {
@@ -79,7 +80,11 @@ class ContactFinder {
     }
   }
 
-  SpeckContacts take() { return {list_.take(), std::move(labels_)}; }
+  /// The runs of all specks have been seen again, unless the volume is another one now.
+  SpeckContacts take() {
+    if (next_ != specks_.runs.size()) fail_input_changed();
+    return {list_.take(), std::move(labels_)};
+  }
 
  private:
   [[nodiscard]] std::uint64_t bytes_of_runs() const {
@@ -90,7 +95,9 @@ class ContactFinder {
   std::uint32_t speck_at(const LabelRun& run, std::int64_t y, std::int64_t z) {
     if (next_ == specks_.runs.size()) return kNoSpeck;
     const SpeckRun& next = specks_.runs[next_];
-    if (next.z != z || next.y != y || next.begin != run.begin) return kNoSpeck;
+    if (next.z != z || next.y != y || next.begin != run.begin || next.end != run.end) {
+      return kNoSpeck;
+    }
     ++next_;
     return next.speck;
   }

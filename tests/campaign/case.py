@@ -195,7 +195,9 @@ class Case:
         """Draws threads, budget and kills; the files must come out as they did before."""
         (self.folder / "b").mkdir()
         draw = self.random
-        way = draw.choice(["threads", "budget", "budget", "kill", "kill", "signal"])
+        way = draw.choice(["threads", "budget", "budget", "kill", "kill", "signal", "change"])
+        if way == "change":
+            self.changed_run()
         kills = draw.randint(1, 3) if way in ("kill", "signal") else 0
         for _ in range(kills):
             self.stopped_run(signal.SIGKILL if way == "kill" else
@@ -249,6 +251,31 @@ class Case:
                 raise Failed(f"after {number.name} there is another mesh")
         if code == 75 and not any(name.endswith(".work") for name in self.entries("b")):
             raise Failed("exit code 75 without a work folder")
+
+    def changed_run(self):
+        """Writes other labels into the file under a run, which meshes what it read first or says
+        so; then the file is as it was."""
+        path = self.folder / self.volume.file
+        if path.suffix == ".gz" or b"gzip" in path.read_bytes()[:400]:
+            return  # unpacked once, at the start
+        before = path.read_bytes()
+        after = self.random.uniform(0, 1) * self.seconds
+        process = self.start(self.mesh_arguments("b/" + self.settings.output, self.schedule()))
+        try:
+            process.wait(after)
+        except subprocess.TimeoutExpired:
+            labels = volumes.packed(volumes.changed(self.random, self.volume))
+            with open(path, "r+b") as file:
+                file.seek(len(before) - len(labels))
+                file.write(labels)
+        code, text = self.end(process)
+        path.write_bytes(before)
+        self.remove_work()
+        names_labels = self.settings.chosen or self.settings.merged or "size" in self.settings.flags
+        if code not in (0, 3) and not (code == 2 and names_labels):
+            raise Failed(f"exit code {code} after labels changed under the run\n{text}")
+        if code == 3 and "changed while it was read" not in text:
+            raise Failed(f"nothing is said of labels that changed under the run\n{text}")
 
     def remove_work(self):
         for path in sorted((self.folder / "b").rglob("*"), reverse=True):

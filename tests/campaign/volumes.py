@@ -155,6 +155,21 @@ def renamed(random, labels):
     return [table[label] for label in labels], dtype
 
 
+def changed(random, volume):
+    """The same with other values of its type: of one voxel, of all labels, or in other order."""
+    bits, signed = int(volume.dtype[1:]), volume.dtype[0] == "i"
+    least = -(2 ** (bits - 1)) if signed else 0
+    values, labels = volume.values(), list(volume.labels)
+    way = random.choice(["one", "others", "permuted"])
+    if way == "one":
+        labels[random.randrange(len(labels))] = least + random.randrange(2**bits)
+        return volume.with_labels(labels)
+    drawn = random.sample(values, len(values)) if way == "permuted" else [
+        least + random.randrange(2**bits) for _ in values]
+    table = dict(zip(values, drawn))
+    return volume.with_labels([table[label] for label in labels])
+
+
 def draw_spacing(random):
     way = random.random()
     if way < 0.45:

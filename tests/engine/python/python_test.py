@@ -195,6 +195,56 @@ class Regions(unittest.TestCase):
             mwmesh.mesh(Watched(grains() + 0.5))
 
 
+class Changing(Watched):
+    """Other labels from a given reading on."""
+
+    def __init__(self, labels, others, change_at):
+        super().__init__(labels)
+        self.others, self.change_at = others, change_at
+
+    def __getitem__(self, region):
+        part = super().__getitem__(region)
+        return part if self.reads < self.change_at else self.others[region]
+
+
+class ChangedInput(unittest.TestCase):
+    """Labels that change under a run are an error; the interpreter goes on."""
+
+    def check(self, volume):
+        with self.assertRaisesRegex(mwmesh.InputError, "changed while it was read"):
+            mwmesh.mesh(volume)
+
+    def test_regions_that_answer_differently(self):
+        labels = grains().astype(np.int64)
+        first = Watched(labels)
+        mwmesh.mesh(first, certify="off")
+        for others in (labels + 40_000, labels - 2**40, labels + 2**60, labels * 3 + 1):
+            for number in (first.reads // 2 + 1, first.reads + 1):
+                self.check(Changing(labels, others, number))
+
+    def test_an_array_that_another_thread_writes_to(self):
+        labels = grains((60, 60, 60), 40).astype(np.uint16)
+        stop = threading.Event()
+
+        def write():
+            kept, number = labels.copy(), 0
+            while not stop.is_set():
+                number += 1
+                labels[:] = kept + number % 3 * 1000
+
+        thread = threading.Thread(target=write)
+        thread.start()
+        try:
+            for _ in range(3):
+                try:  # a mesh, when the first reading happened to see all that came later
+                    mwmesh.mesh(labels)
+                except mwmesh.InputError as error:
+                    self.assertIn("changed while it was read", str(error))
+        finally:
+            stop.set()
+            thread.join()
+
+
 class Figures(unittest.TestCase):
     """What is told of a mesh, against plain loops over its tets."""
 

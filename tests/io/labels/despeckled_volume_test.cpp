@@ -175,6 +175,14 @@ TEST_P(DespeckledVolumeTest, DoesNotDependOnSlabs) {
 INSTANTIATE_TEST_SUITE_P(Connectivity, DespeckledVolumeTest, testing::Bool(),
                          [](const auto& test) { return test.param ? "By26" : "By6"; });
 
+TEST(DespeckledVolume, DoesWithTheRowOfTheReadmeWhatTheReadmeSays) {
+  const MemoryVolume volume({8, 1, 1}, VoxelType::kU8, {1, 1, 1, 2, 1, 3, 4, 4});
+  const DespeckledVolume despeckled(volume, {2, false});
+  EXPECT_EQ(read_all(despeckled), (std::vector<RawLabel>{1, 1, 1, 1, 1, 4, 4, 4}));
+  EXPECT_EQ(despeckled.facts().components, 2U);
+  EXPECT_EQ(despeckled.facts().rounds, 1);
+}
+
 TEST(DespeckledVolume, LeavesNothingButSpecksAsItIs) {
   const MemoryVolume volume({2, 2, 1}, VoxelType::kU8, {1, 2, 3, 4});
   const DespeckledVolume despeckled(volume, {100, false});

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/volume/open_volume.h"
+#include "kernels/core/error.h"
 #include "tests/io/volume/sample_files.h"
 
 namespace mw::io {
@@ -55,6 +56,10 @@ TEST(LabelTable, OrdersUnsignedAndSigned) {
   EXPECT_FALSE(narrow.contains(0));
   EXPECT_FALSE(narrow.contains(6));
   EXPECT_FALSE(narrow.contains(static_cast<RawLabel>(-2)));
+  EXPECT_EQ(narrow.find(static_cast<RawLabel>(-1000)), kExterior);
+  EXPECT_EQ(narrow.find(1ULL << 40), kExterior);
+  EXPECT_EQ(narrow.find(5), 1U);
+  EXPECT_EQ(LabelTable().find(0), kExterior);
   EXPECT_FALSE(LabelTable().contains(0));
 }
 
@@ -73,6 +78,31 @@ TEST(LabelTable, CollectsEveryLabelOfEveryType) {
     dense.read(box, got);
     volume.read(box, raw);
     for (std::size_t i = 0; i < got.size(); ++i) ASSERT_EQ(table.raw(got[i]), raw[i]);
+  }
+}
+
+/// Whether the table is hashed or not, and wherever the number lies.
+TEST(LabelTable, RefusesALabelThatTheFirstReadingDidNotSee) {
+  constexpr Index3 kShape{8, 5, 3};
+  const std::vector<std::vector<RawLabel>> tables{{4, 5, 9}, {4, 5, 1ULL << 60}, {4}};
+  for (const auto& values : tables) {
+    const LabelTable table(values, false);
+    for (const RawLabel other : std::vector<RawLabel>{0, 3, 6, 10, 1ULL << 40, kMinusOne}) {
+      for (const std::size_t place : {0U, 1U, 57U, 119U}) {
+        std::vector<RawLabel> labels(120, values.front());
+        labels[2] = labels[100] = values.back();
+        labels[place] = other;
+        const MemoryVolume changed(kShape, VoxelType::kU64, labels);
+        std::vector<Label> got(labels.size());
+        try {
+          DenseVolume(changed, table).read({{0, 0, 0}, kShape}, got);
+          ADD_FAILURE() << other << " at " << place;
+        } catch (const Error& error) {
+          EXPECT_EQ(error.kind(), ErrorKind::kInput);
+          EXPECT_NE(std::string(error.what()).find("changed while it was read"), std::string::npos);
+        }
+      }
+    }
   }
 }
 
