@@ -10,6 +10,7 @@
 #include "engine/cli/values.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
+#include "io/surface/open_surface.h"
 #include "io/surface/surface.h"
 #include "kernels/core/error.h"
 
@@ -135,8 +136,8 @@ void add_surface_command(CLI::App& program, Action& chosen) {
   command->add_option("MESH", flags->mesh, "mesh: " + io::read_mesh_extensions())->required();
   command
       ->add_option("-o,--output", flags->output,
-                   "file to write: .stl, .ply, .obj or .vtp; or a folder, for precomputed meshes "
-                   "of neuroglancer, one a label")
+                   "file to write: " + io::surface_extensions() +
+                       "; or a folder, for precomputed meshes of neuroglancer, one a label")
       ->required();
   command->add_option("--label", flags->label,
                       "surface of this label, with what lies on the box; of a list, 1,2,5, the "
@@ -150,9 +151,10 @@ void add_surface_command(CLI::App& program, Action& chosen) {
                     "vertices are doubled where a surface touches itself, so every surface is a "
                     "manifold; of interfaces each gets its own vertices");
   command->add_flag("--open", flags->open, "without what lies on the sides of the box");
-  command->add_option("--format", flags->format,
-                      "stl, ply, obj, vtp, precomputed or draco (multi-resolution precomputed "
-                      "meshes); by the extension unless given");
+  command->add_option(
+      "--format", flags->format,
+      "stl, ply, precomputed or draco (multi-resolution precomputed meshes); by the "
+      "extension unless given");
   command->add_option("--unit", flags->unit,
                       "of the mesh, for precomputed meshes: nm (unless given), um, mm or m");
   command->callback([flags, &chosen] { chosen = [flags] { return run_surface(*flags); }; });

@@ -65,7 +65,7 @@ std::string format_of(const SurfaceFlags& flags) {
   }
   if (is_folder_format(flags.format)) return flags.format;
   if (!io::is_surface_path("x." + flags.format)) {
-    fail("--format " + flags.format + ": expected stl, ply, obj, vtp, precomputed or draco");
+    fail("--format " + flags.format + ": expected stl, ply, precomputed or draco");
   }
   if (io::is_surface_path(flags.output) && extension != "." + flags.format) {
     fail("--format " + flags.format + " and -o " + flags.output + " contradict each other");
@@ -92,7 +92,7 @@ std::string pattern_of(const SurfaceFlags& flags, const std::string& format) {
 void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
   const std::string format = format_of(flags);
   if (is_folder_format(format)) {
-    if (request.pair) fail("--pair: precomputed meshes are surfaces of labels; write .vtp or .ply");
+    if (request.pair) fail("--pair: precomputed meshes are surfaces of labels; write .ply or .stl");
     if (flags.output.find(kLabelPlaceholder) != std::string::npos) {
       fail("-o " + flags.output + ": one folder of precomputed meshes holds all labels");
     }

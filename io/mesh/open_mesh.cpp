@@ -7,9 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/open_bytes.h"
-#include "io/mesh/abaqus/inp_reader.h"
 #include "io/mesh/abaqus/inp_writer.h"
-#include "io/mesh/febio/febio_reader.h"
 #include "io/mesh/febio/febio_writer.h"
 #include "io/mesh/gmsh/msh_reader.h"
 #include "io/mesh/gmsh/msh_writer.h"
@@ -19,31 +17,33 @@
 #include "io/mesh/medit/medit_sink.h"
 #include "io/mesh/pieces/pvtu_reader.h"
 #include "io/mesh/pieces/pvtu_sink.h"
-#include "io/mesh/tetgen/tetgen_reader.h"
-#include "io/mesh/tetgen/tetgen_writer.h"
 #include "io/mesh/vtkhdf/vtkhdf_reader.h"
 #include "io/mesh/vtkhdf/vtkhdf_shared.h"
 #include "io/mesh/vtkhdf/vtkhdf_sink.h"
 #include "io/mesh/vtu/vtu_reader.h"
 #include "io/mesh/vtu/vtu_sink.h"
-#include "io/mesh/xdmf/xdmf_reader.h"
 #include "io/mesh/xdmf/xdmf_writer.h"
 
 namespace mw::io {
 namespace {
 
-/// One format: a file ending, how to read it and how to write it.
+/// One format: a file ending, how to read it and how to write it.  It is read where `read` or
+/// `stream` is there, and written where `open` is.
 struct MeshFormat {
   const char* extension;
   /// Reads it whole; null where `stream` is there.
   MeshData (*read)(const std::filesystem::path&);
   /// Reads it in bounded memory; null where `read` is there.
   void (*stream)(const std::filesystem::path&, MeshSink&);
+  /// Null where it is written in another way: open_mesh_pieces().
   std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element);
   /// Endings of files that are written beside it, in the place of its own; null behind the last.
   std::array<const char*, 4> beside{};
   /// The same as text; null where there is one way to write it.
   std::unique_ptr<MeshSink> (*open_text)(const std::filesystem::path&, Element) = nullptr;
+
+  [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }
+  [[nodiscard]] bool is_written() const { return open != nullptr; }
 };
 
 /// A sink that writes corners alone.
@@ -81,22 +81,14 @@ const std::array kFormats{
     MeshFormat{".mesh", [](const auto& path) { return read_medit(*open_bytes(path)); }, nullptr,
                &open_corners<MeditSink>},
     MeshFormat{".msh", &read_msh, nullptr, &open_msh<false>, {".msh.labels.csv"}, &open_msh<true>},
-    MeshFormat{".inp", &read_inp, nullptr, &open_grouped<InpWriter>},
+    MeshFormat{".inp", nullptr, nullptr, &open_grouped<InpWriter>},
     MeshFormat{".xdmf",
                nullptr,
-               &read_xdmf,
+               nullptr,
                &open_grouped<XdmfWriter>,
                {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"}},
-    MeshFormat{".feb",
-               [](const auto& path) { return read_febio(*open_bytes(path)); },
-               nullptr,
-               &open_grouped<FebioWriter>,
-               {".feb.labels.csv"}},
-    MeshFormat{".node",
-               &read_tetgen,
-               nullptr,
-               &open_grouped<TetgenWriter>,
-               {".ele", ".face", ".facets.csv", ".node.labels.csv"}},
+    MeshFormat{".feb", nullptr, nullptr, &open_grouped<FebioWriter>, {".feb.labels.csv"}},
+    MeshFormat{kPiecesExtension, &read_pvtu, nullptr, nullptr},
 };
 
 const MeshFormat* find_format(const std::filesystem::path& path) {
@@ -106,37 +98,50 @@ const MeshFormat* find_format(const std::filesystem::path& path) {
   return nullptr;
 }
 
+/// The endings of those formats that `has` holds for, as ".vtkhdf, .vtu".
+std::string extensions_where(bool (MeshFormat::*has)() const) {
+  std::string out;
+  for (const MeshFormat& format : kFormats) {
+    if ((format.*has)()) out += (out.empty() ? "" : ", ") + text(format.extension);
+  }
+  return out;
+}
+
 Error unknown_format(const std::filesystem::path& path, const std::string& supported) {
   return {ErrorKind::kUsage, text(path.string(), ": extension '", path.extension().string(),
                                   "' is no mesh format known here; supported are ", supported)};
 }
 
-/// What writes it.
-const MeshFormat& format_of(const std::filesystem::path& path) {
-  if (const MeshFormat* format = find_format(path)) return *format;
-  if (path.extension() == kPiecesExtension) {
-    throw Error(ErrorKind::kUsage,
-                text(path.string(), ": a mesh in pieces; write it whole, and then with 'convert ",
-                     "--pieces N'"));
-  }
-  throw unknown_format(path, mesh_extensions());
+const MeshFormat& written_format(const std::filesystem::path& path) {
+  const MeshFormat* const format = find_format(path);
+  if (format == nullptr) throw unknown_format(path, mesh_extensions());
+  if (format->is_written()) return *format;
+  throw Error(ErrorKind::kUsage,
+              text(path.string(), ": a mesh in pieces; write it whole, and then with 'convert ",
+                   "--pieces N'"));
+}
+
+const MeshFormat& read_format(const std::filesystem::path& path) {
+  const MeshFormat* const format = find_format(path);
+  if (format == nullptr) throw unknown_format(path, read_mesh_extensions());
+  if (format->is_read()) return *format;
+  throw Error(ErrorKind::kUsage, text(path.string(), ": ", format->extension,
+                                      " is written here, but not read; meshes are read from ",
+                                      read_mesh_extensions()));
 }
 
 }  // namespace
 
 std::string mesh_extensions() {
-  std::string out;
-  for (const MeshFormat& format : kFormats)
-    out += (out.empty() ? "" : ", ") + text(format.extension);
-  return out;
+  return extensions_where(&MeshFormat::is_written);
 }
 
 std::string read_mesh_extensions() {
-  return text(mesh_extensions(), ", ", kPiecesExtension);
+  return extensions_where(&MeshFormat::is_read);
 }
 
 bool is_mesh_path(const std::filesystem::path& path) {
-  return path.extension() == kPiecesExtension || find_format(path) != nullptr;
+  return find_format(path) != nullptr;
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
@@ -150,27 +155,25 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path)
 }
 
 MeshData read_mesh(const std::filesystem::path& path) {
-  if (path.extension() == kPiecesExtension) return read_pvtu(path);
-  const MeshFormat* const format = find_format(path);
-  if (format == nullptr) throw unknown_format(path, read_mesh_extensions());
-  if (format->read != nullptr) return format->read(path);
+  const MeshFormat& format = read_format(path);
+  if (format.read != nullptr) return format.read(path);
   MeshDataSink sink;
-  format->stream(path, sink);
+  format.stream(path, sink);
   return std::move(sink.mesh());
 }
 
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
-  const MeshFormat* const format = find_format(path);
-  if (format != nullptr && format->stream != nullptr) {
-    format->stream(path, sink);
+  const MeshFormat& format = read_format(path);
+  if (format.stream != nullptr) {
+    format.stream(path, sink);
   } else {
-    write_mesh(read_mesh(path), sink);
+    write_mesh(format.read(path), sink);
   }
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
                                          Encoding encoding) {
-  const MeshFormat& format = format_of(path);
+  const MeshFormat& format = written_format(path);
   if (encoding == Encoding::kUsual) return format.open(path, element);
   if (format.open_text != nullptr) return format.open_text(path, element);
   throw Error(ErrorKind::kUsage, text(path.string(), ": ", path.extension().string(),

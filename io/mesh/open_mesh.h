@@ -19,21 +19,21 @@ enum class Encoding : std::uint8_t {
   kText,
 };
 
-/// The extensions that are read and written, as ".vtkhdf, .vtu, .mesh".
+/// The extensions that are written, as ".vtkhdf, .vtu, .mesh".
 [[nodiscard]] std::string mesh_extensions();
-/// Those that are read: these and kPiecesExtension.
+/// Those that are read: those of solvers are not, and kPiecesExtension is.
 [[nodiscard]] std::string read_mesh_extensions();
-/// Whether it is read as a mesh.
+/// Whether the extension is that of a mesh, be it one that is read or not.
 [[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
 
 /// What is written for a mesh of that name: that file first, then what goes beside it.
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
 
-/// ERRORS: mw::Error(kUsage) for an unknown extension; kInput with file and place when missing,
-/// truncated, corrupt or not of tetrahedra.
+/// ERRORS: mw::Error(kUsage) for an extension that is unknown or written only; kInput with file and
+/// place when missing, truncated, corrupt or not of tetrahedra.
 [[nodiscard]] MeshData read_mesh(const std::filesystem::path& path);
 
-/// The same into a sink, begin to finish; .vtkhdf and .xdmf in bounded memory, the others by way of
+/// The same into a sink, begin to finish; .vtkhdf in bounded memory, the others by way of
 /// MeshData.
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 

@@ -11,7 +11,7 @@ void check_max(std::string_view file, std::string_view what, std::uint64_t count
                std::uint64_t max) {
   if (count <= max) return;
   throw Error(ErrorKind::kUsage, text(file, ": ", count, " ", what, " are more than the ", max,
-                                      " that this format can hold; write .vtp"));
+                                      " that this format can hold; write each label apart"));
 }
 
 }  // namespace mw::io

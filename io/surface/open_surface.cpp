@@ -6,10 +6,8 @@
 #include <array>
 
 #include "io/file/errors.h"
-#include "io/surface/obj/obj_sink.h"
 #include "io/surface/ply/ply_sink.h"
 #include "io/surface/stl/stl_sink.h"
-#include "io/surface/vtp/vtp_sink.h"
 
 namespace mw::io {
 namespace {
@@ -27,8 +25,6 @@ std::unique_ptr<SurfaceSink> open(const std::filesystem::path& path) {
 constexpr std::array kFormats{
     SurfaceFormat{".stl", &open<StlSink>},
     SurfaceFormat{".ply", &open<PlySink>},
-    SurfaceFormat{".obj", &open<ObjSink>},
-    SurfaceFormat{".vtp", &open<VtpSink>},
 };
 
 const SurfaceFormat* find_format(const std::filesystem::path& path) {

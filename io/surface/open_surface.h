@@ -11,7 +11,7 @@
 
 namespace mw::io {
 
-/// The extensions that are written, as ".stl, .ply, .obj, .vtp".
+/// The extensions that are written, as ".stl, .ply".
 [[nodiscard]] std::string surface_extensions();
 [[nodiscard]] bool is_surface_path(const std::filesystem::path& path);
 

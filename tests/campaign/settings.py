@@ -3,8 +3,8 @@
 """Random settings of a run, and what the program promises under them (README, P1 to P8)."""
 from dataclasses import dataclass, field
 
-FORMATS = ("vtkhdf", "vtu", "mesh", "msh", "inp", "xdmf", "feb", "node")
-KEEP_PROMISES = ("vtkhdf", "vtu", "mesh", "xdmf")  # formats that tell what the run promised
+FORMATS = ("vtkhdf", "vtu", "mesh", "msh")  # those that are read as well
+KEEP_PROMISES = ("vtkhdf", "vtu", "mesh")  # formats that tell what the run promised
 
 
 @dataclass

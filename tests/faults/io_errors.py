@@ -39,10 +39,9 @@ RUNS = {
     "convert .vtkhdf": ["convert", "in.vtu", "out/m.vtkhdf"],
     "convert .inp": ["convert", "in.vtkhdf", "out/m.inp"],
     "convert .xdmf": ["convert", "in.vtkhdf", "out/m.xdmf", "--element=tet10"],
-    "convert .node": ["convert", "in.mesh", "out/m.node"],
     "convert --pieces": ["convert", "in.mesh", "out/m.pvtu", "--pieces=3"],
     "surface .stl": ["surface", "in.vtkhdf", "-o", "out/{label}.stl", "--each"],
-    "surface .vtp": ["surface", "in.vtu", "-o", "out/s.vtp", "--manifold"],
+    "surface .ply": ["surface", "in.vtu", "-o", "out/s.ply", "--manifold"],
     "surface folder": ["surface", "in.vtkhdf", "-o", "out/p", "--format=precomputed"],
 }
 READS_ALL = "convert .xdmf"  # every read of its input fails once: nothing may get lost silently

@@ -22,7 +22,6 @@ CONVERT = ["convert", "{mesh}.vtkhdf", "out/m.{kind}"]
 RUNS = {
     "msh": CONVERT, "feb": CONVERT, "node": CONVERT,
     "xdmf": [*CONVERT, "--element=tet10"],
-    "obj": ["surface", "{mesh}.vtkhdf", "-o", "out/m.obj"],
 }
 
 

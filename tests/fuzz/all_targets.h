@@ -27,11 +27,7 @@ void fuzz_precomputed(Bytes bytes);
 void fuzz_vtu(Bytes bytes);
 void fuzz_medit(Bytes bytes);
 void fuzz_gmsh(Bytes bytes);
-void fuzz_abaqus(Bytes bytes);
-void fuzz_febio(Bytes bytes);
 void fuzz_pvtu(Bytes bytes);
-void fuzz_tetgen(Bytes bytes);
-void fuzz_xdmf(Bytes bytes);
 // names.cpp
 void fuzz_names(Bytes bytes);
 void fuzz_label_table(Bytes bytes);

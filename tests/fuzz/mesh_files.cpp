@@ -5,15 +5,11 @@
 #include <bit>
 
 #include "io/file/file_source.h"
-#include "io/mesh/abaqus/inp_reader.h"
-#include "io/mesh/febio/febio_reader.h"
 #include "io/mesh/gmsh/msh_reader.h"
 #include "io/mesh/medit/medit_reader.h"
 #include "io/mesh/pieces/pvtu_reader.h"
-#include "io/mesh/tetgen/tetgen_reader.h"
 #include "io/mesh/vtu/vtu_reader.h"
 #include "io/mesh/vtu/vtu_sink.h"
-#include "io/mesh/xdmf/xdmf_grid.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/byte_file.h"
 #include "tests/fuzz/file_tree.h"
@@ -78,31 +74,8 @@ void fuzz_medit(Bytes bytes) {
   read_and_check([&] { return io::read_medit(ByteFile(bytes)); });
 }
 
-void fuzz_febio(Bytes bytes) {
-  read_tree(bytes, "m.feb", [](const auto& path) { return io::read_febio(io::FileSource(path)); });
-}
-
 void fuzz_gmsh(Bytes bytes) {
   read_tree(bytes, "m.msh", io::read_msh);
-}
-
-void fuzz_abaqus(Bytes bytes) {
-  read_tree(bytes, "m.inp", io::read_inp);
-}
-
-void fuzz_tetgen(Bytes bytes) {
-  read_tree(bytes, "m.node", io::read_tetgen);
-}
-
-/// The XML alone: numbers are in HDF5 files, which a child process reads.
-void fuzz_xdmf(Bytes bytes) {
-  const FileTree files(bytes);
-  ends_well([&] {
-    const io::XdmfContent content = io::read_xdmf_xml(files.path() / "m.xdmf");
-    for (const io::XdmfGrid& grid : content.grids) {
-      require(!grid.topology.path.empty() && !grid.geometry.path.empty(), "numbers have a place");
-    }
-  });
 }
 
 }  // namespace mw::fuzz

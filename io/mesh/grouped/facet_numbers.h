@@ -24,7 +24,7 @@ struct NumberedFacets {
 /// ENSURES: in the order of the facets, which all are in one run.
 [[nodiscard]] std::vector<NumberedFacets> number_facets(const GroupedMesh& mesh);
 
-/// The table beside a mesh: M.facets.csv of M.node or M.xdmf.
+/// The table beside a mesh: M.facets.csv of M.xdmf.
 [[nodiscard]] std::filesystem::path facet_table_path(const std::filesystem::path& mesh);
 
 /// Its content: columns number, name, side, first, second; the last two are the labels of an

@@ -67,7 +67,8 @@ class Solvers(unittest.TestCase):
 
     def convert(self, name, *options, source="m.vtu"):
         run("convert", source, name, *options)
-        self.assertEqual(run("digest", name), self.digest)
+        if name.endswith((".vtu", ".vtkhdf")):  # the others are written, not read
+            self.assertEqual(run("digest", name), self.digest)
 
     def test_vtu_has_one_number_a_tet(self):
         self.assertEqual(self.labels.shape, (len(self.tets),))
@@ -85,27 +86,6 @@ class Solvers(unittest.TestCase):
         mesh = meshio.read("x10.cells.xdmf")
         self.assertEqual(mesh.cells[0].type, "tetra10")
         self.check_middles(mesh.points, mesh.cells[0].data)
-
-    def test_we_read_meshio(self):
-        mesh = meshio.Mesh(self.points, [("tetra", self.tets)], cell_data={"label": [self.labels]})
-        for options in ({}, {"compression": "gzip", "compression_opts": 4}):
-            meshio.write("o.xdmf", mesh, data_format="HDF", **options)
-            self.assertEqual(run("digest", "o.xdmf"), self.digest)
-        meshio.write("o.xdmf", mesh, data_format="XML")
-        done = subprocess.run([PROGRAM, "digest", "o.xdmf"], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 3)
-        self.assertIn("HDF5", done.stderr)
-        mesh.cell_data["tetgen:ref"] = mesh.cell_data.pop("label")
-        meshio.write("o.node", mesh)
-        self.assertEqual(run("info", "o.node", "--json").count('"label"'), len(set(self.labels)))
-
-    def test_node_in_meshio(self):
-        self.convert("t.node")
-        mesh = meshio.read("t.node")
-        ids = numbers("t.node.labels.csv")
-        labels = [ids[number] for number in mesh.cell_data["tetgen:ref"][0]]
-        self.assertEqual(canonical(mesh.points, mesh.cells[0].data, labels), self.rows)
-        self.convert("t10.node", "--element", "tet10")
 
     def test_feb(self):
         for element, nodes in (("tet4", 4), ("tet10", 10)):

@@ -15,7 +15,7 @@ class SurfaceCommand : public ProgramTest {
 };
 
 TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
-  expect_failure(2, "surface m.vtu -o s.foo", "'.foo'");
+  expect_failure(2, "surface m.vtu -o s.vtp", "'.vtp'");
   expect_failure(2, "surface m.vtu -o s.stl --format ply", "contradict");
   expect_failure(2, "surface m.vtu -o s.stl --format foo", "--format foo");
   expect_failure(2, "surface m.vtu -o s --format stl", "extension .stl");
@@ -61,11 +61,11 @@ TEST_F(SurfaceCommand, FilesAreTheSameEachTimeAndFromEveryMesh) {
   make_mesh();
   expect_done("convert v.vtu v.mesh");
   for (const std::string what : {"", " --label 1,2 --manifold", " --pair 1,2", " --manifold"}) {
-    expect_done("surface v.vtu -o a.vtp" + what);
-    expect_done("surface v.vtu -o b.vtp" + what);
-    expect_done("surface v.mesh -o c.vtp" + what);
-    EXPECT_EQ(read("a.vtp"), read("b.vtp")) << what;
-    EXPECT_EQ(read("a.vtp"), read("c.vtp")) << what;
+    expect_done("surface v.vtu -o a.ply" + what);
+    expect_done("surface v.vtu -o b.ply" + what);
+    expect_done("surface v.mesh -o c.ply" + what);
+    EXPECT_EQ(read("a.ply"), read("b.ply")) << what;
+    EXPECT_EQ(read("a.ply"), read("c.ply")) << what;
   }
   expect_done("surface v.vtu -o a --format draco --label 1,2");
   expect_done("surface v.vtu -o b --format draco --label 2,1");
@@ -78,7 +78,7 @@ TEST_F(SurfaceCommand, FilesAreTheSameEachTimeAndFromEveryMesh) {
 TEST_F(SurfaceCommand, NothingIsLeftWhenTheDiskIsFull) {
   make_mesh();
   // A limit on the size of files instead of a full disk.
-  for (const std::string out : {"s.stl", "s.vtp", "s"}) {
+  for (const std::string out : {"s.stl", "s.ply", "s"}) {
     expect_failure(4, "surface v.vtu -o " + out, "s", "ulimit -f 1;");
   }
 }

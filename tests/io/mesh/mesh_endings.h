@@ -10,10 +10,9 @@
 
 namespace mw::io {
 
-/// ".vtkhdf", ".vtu" and so on.
-inline std::vector<std::string> mesh_endings() {
+/// ".vtkhdf", ".vtu" and so on.  all: what mesh_extensions() or read_mesh_extensions() says.
+inline std::vector<std::string> mesh_endings(const std::string& all = mesh_extensions()) {
   std::vector<std::string> out;
-  const std::string all = mesh_extensions();
   for (std::size_t at = 0; at != all.npos;) {
     const std::size_t end = all.find(", ", at);
     out.push_back(all.substr(at, end == all.npos ? end : end - at));

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Formats for solvers, and tets of ten nodes, hold the mesh that was written.
+#include <gmock/gmock.h>
+
 #include <map>
 #include <set>
 
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
-#include "tests/io/mesh/grid_mesh.h"
-#include "tests/io/test_files.h"
+#include "tests/io/mesh/read_back.h"
+#include "tests/io/mesh/written_mesh.h"
 
 namespace mw::io {
 namespace {
@@ -51,7 +53,7 @@ class SolverFiles : public testing::TestWithParam<Case> {
 TEST_P(SolverFiles, HoldTheMesh) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const MeshData mesh = random_mesh(seed, GetParam().labels_signed);
-    const MeshData back = read_mesh(write("m", mesh));
+    const MeshData back = read_back(write("m", mesh));
     EXPECT_EQ(back.labels_signed, mesh.labels_signed);
     EXPECT_EQ(mesh_digest(back), mesh_digest(mesh)) << seed;
     for (const RawLabel label : std::set(mesh.labels.begin(), mesh.labels.end())) {
@@ -74,7 +76,7 @@ TEST_P(SolverFiles, AreTheSameBytesEachTime) {
 }
 
 TEST_P(SolverFiles, MayBeEmpty) {
-  const MeshData back = read_mesh(write("m", {}));
+  const MeshData back = read_back(write("m", {}));
   EXPECT_TRUE(back.vertices.empty());
   EXPECT_TRUE(back.tets.empty());
 }
@@ -92,7 +94,7 @@ TEST_P(SolverFiles, LeaveNothingWhenTheyAreNotFinished) {
 
 std::vector<Case> cases() {
   std::vector<Case> out;
-  for (const char* extension : {".vtkhdf", ".vtu", ".xdmf", ".feb", ".node"}) {
+  for (const char* extension : {".vtkhdf", ".vtu", ".xdmf", ".feb", ".inp"}) {
     for (const Element element : {Element::kTet4, Element::kTet10}) {
       for (const bool labels_signed : {false, true}) {
         out.push_back({extension, element, labels_signed});
@@ -110,67 +112,71 @@ TEST(SolverFilesTetTen, HaveNoPlaceInMedit) {
                [&] { static_cast<void>(open_mesh_sink(dir.path() / "m.mesh", Element::kTet10)); });
 }
 
-TEST(Febio, ReadsOlderModels) {
-  const TempDir dir;
-  const auto path = dir.file(
-      "o.feb",
-      "<febio_spec version=\"2.5\"><Material><material id=\"3\" name=\"m\"/></Material><Geometry>"
-      "<Nodes><node id=\"10\">0,0,0</node><node id=\"20\"> 1, 0, 0</node><node "
-      "id=\"5\">0,1,0</node>"
-      "</Nodes><Nodes><node id=\"7\">0,0,1e0</node></Nodes>"
-      "<Elements type=\"tet4\" mat=\"3\" name=\"p\"><elem id=\"1\">10,20,5,7</elem></Elements>"
-      "</Geometry></febio_spec>");
-  const MeshData mesh = read_mesh(path);
-  EXPECT_EQ(mesh.tets, (std::vector<TetRows>{{0, 1, 2, 3}}));
-  EXPECT_EQ(mesh.labels, (std::vector<RawLabel>{3}));
+TEST(InpWriter, OutOfRoomIsAResourceErrorAndLeavesNothing) {
+  expect_full_disk("m.inp", Encoding::kUsual);
 }
 
-TEST(Febio, RefusesWhatIsWrong) {
+/// Lines of Abaqus hold 256 characters and 16 items.
+TEST(InpWriter, LinesAreWithinTheLimitsOfAbaqus) {
   const TempDir dir;
-  const auto refuse = [&](const std::string& mesh, const std::vector<std::string>& pieces) {
-    const auto path = dir.file("b.feb", "<febio_spec version=\"4.0\">" + mesh + "</febio_spec>");
-    expect_error(ErrorKind::kInput, pieces, [&] { static_cast<void>(read_mesh(path)); });
-  };
-  refuse("", {"b.feb", "Mesh"});
-  refuse("<Mesh><Nodes><node id=\"1\">0,0</node></Nodes></Mesh>", {"node 1", "coordinates"});
-  refuse("<Mesh><Nodes><node id=\"1\">0,0,nan</node></Nodes></Mesh>", {"node 1"});
-  refuse("<Mesh><Nodes><node id=\"x\">0,0,0</node></Nodes></Mesh>", {"'x'"});
-  refuse("<Mesh><Nodes><node id=\"1\">0,0,0</node><node id=\"1\">0,0,0</node></Nodes></Mesh>",
-         {"node 1", "twice"});
-  refuse("<Mesh><Elements type=\"hex8\" name=\"p\"/></Mesh>", {"hex8"});
-  refuse("<Mesh><Elements type=\"tet4\" name=\"p\"/></Mesh>", {"'p'", "material"});
-  refuse(
-      "<Mesh><Elements type=\"tet4\" name=\"p\" mat=\"1\"><elem id=\"4\">1,2,3,4</elem>"
-      "</Elements></Mesh>",
-      {"element 4", "node 1"});
-  refuse("<Mesh>", {"b.feb", "byte"});
+  MeshData mesh = named_grid(2, false);
+  mesh.names = LabelNames({{3, std::string(900, 'x'), std::nullopt}});
+  save(mesh, dir.path() / "m.inp", Element::kTet10);
+  std::istringstream lines(content_of(dir.path() / "m.inp"));
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 256U) << line;
+    EXPECT_TRUE(line.starts_with('*') || std::ranges::count(line, ',') <= 15) << line;
+    EXPECT_FALSE(line.empty() || line.ends_with(','));
+  }
 }
 
-TEST(Xdmf, RefusesWhatIsWrong) {
+/// Numbers against brute force: which labels share each triangle of the tets.
+TEST(XdmfWriter, FacetsHaveTheNumbersOfTheirGroups) {
   const TempDir dir;
-  write_mesh(random_mesh(1, false), *open_mesh_sink(dir.path() / "m.xdmf"));
-  const std::string good = content_of(dir.path() / "m.xdmf");
-  const auto refuse = [&](const std::string& from, const std::string& to,
-                          const std::vector<std::string>& pieces) {
-    std::string bad = good;
-    ASSERT_NE(bad.find(from), std::string::npos) << from;
-    for (std::size_t at = 0; (at = bad.find(from, at)) != std::string::npos; at += to.size()) {
-      bad.replace(at, from.size(), to);
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const std::array<double, 3> size{3, 2, 4};
+    save(grid_mesh({3, 2, 4}, seed), dir.path() / "m.xdmf");
+    const MeshData mesh = read_back(dir.path() / "m.xdmf");
+    std::map<std::set<std::uint64_t>, std::multiset<RawLabel>> labels;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      for (const std::uint64_t left_out : mesh.tets[t]) {
+        std::set<std::uint64_t> triangle(mesh.tets[t].begin(), mesh.tets[t].end());
+        triangle.erase(left_out);
+        labels[triangle].insert(mesh.labels[t]);
+      }
     }
-    const auto path = dir.file("b.xdmf", bad);
-    expect_error(ErrorKind::kInput, pieces, [&] { static_cast<void>(read_mesh(path)); });
-  };
-  refuse("\"HDF\"", "\"XML\"", {"b.xdmf", "xml", "HDF5"});
-  refuse("m.h5", "../m.h5", {"b.xdmf", "leads out"});
-  refuse("m.h5", "/m.h5", {"b.xdmf", "leads out"});
-  refuse("m.h5", "n.h5", {"b.xdmf", "n.h5"});
-  refuse("m.h5:/", "m.h5/", {"FILE:/PATH"});
-  refuse("XYZ", "XY", {"'xy'"});
-  refuse("\"Tetrahedron\"", "\"Hexahedron\"", {"b.xdmf", "none of 0"});
-  refuse("/Mesh/mesh/topology", "/Mesh/mesh/geometry", {"m.h5", "4 or 10"});
-  refuse("/Mesh/mesh/geometry", "/Mesh/mesh/label", {"m.h5", "3 components"});
-  refuse("/Mesh/mesh/label", "/MeshTags/facet_tags/Values", {"m.h5", "rows"});
-  refuse("</Xdmf>", "", {"b.xdmf", "byte"});
+    const auto rows =
+        hdf5_numbers<std::int64_t>(dir.path() / "m.h5", "/MeshTags/facet_tags/topology");
+    const auto numbers =
+        hdf5_numbers<std::int64_t>(dir.path() / "m.h5", "/MeshTags/facet_tags/Values");
+    ASSERT_EQ(rows.size(), 3 * numbers.size());
+    std::map<std::int64_t, std::multiset<RawLabel>> of_number;
+    for (std::size_t f = 0; f < numbers.size(); ++f) {
+      const auto first = rows.begin() + static_cast<std::ptrdiff_t>(3 * f);
+      const std::set<std::uint64_t> triangle(first, first + 3);
+      const std::multiset<RawLabel>& sides = labels.at(triangle);
+      if (numbers[f] < 8) {
+        EXPECT_EQ(sides.size(), 1U);
+        const auto axis = static_cast<std::size_t>((numbers[f] - 1) / 2);
+        const double plane = numbers[f] % 2 == 1 ? 0 : size[axis];
+        for (const std::uint64_t row : triangle) EXPECT_EQ(mesh.vertices[row][axis], plane);
+      } else {
+        ASSERT_EQ(sides.size(), 2U);
+        EXPECT_NE(*sides.begin(), *sides.rbegin());
+        EXPECT_EQ(of_number.emplace(numbers[f], sides).first->second, sides) << numbers[f];
+      }
+      labels.erase(triangle);
+    }
+    // What is left bounds nothing.
+    for (const auto& [triangle, sides] : labels) {
+      ASSERT_EQ(sides.size(), 2U);
+      EXPECT_EQ(*sides.begin(), *sides.rbegin());
+    }
+    const std::string table = content_of(dir.path() / "m.facets.csv");
+    EXPECT_THAT(table, testing::StartsWith("number,name,side,first,second\n"));
+    EXPECT_THAT(table, testing::HasSubstr("1,\"x_min\",x_min,,\n"));
+    EXPECT_THAT(table, testing::HasSubstr("8,\"label_0|label_1\",interface,0,1\n"));
+  }
 }
 
 }  // namespace

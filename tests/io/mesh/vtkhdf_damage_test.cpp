@@ -4,33 +4,35 @@
 #include "io/mesh/apart_mesh.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/sample_mesh.h"
+#include "tests/io/mesh/written_mesh.h"
 
 namespace mw::io {
 namespace {
 
-/// Reads the mesh or throws the error of bad input; anything else fails the test.
-void try_mesh(const std::filesystem::path& path, std::size_t position, int& refused) {
-  try {
-    const MeshData mesh = read_mesh(path);
-    ASSERT_LE(mesh.tets.size(), 1000U) << position;
-  } catch (const Error& error) {
-    ASSERT_EQ(error.kind(), ErrorKind::kInput) << position << ": " << error.what();
-    ++refused;
-  }
-}
-
-TEST(VtkhdfDamage, EightBytesOfOnesAnywhere) {
+/// Eight bytes of ones at every step of a file; returns how many of these were refused.
+int refused_of(const MeshData& mesh, Element element, std::size_t step) {
   const TempDir dir;
   const auto path = dir.path() / "good.vtkhdf";
-  write_mesh(sample_mesh(7, false), *open_mesh_sink(path));
+  save(mesh, path, element);
   const std::string good = content_of(path);
   int refused = 0;
-  for (std::size_t at = 0; at < good.size(); at += 8) {
+  for (std::size_t at = 0; at < good.size(); at += step) {
     std::string bad = good;
     for (std::size_t i = at; i < std::min(at + 8, good.size()); ++i) bad[i] = '\xff';
     try_mesh(dir.file("bad.vtkhdf", bad), at, refused);
   }
-  EXPECT_GT(refused, 100);
+  return refused;
+}
+
+TEST(VtkhdfDamage, EightBytesOfOnesAnywhere) {
+  EXPECT_GT(refused_of(sample_mesh(7, false), Element::kTet4, 8), 100);
+  EXPECT_GT(refused_of(grid_mesh({2, 1, 1}, 1), Element::kTet10, 72), 20);
+}
+
+TEST(VtuDamage, OfTenNodes) {
+  const TempDir dir;
+  save(grid_mesh({2, 1, 1}, 1), dir.path() / "m.vtu", Element::kTet10);
+  EXPECT_GT(try_damage(dir, "m.vtu", content_of(dir.path() / "m.vtu")), 30);
 }
 
 /// What a reader that broke could send.

@@ -14,7 +14,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::array<const char*, 4> kExtensions{".stl", ".ply", ".obj", ".vtp"};
+constexpr std::array<const char*, 2> kExtensions{".stl", ".ply"};
 
 MeshData named_mesh(unsigned seed) {
   MeshData mesh = touching_mesh(seed);
@@ -36,7 +36,6 @@ TEST(SurfaceFiles, SameBytesEachTime) {
     write_file(named_mesh(3), one.path() / name);
     write_file(named_mesh(3), other.path() / name);
     EXPECT_EQ(content_of(one.path() / name), content_of(other.path() / name));
-    EXPECT_EQ(content_of(one.path() / "s.mtl"), content_of(other.path() / "s.mtl"));
   }
 }
 
@@ -83,11 +82,12 @@ SurfaceHeader large_header(std::uint64_t vertices, std::uint64_t triangles) {
 TEST(SurfaceFiles, MoreThanTheFormatHoldsIsRefused) {
   const TempDir dir;
   const SurfaceHeader header = large_header(1ULL << 32, 1ULL << 32);
-  for (const char* extension : {".stl", ".ply"}) {
+  for (const char* extension : kExtensions) {
     const auto sink = open_surface_sink(dir.path() / (std::string("s") + extension));
-    expect_error(ErrorKind::kUsage, {"s.", "4294967296", ".vtp"}, [&] { sink->begin(header); });
+    expect_error(ErrorKind::kUsage, {"s.", "4294967296", "each label apart"},
+                 [&] { sink->begin(header); });
   }
-  expect_error(ErrorKind::kUsage, {".foo", ".stl, .ply, .obj, .vtp"},
+  expect_error(ErrorKind::kUsage, {".foo", ".stl, .ply"},
                [&] { static_cast<void>(open_surface_sink(dir.path() / "s.foo")); });
 }
 

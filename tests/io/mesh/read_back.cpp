@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Reads what the writers of solvers' formats wrote.
+#include "tests/io/mesh/read_back.h"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <map>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "io/mesh/grouped/label_numbers.h"
+#include "tests/temp_folder.h"
+
+namespace mw::io {
+namespace {
+
+using Nodes = std::vector<std::uint64_t>;  ///< of a tet, rows from 0 on
+
+/// Nodes are 4 or 10.
+void add_tet(MeshData& mesh, const Nodes& nodes, RawLabel label) {
+  mesh.tets.push_back({nodes.at(0), nodes.at(1), nodes.at(2), nodes.at(3)});
+  mesh.labels.push_back(label);
+}
+
+/// Checks and drops the nodes behind the corners.
+void drop_middles(MeshData& mesh, const std::vector<Nodes>& tets) {
+  constexpr std::size_t kEnds[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  std::size_t kept = mesh.vertices.size();
+  for (const Nodes& tet : tets) {
+    for (std::size_t i = 4; i < tet.size(); ++i) {
+      kept = std::min<std::size_t>(kept, tet[i]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double a = mesh.vertices.at(tet[kEnds[i - 4][0]])[k];
+        const double b = mesh.vertices.at(tet[kEnds[i - 4][1]])[k];
+        EXPECT_NEAR(mesh.vertices.at(tet[i])[k], (a + b) / 2, 1e-12 * (std::abs(a) + std::abs(b)));
+      }
+    }
+  }
+  for (const Nodes& tet : tets) {
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_LT(tet[i], kept);
+  }
+  mesh.vertices.resize(kept);
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::istringstream items(line);
+  std::vector<std::string> out;
+  for (std::string item; std::getline(items, item, ',');) out.push_back(item);
+  return out;
+}
+
+Position position_of(const std::vector<std::string>& items, std::size_t first) {
+  return {std::stod(items.at(first)), std::stod(items.at(first + 1)),
+          std::stod(items.at(first + 2))};
+}
+
+/// From 1 on in the file.
+Nodes nodes_of(const std::vector<std::string>& items, std::size_t first) {
+  Nodes out;
+  for (std::size_t i = first; i < items.size(); ++i) out.push_back(std::stoull(items[i]) - 1);
+  return out;
+}
+
+/// `** label -7 "name" 1 2 3 4`
+LabelName name_in(const std::string& comment) {
+  std::istringstream words(comment.substr(comment.find("label ") + 6));
+  std::string label;
+  LabelName out;
+  words >> label >> std::quoted(out.name);
+  out.label = label[0] == '-' ? static_cast<RawLabel>(std::stoll(label)) : std::stoull(label);
+  std::array<int, 4> colour{};
+  if (!(words >> colour[0] >> colour[1] >> colour[2] >> colour[3])) return out;
+  out.colour.emplace();
+  std::copy(colour.begin(), colour.end(), out.colour->begin());
+  return out;
+}
+
+MeshData read_inp(const std::filesystem::path& path) {
+  std::istringstream lines(test::content_of(path));
+  MeshData mesh;
+  std::vector<LabelName> names;
+  std::vector<Nodes> tets;
+  std::string line, keyword, set;
+  while (std::getline(lines, line)) {
+    if (line.starts_with("** label ")) names.push_back(name_in(line));
+    if (line.starts_with("**")) continue;
+    if (line.starts_with("*")) {
+      keyword = line.substr(0, line.find(','));
+      const std::size_t at = line.find("ELSET=LABEL_");
+      if (at != line.npos) set = line.substr(at + 12);
+      continue;
+    }
+    const std::vector<std::string> items = split(line);
+    if (keyword == "*NODE") {
+      EXPECT_EQ(std::stoull(items[0]), mesh.vertices.size() + 1);
+      mesh.vertices.push_back(position_of(items, 1));
+    } else if (keyword == "*ELEMENT") {
+      tets.push_back(nodes_of(items, 1));
+      const bool below_zero = set[0] == 'M';
+      mesh.labels_signed = mesh.labels_signed || below_zero;
+      const RawLabel size = std::stoull(set.substr(below_zero ? 1 : 0));
+      add_tet(mesh, tets.back(), below_zero ? RawLabel{0} - size : size);
+    }
+  }
+  drop_middles(mesh, tets);
+  mesh.names = LabelNames(std::move(names));
+  return mesh;
+}
+
+MeshData read_feb(const std::filesystem::path& path) {
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_file(path.c_str()));
+  const pugi::xml_node model = document.child("febio_spec");
+  const LabelMap table = read_label_table(path).value();
+  MeshData mesh;
+  for (const pugi::xml_node node : model.child("Mesh").child("Nodes")) {
+    mesh.vertices.push_back(position_of(split(node.text().get()), 0));
+  }
+  std::map<std::string, std::int64_t> materials, parts;
+  for (const pugi::xml_node row : model.child("Material")) {
+    materials[row.attribute("name").value()] = row.attribute("id").as_llong();
+  }
+  for (const pugi::xml_node domain : model.child("MeshDomains")) {
+    parts[domain.attribute("name").value()] = materials.at(domain.attribute("mat").value());
+  }
+  std::vector<Nodes> tets;
+  for (const pugi::xml_node part : model.child("Mesh").children("Elements")) {
+    for (const pugi::xml_node element : part) {
+      tets.push_back(nodes_of(split(element.text().get()), 0));
+      add_tet(mesh, tets.back(), table.labels.at(parts.at(part.attribute("name").value())));
+    }
+  }
+  drop_middles(mesh, tets);
+  mesh.labels_signed = table.labels_signed;
+  mesh.names = table.names;
+  return mesh;
+}
+
+MeshData read_xdmf(const std::filesystem::path& path) {
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_file(path.c_str()));
+  const pugi::xml_node domain = document.child("Xdmf").child("Domain");
+  const auto grid = domain.find_child_by_attribute("Grid", "Name", "mesh");
+  const auto numbers = std::filesystem::path(path).replace_extension(".h5");
+  const auto points = hdf5_numbers<double>(numbers, "/Mesh/mesh/geometry");
+  const auto nodes = hdf5_numbers<std::int64_t>(numbers, "/Mesh/mesh/topology");
+  const auto labels = hdf5_numbers<std::int64_t>(numbers, "/Mesh/mesh/label");
+  MeshData mesh;
+  for (std::size_t i = 0; i < points.size(); i += 3) {
+    mesh.vertices.push_back({points[i], points[i + 1], points[i + 2]});
+  }
+  const auto width = grid.child("Topology").attribute("NodesPerElement").as_uint();
+  std::vector<Nodes> tets;
+  for (std::size_t t = 0; t < labels.size(); ++t) {
+    const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(t * width);
+    tets.emplace_back(first, first + width);
+    add_tet(mesh, tets.back(), static_cast<RawLabel>(labels[t]));
+  }
+  drop_middles(mesh, tets);
+  const auto label = grid.find_child_by_attribute("Attribute", "Name", "label");
+  mesh.labels_signed =
+      label.child("DataItem").attribute("NumberType").value() == std::string("Int");
+  mesh.names = read_label_table(path).value().names;
+  const auto record = domain.find_child_by_attribute("Information", "Name", "mwmesh");
+  mesh.record = parse_record(record.attribute("Value").value(), path.string());
+  return mesh;
+}
+
+}  // namespace
+
+template <class T>
+std::vector<T> hdf5_numbers(const std::filesystem::path& file, const char* data_set) {
+  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t set = H5Dopen2(opened, data_set, H5P_DEFAULT);
+  const hid_t space = H5Dget_space(set);
+  const hid_t stored = H5Dget_type(set);
+  constexpr bool kReal = std::is_floating_point_v<T>;
+  // Labels of 2^63 and more would be clamped to the largest signed number.
+  const bool has_no_sign = !kReal && H5Tget_sign(stored) == H5T_SGN_NONE;
+  const hid_t wanted = kReal         ? H5T_NATIVE_DOUBLE
+                       : has_no_sign ? H5T_NATIVE_UINT64
+                                     : H5T_NATIVE_INT64;
+  std::vector<T> numbers(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  EXPECT_GE(H5Dread(set, wanted, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), 0);
+  H5Tclose(stored);
+  H5Sclose(space);
+  H5Dclose(set);
+  H5Fclose(opened);
+  return numbers;
+}
+
+template std::vector<double> hdf5_numbers(const std::filesystem::path&, const char*);
+template std::vector<std::int64_t> hdf5_numbers(const std::filesystem::path&, const char*);
+
+MeshData read_back(const std::filesystem::path& path) {
+  if (path.extension() == ".inp") return read_inp(path);
+  if (path.extension() == ".feb") return read_feb(path);
+  if (path.extension() == ".xdmf") return read_xdmf(path);
+  return read_mesh(path);
+}
+
+}  // namespace mw::io
