@@ -7,8 +7,8 @@
 #include <latch>
 #include <thread>
 
-#include "engine/exchange/thread_exchange.h"
 #include "engine/march/flow_march.h"
+#include "engine/team/thread_exchange.h"
 
 namespace mw::bench {
 namespace {
@@ -43,13 +43,13 @@ class Sleeper {
     const auto window_at = [&](Index3 w) {
       return nap_.flow.first(number) + static_cast<std::uint32_t>(order.rank(w));
     };
-    const engine::MarchShare share{
+    const engine::PartialMarch share{
         .march = number,
         .is_mine = [&](Index3 w) { return nap_.owner(window_at(w)) == exchange_.rank(); },
         .inputs = [&](Index3 w) { return nap_.flow.inputs(window_at(w)); },
         .arrivals = &arrivals_};
     engine::MarchOptions options{.threads = crew_.size(), .look_ahead = nap_.machines.look_ahead};
-    options.share = &share;
+    options.part = &share;
     engine::flow_march(
         order, [&](Index3 w) { visit(window_at(w)); }, options, crew_);
   }

@@ -126,7 +126,7 @@ class Player {
   int rank_;
   std::uint32_t march_ = 0;
   Arrivals arrivals_;
-  engine::MarchShare share_;
+  engine::PartialMarch share_;
   std::unique_ptr<ArrivalFront> front_;
   std::size_t running_ = 0;
   double link_free_ = 0.0;

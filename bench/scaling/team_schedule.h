@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/scaling/run_flow.h"
-#include "engine/store/partition.h"
+#include "engine/team/partition.h"
 
 namespace mw::bench {
 

@@ -29,6 +29,19 @@ io::Json value_json(const engine::Setting& setting, const std::string& text) {
   return io::parse_json(text, setting.name);
 }
 
+engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& hooks) {
+  engine::RunHooks out{.threads = options.threads};
+  out.store.memory = memory_of(options);
+  out.store.workdir = options.workdir;
+  out.store.resume = options.resume;
+  if (hooks.progress) {
+    out.progress = [&hooks](const engine::RunProgress& at) {
+      hooks.progress({.done = at.done, .total = at.total, .seconds_left = at.seconds_left});
+    };
+  }
+  return out;
+}
+
 }  // namespace
 
 io::InputSteps input_steps(const mwmesh::Options& options) {
@@ -59,7 +72,8 @@ std::uint64_t memory_of(const mwmesh::Options& options) {
   return options.memory > 0 ? options.memory : engine::default_memory_budget();
 }
 
-engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options& options) {
+engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options& options,
+                         const mwmesh::Hooks& hooks) {
   if (options.threads < 0) throw Error(ErrorKind::kUsage, "--threads: must not be negative");
   if (options.resume && options.workdir.empty()) {
     throw Error(ErrorKind::kUsage, "--resume: needs the --workdir of the run that ended early");
@@ -68,28 +82,18 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
           .settings = mesh_settings(settings),
           .choice = label_choice(options),
           .certify = certify_of(options.certify),
-          .threads = options.threads,
-          .memory = memory_of(options),
-          .workdir = options.workdir,
-          .resume = options.resume,
           .is_measured = options.report,
-          .folder = io::scratch_folder()};
+          .folder = io::scratch_folder(),
+          .run = run_hooks(options, hooks),
+          .stop = stop_function(hooks)};
 }
 
-engine::JobHooks job_hooks(const mwmesh::Hooks& hooks) {
-  engine::JobHooks out;
-  if (hooks.cancel) {
-    out.stop = [&hooks] {
-      if (!hooks.cancel()) return;
-      throw mwmesh::Error(mwmesh::ErrorKind::kCancelled, "the run was cancelled");
-    };
-  }
-  if (hooks.progress) {
-    out.progress = [&hooks](const engine::RunProgress& at) {
-      hooks.progress({.done = at.done, .total = at.total, .seconds_left = at.seconds_left});
-    };
-  }
-  return out;
+std::function<void()> stop_function(const mwmesh::Hooks& hooks) {
+  if (!hooks.cancel) return [] {};
+  return [&hooks] {
+    if (!hooks.cancel()) return;
+    throw mwmesh::Error(mwmesh::ErrorKind::kCancelled, "the run was cancelled");
+  };
 }
 
 io::Json settings_json(const engine::MeshJob& job) {
@@ -99,9 +103,9 @@ io::Json settings_json(const engine::MeshJob& job) {
     std::replace(key.begin(), key.end(), '-', '_');
     out[key] = value_json(setting, setting.text(job.settings));
   }
-  out["threads"] = job.threads;
-  out["memory"] = job.memory;
-  out["workdir"] = job.workdir.string();
+  out["threads"] = job.run.threads;
+  out["memory"] = job.run.store.memory;
+  out["workdir"] = job.run.store.workdir.string();
   return out;
 }
 

@@ -14,11 +14,11 @@ namespace mw::api {
 [[nodiscard]] engine::LabelChoice label_choice(const mwmesh::Options& options);
 /// Bytes, the default included.
 [[nodiscard]] std::uint64_t memory_of(const mwmesh::Options& options);
-/// ERRORS: mw::Error(kUsage).
+/// hooks outlives the result.  ERRORS: mw::Error(kUsage).
 [[nodiscard]] engine::MeshJob mesh_job(const mwmesh::Settings& settings,
-                                       const mwmesh::Options& options);
-/// hooks outlives the result.  Its stop() throws mwmesh::Error(kCancelled).
-[[nodiscard]] engine::JobHooks job_hooks(const mwmesh::Hooks& hooks);
+                                       const mwmesh::Options& options, const mwmesh::Hooks& hooks);
+/// Throws mwmesh::Error(kCancelled) when the caller cancels.  hooks outlives the result.
+[[nodiscard]] std::function<void()> stop_function(const mwmesh::Hooks& hooks);
 /// Settings and options as reports tell them.
 [[nodiscard]] io::Json settings_json(const engine::MeshJob& job);
 

@@ -47,16 +47,15 @@ std::string report_text(const mw::report::FinishedRun& run, const std::filesyste
 
 /// Meshes into the sink; path: what the report calls the mesh.  Returns the report.
 std::string run_into(io::MeshSink& sink, const std::filesystem::path& path, const Volume& volume,
-                     const engine::MeshJob& job, const Hooks& hooks) {
+                     const engine::MeshJob& job) {
   const io::LabelVolume& labels = VolumeAccess::labels(volume);
-  const engine::JobHooks told = mw::api::job_hooks(hooks);
   if (!job.is_measured) {
-    (void)engine::mesh(labels, job, sink, told);
+    (void)engine::mesh(labels, job, sink);
     return {};
   }
   io::DigestSink digest(job.folder);
   io::TeeSink both(sink, digest);
-  mw::report::FinishedRun run = engine::mesh(labels, job, both, told);
+  mw::report::FinishedRun run = engine::mesh(labels, job, both);
   run.digest = digest.digest();
   return report_text(run, path, job);
 }
@@ -71,7 +70,7 @@ Mesh mesh(const Volume& volume, const Settings& settings, const Options& options
           const Hooks& hooks) {
   return mw::api::guarded([&] {
     io::MeshDataSink sink;
-    std::string report = run_into(sink, {}, volume, mw::api::mesh_job(settings, options), hooks);
+    std::string report = run_into(sink, {}, volume, mw::api::mesh_job(settings, options, hooks));
     Mesh mesh = mw::api::library_mesh(std::move(sink.mesh()));
     mesh.report = std::move(report);
     return mesh;
@@ -82,7 +81,7 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
                     const Options& options, const Hooks& hooks) {
   return mw::api::guarded([&] {
     WriterSink sink(writer);
-    return run_into(sink, {}, volume, mw::api::mesh_job(settings, options), hooks);
+    return run_into(sink, {}, volume, mw::api::mesh_job(settings, options, hooks));
   });
 }
 
@@ -90,10 +89,10 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
                          const Settings& settings, const Options& options, const Hooks& hooks,
                          std::string_view element) {
   return mw::api::guarded([&] {
-    engine::MeshJob job = mw::api::mesh_job(settings, options);
+    engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
     job.folder = path.parent_path();
     const auto sink = io::open_mesh_sink(path, io::parse_element(element));
-    return run_into(*sink, path, volume, job, hooks);
+    return run_into(*sink, path, volume, job);
   });
 }
 

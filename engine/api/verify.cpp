@@ -35,7 +35,7 @@ Verdict library_verdict(const mw::report::Verdict& verdict) {
 
 Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, const Hooks& hooks) {
   return mw::api::guarded([&] {
-    const engine::JobHooks told = mw::api::job_hooks(hooks);
+    const std::function<void()> stop = mw::api::stop_function(hooks);
     const engine::VerifyJob job{
         .volume = VolumeAccess::labels(volume),
         .steps = mw::api::input_steps(options),
@@ -44,7 +44,7 @@ Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, c
         .threads = options.threads,
         .memory = mw::api::memory_of(options),
         .folder = mw::io::scratch_folder(),
-        .between = told.stop};
+        .between = stop};
     return library_verdict(
         engine::verify(job, [&](mw::io::MeshSink& sink) { mw::api::deliver(mesh, sink); }));
   });

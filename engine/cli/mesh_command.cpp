@@ -12,11 +12,9 @@
 #include "engine/cli/log.h"
 #include "engine/cli/mesh_request.h"
 #include "engine/cli/page/run_page.h"
-#include "engine/cli/shared_output.h"
-#include "engine/cli/shared_runs.h"
+#include "engine/cli/run_processes.h"
 #include "engine/cli/trace_file.h"
 #include "engine/cli/values.h"
-#include "engine/exchange/epochs.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/report/run_report.h"
 #include "engine/report/speck_facts.h"
@@ -43,12 +41,7 @@ std::size_t digest_memory(std::uint64_t budget) {
   return std::clamp<std::uint64_t>(budget / 64, kMin, io::DigestSink::kMemoryBytes);
 }
 
-/// Whether somebody wants to read what came out.
-bool is_measured(const MeshRequest& request) {
-  return !request.report.empty() || !request.html.empty();
-}
-
-/// Of a rank that writes nothing.
+/// The sink of a process that writes nothing through it.
 class NoSink : public io::MeshSink {
  public:
   void begin(const io::MeshHeader& /*header*/) override {}
@@ -60,8 +53,7 @@ class NoSink : public io::MeshSink {
 
 /// Whether this process leaves the mesh to another one, or to all of them.
 bool has_no_sink(const SharedOutput& shared) {
-  if (shared_team() == nullptr) return false;
-  return !shared_team()->is_first() || shared.mesh != nullptr;
+  return !run_processes().speaks() || shared.mesh != nullptr;
 }
 
 std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const SharedOutput& shared) {
@@ -77,8 +69,8 @@ struct MeshFiles {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
-    if (!is_measured(request) || has_no_sink(shared)) return;
-    digest.emplace(request.output.parent_path(), digest_memory(*request.memory));
+    if (!request.job.is_measured || has_no_sink(shared)) return;
+    digest.emplace(request.output.parent_path(), digest_memory(request.job.run.store.memory));
     both.emplace(*sink, *digest);
     if (!html) return;
     grouped.emplace(request.output.parent_path(), nullptr);
@@ -102,41 +94,28 @@ struct MeshFiles {
   std::optional<TraceFile> trace;
 };
 
-engine::MeshJob job_of(const MeshRequest& request, io::SharedMesh* together = nullptr) {
-  return {.steps = request.volume.steps,
-          .settings = request.settings,
-          .choice = request.choice,
-          .certify = request.certify,
-          .threads = request.threads,
-          .memory = *request.memory,
-          .workdir = request.workdir,
-          .resume = request.resume,
-          .save_every = request.save_every,
-          .is_measured = is_measured(request),
-          .folder = request.output.parent_path(),
-          .owns_process = true,
-          .team = shared_team(),
-          .together = together};
-}
-
 /// Says where the work is when a run that ends early leaves some.
 report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume& volume,
                               MeshFiles& files) {
   Progress progress(request.progress);
   std::string work;
-  engine::JobHooks hooks{.stop = stop_if_interrupted};
-  hooks.progress = [&](const engine::RunProgress& at) { progress.show(at); };
-  if (files.trace) hooks.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
-  hooks.stop_after_epoch = is_save_requested;
-  hooks.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
-  hooks.kept = [&] {
-    work = "the work so far is in " + request.workdir.string() + ", add --resume to go on";
+  engine::MeshJob job = request.job;
+  job.stop = stop_if_interrupted;
+  job.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
+  engine::RunHooks& run = job.run;
+  run.processes = &run_processes();
+  run.together = files.shared.mesh.get();
+  run.stop_after_save = is_save_requested;
+  run.progress = [&](const engine::RunProgress& at) { progress.show(at); };
+  if (files.trace) run.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
+  run.store.kept = [&] {
+    work = "the work so far is in " + run.store.workdir.string() + ", add --resume to go on";
   };
   try {
-    return engine::mesh(volume, job_of(request, files.shared.mesh.get()), files.all(), hooks);
+    return engine::mesh(volume, job, files.all());
   } catch (const Interrupted&) {
     throw Interrupted{work};
-  } catch (const engine::Epochs::Stopped&) {
+  } catch (const engine::StoppedAfterSave&) {
     throw Interrupted{work};
   }
 }
@@ -166,24 +145,24 @@ void print_certificate(const report::FinishedRun& run) {
             << "\n";
 }
 
-/// Of a shared run.
+/// Says who wrote the mesh, where that could be several processes.
 void print_writers(const SharedOutput& shared) {
-  if (shared_team() == nullptr) return;
+  if (!runs_are_divided()) return;
   std::cout << "written by  ";
   if (shared.mesh != nullptr) {
-    std::cout << "all " << shared_team()->ranks() << " processes\n";
+    std::cout << "all " << run_processes().count() << " processes\n";
   } else {
     std::cout << "rank 0: " << shared.why_alone << "\n";
   }
 }
 
 /// Who did what, also where no report is written.
-void log_ranks(const engine::RunReport& run) {
-  for (std::size_t rank = 0; rank < run.ranks.size(); ++rank) {
-    const engine::RankFacts& facts = run.ranks[rank];
+void log_processes(const engine::RunReport& run) {
+  for (std::size_t rank = 0; rank < run.processes.size(); ++rank) {
+    const engine::ProcessFacts& facts = run.processes[rank];
     const auto output = static_cast<std::size_t>(engine::Purpose::kOutput);
     spdlog::info("rank {}: {} windows, {} blocks sent, at most {} accounted, {} to write", rank,
-                 facts.windows, facts.sent.blocks, format_bytes(facts.peak_accounted_bytes),
+                 facts.windows, facts.blocks_sent, format_bytes(facts.peak_accounted_bytes),
                  format_bytes(facts.peak_bytes_by_purpose[output]));
   }
 }
@@ -209,10 +188,10 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
 }
 
 void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
-  if (!request.resume) return;
+  if (!request.job.run.store.resume) return;
   if (facts.resumed_windows == 0) {
     spdlog::warn("{}: no saved work to resume, started from the beginning",
-                 request.workdir.string());
+                 request.job.run.store.workdir.string());
   } else {
     spdlog::info("{} windows were done before", facts.resumed_windows);
   }
@@ -232,27 +211,22 @@ int threads_at_hand(int asked) {
   return given;
 }
 
-SharedOutput shared_output(const MeshRequest& request, bool is_certified) {
-  if (shared_team() == nullptr) return {};
-  return open_shared_output(request, *shared_team(), is_certified);
-}
-
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
-  if (shared_team() != nullptr) watch_save_requests();
+  if (runs_are_divided()) watch_save_requests();
   // Refused before any file is opened.
-  const bool is_certified = engine::plan_certificate(job_of(request)).why_not.empty();
+  const bool is_certified = engine::plan_certificate(request.job).why_not.empty();
   const report::ResourceMeter meter;
-  MeshFiles files(request, shared_output(request, is_certified));
+  MeshFiles files(request, open_shared_output(request, is_certified));
   spdlog::info("reading {}", request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
   report::FinishedRun run = mesh_into(request, *volume, files);
   if (files.trace) files.trace->finish();
-  if (shared_team() != nullptr && !shared_team()->is_first()) return kExitDone;
+  if (!run_processes().speaks()) return kExitDone;
   tell_resume(request, run.engine.store);
   run.resources = meter.read();
   print_summary(run, request, files.shared);
-  log_ranks(run.engine);
+  log_processes(run.engine);
   if (files.digest) {
     engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
     run.digest = files.digest->digest();
@@ -271,16 +245,16 @@ int run_mesh(MeshCommand& job) {
   std::optional<std::filesystem::path> config;
   if (!job.config.empty()) config = job.config;
   job.options.resolve(config);
-  engine::Team* team = shared_team();
-  const bool speaks = team == nullptr || team->is_first();
+  const bool speaks = run_processes().speaks();
   if (job.print_config) {
     if (speaks) std::cout << job.options.toml();
     return kExitDone;
   }
   check_mesh_request(job.request);
   start_log(speaks ? job.request.log_level : "off");
-  if (team != nullptr) take_part(job.request, *team);
-  job.request.threads = threads_at_hand(job.request.threads);
+  take_part(job.request);
+  int& threads = job.request.job.run.threads;
+  threads = threads_at_hand(threads);
   return mesh(job.request, job.options);
 }
 

@@ -80,7 +80,7 @@ bool is_input_around_all(const fs::path& file, const MeshRequest& request) {
 }
 
 void require_workdir_apart(const MeshRequest& request) {
-  const fs::path workdir = whole_path(request.workdir);
+  const fs::path workdir = whole_path(request.job.run.store.workdir);
   for (const auto& [name, file] : files_of(request)) {
     const fs::path whole = whole_path(file);
     const bool is_in_file = is_at_or_in(workdir, whole), has_file = is_at_or_in(whole, workdir);
@@ -88,7 +88,7 @@ void require_workdir_apart(const MeshRequest& request) {
     const std::string why = is_in_file && has_file ? "this is " + name
                             : is_in_file           ? "lies in " + file.string() + ", " + name
                                                    : "has " + file.string() + " in it, " + name;
-    refuse("--workdir", request.workdir, why + "; give a folder of its own");
+    refuse("--workdir", request.job.run.store.workdir, why + "; give a folder of its own");
   }
 }
 

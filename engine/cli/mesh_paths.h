@@ -9,7 +9,7 @@ namespace mw::cli {
 
 /// Told before any work: what is written is not what is read, no name is written twice, and the
 /// work folder neither is one of these files, nor lies in one, nor has one in it.
-/// REQUIRES: request.workdir is not empty.
+/// REQUIRES: the work folder of the request is settled.
 /// ERRORS: mw::Error(kUsage) naming flag and path.
 void require_paths_apart(const MeshRequest& request);
 

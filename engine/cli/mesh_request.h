@@ -3,8 +3,6 @@
 // What `mwmesh mesh` is asked to do.
 #pragma once
 
-#include <chrono>
-
 #include "engine/cli/label_choice.h"
 #include "engine/cli/progress.h"
 #include "engine/cli/volume_options.h"
@@ -20,19 +18,14 @@ struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
-  bool ascii = false;               ///< the output as text
-  std::filesystem::path report;     ///< empty: none
-  std::filesystem::path html;       ///< empty: none
-  std::filesystem::path trace;      ///< empty: none
-  engine::MeshSettings settings;    ///< those of size_file after check_mesh_request()
-  std::filesystem::path size_file;  ///< empty: none
-  Certify certify = Certify::kAuto;
-  int threads = 0;                      ///< 0: all cores
-  std::optional<std::uint64_t> memory;  ///< bytes; after check_mesh_request() never empty
-  std::filesystem::path workdir;        ///< after check_mesh_request() never empty
-  bool resume = false;
-  std::chrono::milliseconds save_every{10'000};
-  LabelChoice choice;
+  bool ascii = false;                   ///< the output as text
+  std::filesystem::path report;         ///< empty: none
+  std::filesystem::path html;           ///< empty: none
+  std::filesystem::path trace;          ///< empty: none
+  std::filesystem::path size_file;      ///< empty: none
+  std::optional<std::uint64_t> memory;  ///< bytes, as asked for
+  /// What the engine is asked to do; complete after check_mesh_request().
+  engine::MeshJob job;
   ProgressKind progress = ProgressKind::kNone;
   std::string log_level;
 };

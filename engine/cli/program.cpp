@@ -11,7 +11,7 @@
 #include "engine/cli/commands.h"
 #include "engine/cli/environment.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/shared_runs.h"
+#include "engine/cli/run_processes.h"
 #include "engine/cli/unknown_word.h"
 
 namespace mw::cli {
@@ -41,11 +41,6 @@ void add_commands(CLI::App& app, Action& chosen) {
   }
 }
 
-/// What is printed here comes from rank 0.
-bool is_silent() {
-  return shared_team() != nullptr && !shared_team()->is_first();
-}
-
 int parse_and_run(int argc, char** argv) {
   CLI::App app(kAbout, "mwmesh");
   Action chosen;
@@ -53,12 +48,12 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return is_silent() ? kExitDone : app.exit(success);  // --help and --version
+    return run_processes().speaks() ? app.exit(success) : kExitDone;  // --help and --version
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::kUsage, explain(app, error));
   }
   if (!chosen) throw Error(ErrorKind::kUsage, "a subcommand is needed; see mwmesh --help");
-  if (shared_team() != nullptr && !app.got_subcommand("mesh")) {
+  if (runs_are_divided() && !app.got_subcommand("mesh")) {
     throw Error(ErrorKind::kUsage,
                 "mwmesh-mpi shares out mesh; for everything else there is mwmesh");
   }
@@ -76,21 +71,19 @@ int run_program(int argc, char** argv) noexcept {
   return guarded([&] { return parse_and_run(argc, argv); });
 }
 
-int run_shared_program(int argc, char** argv, engine::Exchange& exchange) noexcept {
+int run_divided_program(int argc, char** argv, engine::Processes& processes) noexcept {
   (void)std::signal(SIGXFSZ, SIG_IGN);
-  const bool quiet = exchange.rank() != 0;
   return guarded(
       [&] {
-        engine::Team team(exchange);
-        share_runs_with(&team);
+        divide_runs_among(processes);
         try {
           return parse_and_run(argc, argv);
         } catch (...) {
-          team.fail(std::current_exception());
+          processes.fail(std::current_exception());
           throw;
         }
       },
-      quiet);
+      !processes.speaks());
 }
 
 }  // namespace mw::cli

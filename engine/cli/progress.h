@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-#include "engine/run.h"
+#include "engine/run/run.h"
 
 namespace mw::cli {
 

@@ -3,7 +3,7 @@
 // The trace of a run (--trace): one line a visit.
 #pragma once
 
-#include "engine/run.h"
+#include "engine/run/run.h"
 #include "io/file/atomic_file.h"
 
 namespace mw::cli {

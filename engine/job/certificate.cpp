@@ -26,12 +26,13 @@ std::string failures(const audit::AuditReport& report) {
 }
 
 std::string obstacle(const MeshJob& job) {
-  if (job.certify == Certify::kAuto && job.team != nullptr && job.team->ranks() > 1) {
+  if (job.certify == Certify::kAuto && job.run.processes != nullptr &&
+      job.run.processes->count() > 1) {
     return "of several processes one alone would make it, while the others wait: give --certify "
            "on, "
            "or verify the file";
   }
-  if (job.memory / 4 < kShared + kPerThread) {
+  if (job.run.store.memory / 4 < kShared + kPerThread) {
     return "needs --memory " + report::format_bytes(4 * (kShared + kPerThread)) + " or more";
   }
   return "";
@@ -46,9 +47,9 @@ CertificatePlan plan_certificate(const MeshJob& job) {
     throw Error(ErrorKind::kUsage, "--certify on: " + why_not);
   }
   if (!why_not.empty()) return {.why_not = why_not};
-  const std::uint64_t max = (job.memory / 4 - kShared) / kPerThread;
+  const std::uint64_t max = (job.run.store.memory / 4 - kShared) / kPerThread;
   const auto threads =
-      std::min<std::uint64_t>(max, static_cast<std::uint64_t>(thread_count(job.threads)));
+      std::min<std::uint64_t>(max, static_cast<std::uint64_t>(thread_count(job.run.threads)));
   return {.threads = static_cast<int>(threads), .memory_bytes = kShared + threads * kPerThread};
 }
 

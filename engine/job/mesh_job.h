@@ -3,13 +3,12 @@
 // The main job, from an opened volume to a mesh in a sink: what the program and the library share.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 
 #include "engine/output/label_choice.h"
 #include "engine/report/run_report.h"
-#include "engine/run.h"
+#include "engine/run/run.h"
 #include "io/labels/prepared_input.h"
 
 namespace mw::engine {
@@ -25,28 +24,14 @@ struct MeshJob {
   MeshSettings settings;
   LabelChoice choice;
   Certify certify = Certify::kAuto;
-  int threads = 0;                ///< 0: all cores
-  std::uint64_t memory = 0;       ///< bytes
-  std::filesystem::path workdir;  ///< empty: blocks stay in memory, and nothing can be resumed
-  bool resume = false;
-  std::chrono::milliseconds save_every{10'000};
   bool is_measured = false;      ///< quality and shape, for a report
   std::filesystem::path folder;  ///< of the certificate's temporary files
-  /// Whether the allocator of the process may be told to give large pieces back at once, as a tight
-  /// budget wants it.
-  bool owns_process = false;
-  Team* team = nullptr;                ///< see RunHooks
-  io::SharedMesh* together = nullptr;  ///< see RunHooks
-};
-
-/// Who looks on.  Nothing here changes the result.
-struct JobHooks {
+  /// Threads, memory, work folder, other processes, and who looks on.  What is written and the
+  /// identity of the run are settled by mesh().
+  RunHooks run{.threads = 0};
+  /// Nothing of these changes the result.
   std::function<void()> stop = [] {};                    ///< called often, by any thread; may throw
-  OnProgress progress;                                   ///< optional; may throw
-  std::function<void(const TraceEvent&)> trace;          ///< optional
   std::function<void(std::size_t labels)> labels_known;  ///< optional: before the marches
-  std::function<bool()> stop_after_epoch;                ///< optional, see RunHooks
-  std::function<void()> kept;  ///< optional: a run that ends early left work in the folder
 };
 
 /// What a certificate takes of a run's budget: a quarter at most.
@@ -63,9 +48,9 @@ struct CertificatePlan {
 /// ENSURES: promises P1 to P3 and P5 of the README.  Digest and resources are the caller's to add.
 /// ERRORS: those of the volume, its steps, mesh_volume() and the sink; kCheckFailed when the
 ///         certificate does not hold; io::fail_input_changed() when that is because the labels
-///         changed, or when a later reading finds labels that the first did not; what the hooks
-///         throw.
+///         changed, or when a later reading finds labels that the first did not; what the job's
+///         functions throw.
 [[nodiscard]] report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job,
-                                       io::MeshSink& sink, const JobHooks& hooks = {});
+                                       io::MeshSink& sink);
 
 }  // namespace mw::engine

@@ -88,13 +88,13 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
                      LabelCounts(volume.info().shape, volume.table().size()), threads, folder) {}
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
-                               const LabelShare& share, int threads,
+                               const LabelNeed& need, int threads,
                                const std::filesystem::path& folder)
-    : PreparedLabels(volume, settings, bricks_of(share, volume.info().shape, settings),
+    : PreparedLabels(volume, settings, bricks_of(need, volume.info().shape, settings),
                      std::nullopt, threads, folder) {}
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
-                               const ShareBricks& bricks, std::optional<LabelCounts> counts,
+                               const NeededBricks& bricks, std::optional<LabelCounts> counts,
                                int threads, const std::filesystem::path& folder)
     : volume_(volume),
       counts_(std::move(counts)),
@@ -102,7 +102,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
       sizes_(size_field(volume, settings.sizes)),
       inner_(inner_demand(volume.table(), settings.sizes)) {
   read_bricks(volume, threads);
-  volume.raw().drop_buffers();  // it is not read again, unless a visit looks beyond its share
+  volume.raw().drop_buffers();  // it is not read again, unless a visit looks beyond what it needs
   if (sizes_.limits()) sizes_.spread();
   if (is_coarsened(settings)) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder, bricks.shapes);

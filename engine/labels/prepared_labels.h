@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/labels/label_counts.h"
-#include "engine/labels/label_share.h"
+#include "engine/labels/label_need.h"
 #include "engine/settings/settings.h"
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
@@ -16,8 +16,8 @@
 namespace mw::engine {
 
 /// The input's labels, the labels that the start mesh takes its shape from, and its large cells.
-/// A pure function of the volume and the settings.  One of several processes makes only its share:
-/// there it is told what the whole would tell.
+/// A pure function of the volume and the settings.  Where only some windows are visited it is
+/// made only where these need it, and tells there what the whole would tell.
 /// Thread safety: const members may be called from many threads.
 class PreparedLabels {
  public:
@@ -28,21 +28,21 @@ class PreparedLabels {
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
                  const std::filesystem::path& folder = io::scratch_folder());
 
-  /// The same of a share; counts are then those of others (counts_of_part()).
+  /// Only what is needed; what is counted is then known already (counts_of_part()).
   /// REQUIRES: the volume outlives this.
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
-                 const LabelShare& share, int threads = 1,
+                 const LabelNeed& need, int threads = 1,
                  const std::filesystem::path& folder = io::scratch_folder());
 
   /// Boxes may reach outside the volume; voxels there are kExterior.
-  /// Beyond the share the volume is read again: how far the tets of a window reach out of it has no
+  /// Beyond what is needed the volume is read again: how far the tets of a window reach out of it has no
   /// bound that is as tight as what is usual.
   [[nodiscard]] LabelBox original(const Box3& box) const;
-  /// REQUIRES: a block of the share and kStartHalo around it.
+  /// REQUIRES: a block that is needed and kStartHalo around it.
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
-  /// What is counted on the way.  REQUIRES: they are no share.
+  /// What is counted on the way.  REQUIRES: all labels are prepared.
   [[nodiscard]] const LabelCounts& counts() const { return *counts_; }
   /// Limits on edges; null: none.
   [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
@@ -51,7 +51,7 @@ class PreparedLabels {
 
  private:
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
-                 const ShareBricks& bricks, std::optional<LabelCounts> counts, int threads,
+                 const NeededBricks& bricks, std::optional<LabelCounts> counts, int threads,
                  const std::filesystem::path& folder);
 
   void read_bricks(const io::DenseVolume& volume, int threads);
@@ -62,7 +62,7 @@ class PreparedLabels {
   [[nodiscard]] bool all_may_be_large(const Box3& cubes) const;
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
 
-  io::DenseVolume volume_;  ///< looked at again for shares only
+  io::DenseVolume volume_;  ///< looked at again only where some labels are prepared
   std::optional<LabelCounts> counts_;
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;

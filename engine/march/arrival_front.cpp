@@ -9,12 +9,12 @@
 
 namespace mw::engine {
 
-ArrivalFront::ArrivalFront(const WindowOrder& order, const MarchShare& share,
+ArrivalFront::ArrivalFront(const WindowOrder& order, const PartialMarch& part,
                            std::uint64_t look_ahead, const IsFinished& finished_before)
-    : order_(order), share_(share), look_ahead_(look_ahead) {
+    : order_(order), part_(part), look_ahead_(look_ahead) {
   for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
     const Index3 window = order.window(rank);
-    if (!share.is_mine(window)) continue;
+    if (!part.is_mine(window)) continue;
     mine_.push_back(rank);
     const bool done = finished_before && finished_before(window);
     states_.push_back(done ? State::kFinished : State::kWaiting);
@@ -39,7 +39,7 @@ void ArrivalFront::start(std::uint64_t rank) {
   MW_ASSERT(is_ready(rank));
   ready_.erase(priority(rank));
   states_[find(rank).value()] = State::kRunning;
-  share_.arrivals->forget({share_.march, rank});
+  part_.arrivals->forget({part_.march, rank});
 }
 
 void ArrivalFront::finish(std::uint64_t rank) {
@@ -51,7 +51,7 @@ void ArrivalFront::finish(std::uint64_t rank) {
 }
 
 void ArrivalFront::poll() {
-  for (std::uint64_t rank : share_.arrivals->take_touched(share_.march)) {
+  for (std::uint64_t rank : part_.arrivals->take_touched(part_.march)) {
     if (const auto at = find(rank); at && *at < seen_) make_ready_if_due(*at);
   }
 }
@@ -69,8 +69,8 @@ std::optional<std::size_t> ArrivalFront::find(std::uint64_t rank) const {
 void ArrivalFront::make_ready_if_due(std::size_t at) {
   if (states_[at] != State::kWaiting) return;
   const std::uint64_t rank = mine_[at];
-  const std::uint32_t there = share_.arrivals->count({share_.march, rank});
-  if (there < share_.inputs(order_.window(rank))) return;
+  const std::uint32_t there = part_.arrivals->count({part_.march, rank});
+  if (there < part_.inputs(order_.window(rank))) return;
   states_[at] = State::kReady;
   ready_.insert(priority(rank));
 }

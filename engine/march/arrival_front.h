@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The front of a process that visits some of a march's windows.
+// The front of a march of which only some windows are visited here.
 #pragma once
 
 #include <functional>
@@ -14,22 +14,22 @@
 
 namespace mw::engine {
 
-/// One process's share of a march.
-struct MarchShare {
+/// The windows of a march that are visited here, when others are visited elsewhere.
+struct PartialMarch {
   std::uint32_t march = 0;
   std::function<bool(Index3 window)> is_mine;
-  /// How many inputs a window has to wait for (BlockRoute::inputs).
+  /// How many blocks that other windows leave a window has to wait for.
   std::function<std::uint32_t(Index3 window)> inputs;
   Arrivals* arrivals = nullptr;  ///< outlives the march
 };
 
-/// Own windows are ready when their inputs are there, whichever process they come from.  They come
+/// Own windows are ready when their inputs are there, wherever these come from.  They come
 /// into view less than `look_ahead` own windows behind the first unfinished one.
 /// Memory: 9 bytes an own window, and what waits in Arrivals.
 class ArrivalFront : public Front {
  public:
-  /// REQUIRES: look_ahead >= 1; order and the share outlive this.
-  ArrivalFront(const WindowOrder& order, const MarchShare& share, std::uint64_t look_ahead,
+  /// REQUIRES: look_ahead >= 1; order and part outlive this.
+  ArrivalFront(const WindowOrder& order, const PartialMarch& part, std::uint64_t look_ahead,
                const IsFinished& finished_before = {});
 
   [[nodiscard]] std::optional<std::uint64_t> best() const override;
@@ -45,13 +45,13 @@ class ArrivalFront : public Front {
   using Priority = std::pair<std::int64_t, std::uint64_t>;
 
   [[nodiscard]] Priority priority(std::uint64_t rank) const;
-  /// Position of a rank in mine_, or none of another process.
+  /// Position of a rank in mine_, or none for a window that is visited elsewhere.
   [[nodiscard]] std::optional<std::size_t> find(std::uint64_t rank) const;
   void make_ready_if_due(std::size_t at);
   void advance();
 
   const WindowOrder& order_;
-  const MarchShare& share_;
+  const PartialMarch& part_;
   std::uint64_t look_ahead_;
   std::vector<std::uint64_t> mine_;  ///< ranks, ascending
   std::vector<State> states_;

@@ -44,11 +44,11 @@ class Dispatcher {
       : order_(order), options_(options), threads_(static_cast<std::size_t>(threads)) {
     const std::uint64_t ahead =
         options.look_ahead > 0 ? options.look_ahead : default_look_ahead(threads_);
-    if (options.share == nullptr) {
+    if (options.part == nullptr) {
       front_ = std::make_unique<Wavefront>(order, ahead, options.finished_before);
     } else {
       auto front =
-          std::make_unique<ArrivalFront>(order, *options.share, ahead, options.finished_before);
+          std::make_unique<ArrivalFront>(order, *options.part, ahead, options.finished_before);
       arrival_front_ = front.get();
       front_ = std::move(front);
     }
@@ -115,7 +115,7 @@ class Dispatcher {
   }
 
   void look_at_arrivals() {
-    if (const auto error = options_.share->arrivals->error()) note(order_.size(), error);
+    if (const auto error = options_.part->arrivals->error()) note(order_.size(), error);
     arrival_front_->poll();
   }
 
@@ -129,7 +129,7 @@ class Dispatcher {
   const MarchOptions& options_;
   std::size_t threads_;
   std::unique_ptr<Front> front_;
-  ArrivalFront* arrival_front_ = nullptr;  ///< with a share: the same
+  ArrivalFront* arrival_front_ = nullptr;  ///< the same, of a part
   std::vector<Running> running_;
   std::exception_ptr error_;
   std::uint64_t error_rank_ = 0;
@@ -171,7 +171,7 @@ class Waiting {
   std::atomic<bool> released_ = false;
 };
 
-/// Runs the graph in the calling thread's arena.  arrivals: null without a share.
+/// Runs the graph in the calling thread's arena.  arrivals: null when all windows are visited here.
 void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arrivals) {
   flow::graph graph;
   Visitor visitor(graph, flow::unlimited,
@@ -209,7 +209,7 @@ void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arriv
 void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options,
                 Crew& crew) {
   Dispatcher dispatcher(order, options, crew.size());
-  Arrivals* arrivals = options.share == nullptr ? nullptr : options.share->arrivals;
+  Arrivals* arrivals = options.part == nullptr ? nullptr : options.part->arrivals;
   crew.run([&] { run_graph(dispatcher, visit, arrivals); });
   dispatcher.rethrow_error();
 }

@@ -30,11 +30,11 @@ void march_in_sequence(const WindowOrder& order, const VisitWindow& visit,
 }  // namespace
 
 void march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options) {
-  if (thread_count(options.threads) == 1 && options.share == nullptr) {
+  if (thread_count(options.threads) == 1 && options.part == nullptr) {
     return march_in_sequence(order, visit, options);
   }
   Crew crew(thread_count(options.threads));
-  if (crew.size() > 1 || options.share != nullptr) return flow_march(order, visit, options, crew);
+  if (crew.size() > 1 || options.part != nullptr) return flow_march(order, visit, options, crew);
   // In the crew's arena all the same: what a visit does there must not wake threads of oneTBB.
   crew.run([&] { march_in_sequence(order, visit, options); });
 }

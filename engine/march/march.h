@@ -54,15 +54,15 @@ struct MarchOptions {
   AdmitWindow admit;           ///< optional
   OnVisited visited;           ///< optional; may throw to stop the march
   IsFinished finished_before;  ///< optional: windows to pass over, closed under predecessors
-  /// Optional: only this share of the windows, and each when its inputs are there.
-  const MarchShare* share = nullptr;
+  /// Optional: only these windows, and each when its inputs are there.
+  const PartialMarch* part = nullptr;
 };
 
 /// Visits all windows.  With several threads a oneTBB flow graph of two nodes, which windows pass
 /// as messages: one visits, the other keeps the wavefront and, whenever a thread is free, sends the
 /// ready window with the longest path to go.
 /// ENSURES: every visit happens after the visits of its window's predecessors.
-/// ERRORS: what visit, admit or visited throw, and the error of the share's arrivals; then no more
+/// ERRORS: what visit, admit or visited throw, and the error of the part's arrivals; then no more
 /// windows start, those that run end, and of several exceptions the one of the sequence's earliest
 /// window is thrown on.
 void march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options = {});

@@ -4,6 +4,7 @@
 #include "engine/cli/out_of_memory.h"
 #include "engine/cli/program.h"
 #include "engine/mpi/mpi_exchange.h"
+#include "engine/team/team_processes.h"
 
 namespace {
 
@@ -12,9 +13,15 @@ namespace {
   mw::cli::end_well_without_memory();
 }
 
+int run(int argc, char** argv, mw::engine::Exchange& exchange) {
+  mw::engine::Team team(exchange);
+  mw::engine::TeamProcesses processes(team);
+  return mw::cli::run_divided_program(argc, argv, processes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   mw::engine::MpiExchange exchange;
-  exchange.leave(mw::cli::run_shared_program(argc, argv, exchange));
+  exchange.leave(run(argc, argv, exchange));
 }

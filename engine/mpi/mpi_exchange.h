@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "engine/exchange/exchange.h"
+#include "engine/team/exchange.h"
 
 namespace mw::engine {
 

@@ -89,10 +89,10 @@ Json purposes_json(const std::array<std::uint64_t, engine::kPurposes>& peaks) {
   return out;
 }
 
-Json rank_json(const engine::RankFacts& rank) {
+Json rank_json(const engine::ProcessFacts& rank) {
   return {{"windows", rank.windows},
-          {"blocks_sent", rank.sent.blocks},
-          {"bytes_sent", rank.sent.bytes},
+          {"blocks_sent", rank.blocks_sent},
+          {"bytes_sent", rank.bytes_sent},
           {"peak_accounted_bytes", rank.peak_accounted_bytes},
           {"peak_bytes_by_purpose", purposes_json(rank.peak_bytes_by_purpose)}};
 }
@@ -109,8 +109,10 @@ Json engine_json(const FinishedRun& run) {
            {"blocks_spilled", store.blocks_spilled},
            {"bytes_written", store.bytes_written},
            {"bytes_read", store.bytes_read}};
-  for (const engine::RankFacts& rank : run.engine.ranks) out["ranks"].push_back(rank_json(rank));
-  if (!run.engine.ranks.empty()) out["written_by"] = run.engine.written_together ? "all" : "first";
+  for (const engine::ProcessFacts& rank : run.engine.processes)
+    out["ranks"].push_back(rank_json(rank));
+  if (!run.engine.processes.empty())
+    out["written_by"] = run.engine.written_together ? "all" : "first";
   if (run.engine.workers) out["codt"] = codt_json(run.engine);
   return out;
 }

@@ -137,11 +137,11 @@ JournalBlock BlockTable::record(std::uint64_t slot) {
 }
 
 std::uint64_t index_bytes(const RunLayout& layout) {
-  return shared_index_bytes(layout) +
+  return least_index_bytes(layout) +
          pages_of(layout, BlockTable::kPageBlocks) * sizeof(BlockTable::Page);
 }
 
-std::uint64_t shared_index_bytes(const RunLayout& layout) {
+std::uint64_t least_index_bytes(const RunLayout& layout) {
   return pages_of(layout, BlockTable::kPageBlocks) * sizeof(void*) + layout.windows() / 8;
 }
 

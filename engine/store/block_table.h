@@ -87,7 +87,7 @@ class BlockTable {
     std::array<StoredBlock, kPageBlocks> blocks;
   };
   friend std::uint64_t index_bytes(const RunLayout& layout);
-  friend std::uint64_t shared_index_bytes(const RunLayout& layout);
+  friend std::uint64_t least_index_bytes(const RunLayout& layout);
 
   /// REQUIRES: there is one.
   [[nodiscard]] StoredBlock& held(std::uint64_t slot);
@@ -112,7 +112,7 @@ class BlockTable {
 /// Memory that the tables of a run take, blocks apart, with all their pages.
 [[nodiscard]] std::uint64_t index_bytes(const RunLayout& layout);
 /// The same without any page, for a table that asks for room.
-[[nodiscard]] std::uint64_t shared_index_bytes(const RunLayout& layout);
+[[nodiscard]] std::uint64_t least_index_bytes(const RunLayout& layout);
 
 /// What identifies the bytes of a version: the checksum that its encoding holds.
 [[nodiscard]] std::uint32_t sum_of(std::span<const std::byte> encoded);

@@ -21,6 +21,14 @@ struct WindowKey {
   friend bool operator==(const WindowKey&, const WindowKey&) = default;
 };
 
+/// The version of a block that a window left.
+struct BlockVersion {
+  BlockKey block;
+  WindowKey from;
+
+  friend bool operator==(const BlockVersion&, const BlockVersion&) = default;
+};
+
 /// Windows that are finished, by number.  Thread safety: none.
 class DoneWindows {
  public:

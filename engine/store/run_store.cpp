@@ -73,7 +73,7 @@ RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* fil
       limits_(group),
       router_(router),
       index_room_(budget.reserve(
-          Purpose::kIndex, router == nullptr ? index_bytes(layout) : shared_index_bytes(layout))),
+          Purpose::kIndex, router == nullptr ? index_bytes(layout) : least_index_bytes(layout))),
       done_(layout.windows()),
       disk_(open_disk(files)),
       table_(layout, done_, disk_.get(), router == nullptr ? TableRoom() : room_for_index()) {

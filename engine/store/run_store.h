@@ -8,9 +8,8 @@
 #include <map>
 #include <mutex>
 
-#include "engine/store/block_route.h"
 #include "engine/store/block_table.h"
-#include "engine/store/saved_run.h"
+#include "engine/store/journal.h"
 #include "engine/window/block_store.h"
 
 namespace mw::engine {
@@ -21,7 +20,7 @@ struct GroupCommit {
   std::chrono::milliseconds age{10'000};  ///< at most so long after the group before
 };
 
-/// Where blocks go that this process does not need next, in a run of several.
+/// Where blocks go whose next user is not here.
 /// Thread safety: all members may be called from many threads.
 class BlockRouter {
  public:
@@ -55,7 +54,8 @@ struct StoreFacts {
 class RunStore {
  public:
   /// Goes on from what the journal among `files` holds.
-  /// router: null where all windows are visited here.  With one, work becomes durable by epochs.
+  /// router: null where all windows are visited here.  With one, work becomes
+  /// durable by checkpoint() alone.
   /// REQUIRES: layout, budget, files (null: none) and router outlive it.
   /// ERRORS: mw::Error(kResource) when the index alone exceeds the budget; kInput when the journal
   /// is damaged.
@@ -74,22 +74,22 @@ class RunStore {
 
   /// What a block of so many encoded bytes takes of the budget.
   [[nodiscard]] static std::uint64_t cost_of(std::uint64_t encoded_bytes);
-  /// Takes in a version that another process left: `bytes` as its pin had them.
+  /// Takes in a version that was left elsewhere: `bytes` as its pin had them.
   /// room: what was reserved for it, cost_of(bytes) of blocks, or nothing.
   /// ERRORS: mw::Error(kResource) when there is no room for it.
   void receive(const BlockVersion& version, std::vector<std::byte> bytes,
                std::uint64_t memory_bytes, MemoryBudget::Reservation room = {});
 
-  /// Epochs of a run of several processes: no window starts until go_on(), and once none runs and
-  /// nothing is on its way between the processes, each makes what it has durable as one record;
-  /// what older records point to is let go when all of them have.
+  /// With a router: no window starts from pause() until go_on().  Once none runs (is_quiet()) and no
+  /// block is on its way, checkpoint() makes what is here durable as one record; what older records
+  /// point to is let go by go_on().
   void pause();
   [[nodiscard]] bool is_quiet() const;
-  void save_epoch();
+  void checkpoint();
   void go_on();
-  /// Takes up what an earlier run's processes left: the blocks that are needed next here, and the
-  /// windows that are visited here.  REQUIRES: nothing was committed or received.
-  void take_up(const SavedRun& saved, const std::function<bool(const WindowKey&)>& is_mine);
+  /// Notes a window that an earlier run has done.  is_own: it is visited here, so the next record
+  /// names it.  REQUIRES: nothing was committed.
+  void note_done(const WindowKey& key, bool is_own);
 
   /// Makes durable what is finished.  ENSURES: nothing happens without a work folder, or after an
   /// error in an earlier group.
@@ -117,7 +117,7 @@ class RunStore {
 
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   void restore();
-  /// Of one process of several, whose table grows with its blocks.
+  /// For a table that grows with the blocks that are here.
   [[nodiscard]] TableRoom room_for_index();
   /// Where the block is: itself, or its parts.  REQUIRES: locked.
   void find(const BlockKey& key, std::vector<Source>& out) const;
@@ -154,7 +154,7 @@ class RunStore {
   std::map<std::uint64_t, MemoryBudget::Reservation> in_flight_;  ///< by window
   std::uint64_t visiting_ = 0;  ///< windows whose blocks have not all gone where they go
   bool paused_ = false;
-  std::vector<Extent> retired_;  ///< when this epoch is over
+  std::vector<Extent> retired_;  ///< until go_on()
   Group group_;
   Clock::time_point group_since_ = Clock::now();
 

@@ -64,8 +64,8 @@ bool RunStore::is_quiet() const {
   return visiting_ == 0;
 }
 
-/// Always a record, so that the number of records is that of epochs on every process.
-void RunStore::save_epoch() {
+/// Always writes a record, so that the number of records is that of checkpoints.
+void RunStore::checkpoint() {
   const std::lock_guard turn(saving_);
   const JournalRecord record = close_group(retired_);
   disk_->sync();
@@ -79,26 +79,13 @@ void RunStore::go_on() {
   paused_ = false;
 }
 
-void RunStore::take_up(const SavedRun& saved,
-                       const std::function<bool(const WindowKey&)>& is_mine) {
-  {
-    const std::lock_guard lock(mutex_);
-    for (std::uint32_t march = 0; march < layout_.marches(); ++march) {
-      for_each_index(layout_.grid(march).windows(), [&](Index3 w) {
-        const WindowKey key{march, w};
-        if (!saved.done().contains(layout_.window(key))) return;
-        done_.insert(layout_.window(key));
-        if (!is_mine(key)) return;
-        group_.windows.push_back(layout_.window(key));
-        ++resumed_windows_;
-      });
-    }
-  }
-  saved.for_each_block([&](const SavedBlock& block) {
-    if (!router_->stays(block.version)) return;
-    receive(block.version, saved.read(block), block.memory_bytes);
-    router_->committed({&block.version, 1});
-  });
+void RunStore::note_done(const WindowKey& key, bool is_own) {
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t window = layout_.window(key);
+  done_.insert(window);
+  if (!is_own) return;
+  group_.windows.push_back(window);
+  ++resumed_windows_;
 }
 
 bool RunStore::has_saved_work() const {

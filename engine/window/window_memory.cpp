@@ -111,7 +111,7 @@ std::uint64_t prepared_label_bytes(Index3 shape, bool sized) {
   return prepared_label_bytes(bricks_of(shape), shape, sized);
 }
 
-std::uint64_t prepared_label_bytes(const ShareBricks& share, Index3 shape, bool sized) {
+std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape, bool sized) {
   const auto held = static_cast<std::uint64_t>(share.original.voxels());
   const auto all = static_cast<std::uint64_t>(bricks_of(shape).original.voxels());
   return kBytesPerBrick * held + (kBytesPerCountedBrick + (sized ? kBytesPerSizedBrick : 0)) * all;

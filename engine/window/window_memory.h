@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "engine/labels/label_share.h"
+#include "engine/labels/label_need.h"
 #include "engine/settings/settings.h"
 #include "engine/window/block_store.h"
 #include "kernels/start/graded_start.h"
@@ -48,7 +48,7 @@ struct WindowNeeds {
 /// What PreparedLabels holds of a volume of this shape; sized: with limits on edges.
 [[nodiscard]] std::uint64_t prepared_label_bytes(Index3 shape, bool sized = false);
 /// The same of a share.
-[[nodiscard]] std::uint64_t prepared_label_bytes(const ShareBricks& share, Index3 shape,
+[[nodiscard]] std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape,
                                                  bool sized = false);
 /// What it takes beside that while it is made.
 [[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings);

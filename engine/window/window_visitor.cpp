@@ -36,7 +36,7 @@ std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings) {
 
 WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
                              const MeshSettings& settings, const WindowGrid& grid,
-                             BlockStore& store)
+                             BlockStore& store, VisitPlan plan)
     : labels_(labels),
       grid_(grid),
       store_(store),
@@ -56,9 +56,13 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
                 .moves_fitted = false,
                 .demands = {.sizes = labels.sizes()}},
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
+      triangulate_(std::move(plan.triangulate)),
       max_distance_(settings.max_distance),
       target_reduction_(settings.target_reduction) {
   simplify_.demands = optimise_.demands;
+  if (plan.seeding) simplify_.seeding = std::move(plan.seeding);
+  if (plan.last) polish(*plan.last);
+  if (triangulate_ && codt_.quality_floor == 0.0) optimise_.sweeps = 0;
 }
 
 void WindowVisitor::polish(const WindowOrder& order) {
@@ -69,11 +73,6 @@ void WindowVisitor::polish(const WindowOrder& order) {
   optimise_.moves_fitted = true;
   if (optimise_.surface) order_ = order;
   simplify_.demands.inner = optimise_.demands.inner = labels_.inner();
-}
-
-void WindowVisitor::reconnect_with(Triangulate triangulate) {
-  triangulate_ = std::move(triangulate);
-  if (codt_.quality_floor == 0.0) optimise_.sweeps = 0;
 }
 
 VisitStats& VisitStats::operator+=(const VisitStats& other) {

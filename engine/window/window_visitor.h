@@ -35,6 +35,21 @@ struct VisitStats {
   VisitStats& operator+=(const VisitStats& other);
 };
 
+/// What visits of one march do beyond what every march does.
+struct VisitPlan {
+  /// The last march: shape is all that is left to gain, so visits optimise longer and flip more,
+  /// smooth fitted interfaces, and add the inner vertices that labels demand.  The order of its
+  /// windows tells which vertices no later window will see: only these get more than one sweep.
+  std::optional<WindowOrder> last = std::nullopt;
+  /// Optional: adds constrained ODT with this triangulation, which many threads may ask at once.
+  /// Local optimisation stays around it when there is a quality floor: tets of a Delaunay
+  /// triangulation are often below one, so patches that are good already come through, and one
+  /// sweep more lifts what CODT left.  Without a floor CODT stands alone, as in the paper.
+  Triangulate triangulate = {};
+  /// Optional: lends threads to the filling of a window's queue.  The result is the same.
+  ParallelFor seeding = {};
+};
+
 /// Visits windows of one march.  Blocks that were never stored are made from voxels.
 /// settings: inner_quality none is kInnerQuality.
 /// REQUIRES: windows are visited in an order that respects predecessors; the references outlive it.
@@ -42,19 +57,7 @@ struct VisitStats {
 class WindowVisitor {
  public:
   WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
-                const WindowGrid& grid, BlockStore& store);
-
-  /// Optimises longer and flips more, smooths fitted interfaces, and adds the inner vertices that
-  /// labels demand: for the last march, when shape is all that is left to gain.
-  /// order: of its windows; the sweeps after the first are for what no later window will see.
-  void polish(const WindowOrder& order);
-  /// Adds constrained ODT with this triangulation, which many threads may ask at once.  Local
-  /// optimisation stays around it when there is a quality floor: tets of a Delaunay triangulation
-  /// are often below one, so patches that are good already come through, and one sweep more lifts
-  /// what CODT left.  Without a floor CODT stands alone, as in the paper.
-  void reconnect_with(Triangulate triangulate);
-  /// Lends threads to the filling of a window's queue; none by default.  The result is the same.
-  void seed_with(ParallelFor loop) { simplify_.seeding = std::move(loop); }
+                const WindowGrid& grid, BlockStore& store, VisitPlan plan = {});
 
   /// How far around a window's content a visit reads labels, in voxels; none: it does not.
   [[nodiscard]] std::optional<double> max_distance() const { return max_distance_; }
@@ -66,6 +69,7 @@ class WindowVisitor {
   VisitStats visit(Index3 window) const;
 
  private:
+  void polish(const WindowOrder& order);
   [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;

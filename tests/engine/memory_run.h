@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "engine/run.h"
+#include "engine/run/run.h"
 #include "io/mesh/mesh_data.h"
 #include "tests/oracle/small_volumes.h"
 

@@ -87,13 +87,15 @@ bool io_may(const Include& include) {
                          "png.h", "pugixml.hpp", "tiffio.h", "zlib.h", "zstd.h", "zstd_errors.h"});
 }
 
+/// The processes of one run; only engine/mpi/, whose program starts them, includes it.
+constexpr std::string_view kTeam = "engine/team/";
+
 /// A room of the engine, and what it sees of the others.
 struct Room {
   std::string_view folder;
   Names sees;
 };
 
-/// What lies in engine/ itself, on top, sees all rooms.
 const Room kRooms[] = {
     {"engine/system/", {}},
     {"engine/settings/", {}},
@@ -111,9 +113,16 @@ const Room kRooms[] = {
     {"engine/output/", {"engine/window/window_grid.h"}},
     {"engine/verify/", {"engine/labels/", "engine/system/"}},
     {"engine/report/",
-     {"engine/run.h", "engine/settings/", "engine/system/", "engine/verify/", "engine/version.h"}},
-    // Messages know no blocks; their traffic does.
-    {"engine/exchange/", {"engine/march/", "engine/store/", "engine/window/window_grid.h"}},
+     {"engine/run/run.h", "engine/settings/", "engine/system/", "engine/verify/",
+      "engine/version.h"}},
+    // The run puts the rooms together, and knows no more of other processes than an interface.
+    {"engine/run/",
+     {"engine/codt/", "engine/forecast/", "engine/labels/", "engine/march/", "engine/output/",
+      "engine/settings/", "engine/store/", "engine/system/", "engine/window/"}},
+    // What implements that interface for many processes; nobody but their program includes it.
+    {kTeam,
+     {"engine/forecast/", "engine/labels/", "engine/march/", "engine/output/", "engine/run/",
+      "engine/settings/", "engine/store/", "engine/window/"}},
     // The main job as program and library start it.
     {"engine/job/", {"engine/"}},
 };
@@ -133,6 +142,7 @@ bool engine_may(const std::string& file, const Include& include) {
            is_below(name, {"tbb/", "oneapi/", "boost/interprocess/"});
   }
   if (is_below(name, {"engine/cli/", "engine/api/"}) || is_concrete_io(name)) return false;
+  if (is_below(name, {kTeam}) && !is_below(file, {kTeam})) return false;
   if (is_below(name, {"engine/codt/worker/"}) && !is_below(file, {"engine/codt/worker/"}))
     return false;
   if (name.starts_with("engine/")) return room_may(file, name);
@@ -142,13 +152,12 @@ bool engine_may(const std::string& file, const Include& include) {
 bool mpi_may(const Include& include) {
   const std::string& name = include.name;
   if (!include.quoted) return is_standard(name) || is_posix(name) || name == "mpi.h";
-  return is_below(name,
-                  {"engine/cli/", "engine/exchange/exchange.h", "engine/mpi/", "kernels/core/"});
+  return is_below(name, {"engine/cli/", kTeam, "engine/mpi/", "kernels/core/"});
 }
 
 bool cli_may(const Include& include) {
   return !include.quoted || (is_below(include.name, {"kernels/", "io/", "engine/"}) &&
-                             !is_below(include.name, {"engine/api/"}));
+                             !is_below(include.name, {"engine/api/", kTeam}));
 }
 
 /// The library knows what opens any format, but none by itself.
@@ -157,7 +166,7 @@ bool api_may(const Include& include) {
   if (!include.quoted) return is_standard(name);
   if (is_any(name, {"io/volume/open_volume.h", "io/mesh/open_mesh.h"})) return true;
   return is_below(name, {"kernels/", "io/", "engine/"}) && !is_concrete_io(name) &&
-         !is_below(name, {"engine/cli/"});
+         !is_below(name, {"engine/cli/", kTeam});
 }
 
 bool may(const std::string& file, const Include& include) {

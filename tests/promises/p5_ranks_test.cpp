@@ -8,13 +8,14 @@
 #include <numeric>
 
 #include "engine/labels/prepared_labels.h"
-#include "engine/run.h"
-#include "engine/team_run.h"
+#include "engine/run/run.h"
+#include "engine/team/team_processes.h"
+#include "engine/team/team_run.h"
 #include "io/mesh/open_mesh.h"
-#include "tests/engine/exchange/crowd.h"
 #include "tests/engine/march/watched_march.h"
 #include "tests/engine/memory_run.h"
 #include "tests/engine/store/work_folder.h"
+#include "tests/engine/team/crowd.h"
 
 namespace mw::engine {
 namespace {
@@ -47,11 +48,12 @@ Shared run_shared(const Trial& trial, const ThreadExchangeOptions& options,
                   const RunHooks& hooks = {}) {
   Shared out;
   for_ranks(options, [&](Team& team) {
+    TeamProcesses processes(team);
     const test::MemoryVolume volume(trial.volume, trial.frame);
     const io::LabelTable table = io::collect_labels(volume);
     test::MemorySink sink;
     RunHooks own = hooks;
-    own.team = &team;
+    own.processes = &processes;
     const RunReport report = mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, own);
     if (!team.is_first()) return;
     out = {sink.mesh(), report};
@@ -101,13 +103,14 @@ RunReport write_shared(const Trial& trial, const ThreadExchangeOptions& options,
                        const std::filesystem::path& path, const RunHooks& hooks = {}) {
   RunReport out;
   for_ranks(options, [&](Team& team) {
+    TeamProcesses processes(team);
     const test::MemoryVolume volume(trial.volume, trial.frame);
     const io::LabelTable table = io::collect_labels(volume);
     test::MemorySink unused;
     const auto mesh = io::open_shared_mesh(path);
     if (team.is_first()) mesh->create();
     RunHooks own = hooks;
-    own.team = &team;
+    own.processes = &processes;
     own.together = mesh.get();
     const RunReport report =
         mesh_volume(io::DenseVolume(volume, table), trial.settings, unused, own);
@@ -185,7 +188,7 @@ TEST_F(WrittenTogether, FinalBlocksStay) {
     constexpr int kRanks = 4;
     const RunReport report = write_shared(trial, {.ranks = kRanks}, folder() / "shared.vtkhdf");
     std::vector<std::uint64_t> sent;
-    for (const RankFacts& rank : report.ranks) sent.push_back(rank.sent.blocks);
+    for (const ProcessFacts& rank : report.processes) sent.push_back(rank.blocks_sent);
     EXPECT_EQ(sent, predicted_blocks(trial, kRanks, FinalBlocksGo::kToOwners));
     const auto to_first = predicted_blocks(trial, kRanks, FinalBlocksGo::kToFirst);
     EXPECT_LT(std::accumulate(sent.begin(), sent.end(), std::uint64_t{0}),
@@ -245,6 +248,7 @@ int ranks_told(const Trial& trial, int failing, FailingMesh::When when,
   const ThreadExchangeOptions options{
       .ranks = 3, .seed = 10, .max_delay = std::chrono::microseconds(500)};
   for_ranks(options, [&](Team& team) {
+    TeamProcesses processes(team);
     const test::MemoryVolume volume(trial.volume, trial.frame);
     const io::LabelTable table = io::collect_labels(volume);
     test::MemorySink unused;
@@ -253,7 +257,7 @@ int ranks_told(const Trial& trial, int failing, FailingMesh::When when,
     if (team.is_first()) mesh.create();
     try {
       (void)mesh_volume(io::DenseVolume(volume, table), trial.settings, unused,
-                        {.team = &team, .together = &mesh});
+                        {.processes = &processes, .together = &mesh});
     } catch (const Error& error) {
       ++told;
       // To a rank that is told late the file may be gone already; rank 0, who speaks, knows why.
@@ -301,8 +305,8 @@ TEST(Promise5SameBytes, ProcessesShareTheWorkAndSendWhatIsPredicted) {
     const std::vector<std::uint64_t> predicted = predicted_blocks(trial, kRanks);
     std::vector<std::uint64_t> sent;
     std::uint64_t windows = 0;
-    for (const RankFacts& rank : shared.ranks) {
-      sent.push_back(rank.sent.blocks);
+    for (const ProcessFacts& rank : shared.processes) {
+      sent.push_back(rank.blocks_sent);
       windows += rank.windows;
     }
     EXPECT_EQ(sent, predicted);
@@ -319,10 +323,11 @@ TEST(Promise5SameBytes, AFailedProcessEndsTheRun) {
     std::atomic<int> told = 0;
     for_ranks({.ranks = 3, .seed = 9, .max_delay = std::chrono::microseconds(500)},
               [&](Team& team) {
+                TeamProcesses processes(team);
                 const test::MemoryVolume volume(trial.volume, trial.frame);
                 const io::LabelTable table = io::collect_labels(volume);
                 test::MemorySink sink;
-                RunHooks hooks{.threads = 2, .team = &team};
+                RunHooks hooks{.threads = 2, .processes = &processes};
                 std::atomic<int> visits = 0;
                 if (team.rank() == failing) {
                   hooks.before_visit = [&](Index3) {
@@ -346,13 +351,14 @@ TEST(Promise5SameBytes, ProcessesThatWereToldOtherThingsRefuse) {
   std::mt19937 random(314);
   const Trial trial = trial_of(random, 0, {8, 8, 8});
   for_ranks({.ranks = 3}, [&](Team& team) {
+    TeamProcesses processes(team);
     const test::MemoryVolume volume(trial.volume, trial.frame);
     const io::LabelTable table = io::collect_labels(volume);
     test::MemorySink sink;
     MeshSettings settings = trial.settings;
     if (team.rank() == 2) settings.quality_floor += 0.01;
     try {
-      (void)mesh_volume(io::DenseVolume(volume, table), settings, sink, {.team = &team});
+      (void)mesh_volume(io::DenseVolume(volume, table), settings, sink, {.processes = &processes});
       ADD_FAILURE() << "the settings differ";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kUsage);

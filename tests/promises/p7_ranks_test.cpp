@@ -7,11 +7,12 @@
 
 #include <atomic>
 
-#include "engine/run.h"
+#include "engine/run/run.h"
+#include "engine/team/team_processes.h"
 #include "io/mesh/open_mesh.h"
-#include "tests/engine/exchange/crowd.h"
 #include "tests/engine/memory_run.h"
 #include "tests/engine/store/work_folder.h"
+#include "tests/engine/team/crowd.h"
 
 namespace mw::engine {
 namespace {
@@ -40,11 +41,12 @@ class SharedResumeTest : public test::FolderTest {
     std::atomic<std::uint64_t> visits = 0;
     for_ranks({.ranks = how.ranks, .seed = ++seed_, .max_delay = std::chrono::microseconds(300)},
               [&](Team& team) {
+                TeamProcesses processes(team);
                 const test::MemoryVolume volume(trial.volume, trial.frame);
                 test::MemorySink sink;
                 const auto shared = io::open_shared_mesh(folder() / "m.vtkhdf");
                 if (how.together && team.is_first()) shared->create();
-                RunHooks hooks{.threads = how.threads, .team = &team};
+                RunHooks hooks{.threads = how.threads, .processes = &processes};
                 if (how.together || !team.is_first()) hooks.together = shared.get();
                 hooks.store.workdir = folder() / "work";
                 hooks.store.resume = true;
@@ -106,9 +108,10 @@ TEST_F(SharedResumeTest, RefusesTheWorkOfOtherSettings) {
   ASSERT_TRUE(std::filesystem::exists(folder() / "work" / "epochs"));
   trial.settings.quality_floor = 0.2;
   for_ranks({.ranks = 2}, [&](Team& team) {
+    TeamProcesses processes(team);
     const test::MemoryVolume volume(trial.volume, trial.frame);
     test::MemorySink sink;
-    RunHooks hooks{.team = &team};
+    RunHooks hooks{.processes = &processes};
     hooks.store.workdir = folder() / "work";
     hooks.store.resume = true;
     try {

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "bench/scaling/layouts.h"
-#include "engine/exchange/block_traffic.h"
 #include "engine/march/list_schedule.h"
+#include "engine/team/block_traffic.h"
 
 namespace mw::bench {
 namespace {

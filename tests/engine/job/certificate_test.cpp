@@ -35,7 +35,9 @@ class CertifierTest : public testing::Test {
   /// The mesh through a certificate; returns what that says against it.
   std::string objection(const audit::test::SmallMesh& mesh) {
     const ::mw::test::TempFolder folder;
-    const engine::MeshJob job{.threads = 2, .memory = kGibibyte, .folder = folder.path()};
+    engine::MeshJob job{.folder = folder.path()};
+    job.run.threads = 2;
+    job.run.store.memory = kGibibyte;
     const MemoryVolume volume(volume_, {});
     const io::LabelTable table = io::collect_labels(volume);
     const io::DenseVolume labels(volume, table);

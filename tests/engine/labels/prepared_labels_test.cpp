@@ -153,11 +153,11 @@ TEST(PreparedLabels, OfAShareTellWhatThoseOfTheWholeTell) {
     const test::CountedVolume counted(memory);
     const io::LabelTable table = io::collect_labels(memory);
     const PreparedLabels whole(io::DenseVolume(memory, table), settings);
-    const LabelShare share{random_part(random, volume.shape), random_part(random, volume.shape)};
+    const LabelNeed share{random_part(random, volume.shape), random_part(random, volume.shape)};
     const PreparedLabels labels(io::DenseVolume(counted, table), settings, share, 1 + i % 3);
     const Box3 all{{0, 0, 0}, volume.shape};
     SCOPED_TRACE(volume.text() + " share " + std::to_string(i));
-    const ShareBricks bricks = bricks_of(share, volume.shape, settings);
+    const NeededBricks bricks = bricks_of(share, volume.shape, settings);
     const std::int64_t needed = voxels_of(bricks.original, volume.shape);
     EXPECT_EQ(counted.voxels(), needed);
     read += needed;

@@ -72,12 +72,13 @@ class HeldRun {
   double march(std::uint32_t number, const PreparedLabels& labels) {
     const WindowGrid& grid = layout_.grid(number);
     BlockStore& blocks = store_.march(number);
-    WindowVisitor visitor(labels, Metric({1, 1, 1}), settings_, grid, blocks);
-    visitor.seed_with(tbb_for);
+    const WindowOrder order(grid, settings_.order);
+    VisitPlan plan{.seeding = tbb_for};
+    if (number + 1 == layout_.marches()) plan.last = order;
+    const WindowVisitor visitor(labels, Metric({1, 1, 1}), settings_, grid, blocks,
+                                std::move(plan));
     const WindowNeeds needs{.start_size = [&](Index3 b) { return visitor.start_size(b); },
                             .max_distance = settings_.max_distance};
-    const WindowOrder order(grid, settings_.order);
-    if (number + 1 == layout_.marches()) visitor.polish(order);
     double worst = 0.0;
     for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
       const Index3 window = order.window(rank);

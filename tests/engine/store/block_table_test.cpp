@@ -134,7 +134,7 @@ TEST_F(BlockTableTest, HasThePagesOfItsBlocks) {
     EXPECT_EQ(budget.used(Purpose::kIndex), pages.size() * page_bytes);
   }
   EXPECT_GE(index_bytes(layout), layout.slots() / kPageBlocks * page_bytes);
-  EXPECT_LT(shared_index_bytes(layout), index_bytes(layout) / 100);
+  EXPECT_LT(least_index_bytes(layout), index_bytes(layout) / 100);
 }
 
 TEST_F(BlockTableTest, StaysAsItIsWithoutRoomForAPage) {

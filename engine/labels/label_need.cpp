@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// From what visits ask for back to what is read, a halo a step.
+#include "engine/labels/label_need.h"
+
+#include <algorithm>
+
+#include "engine/labels/tile_bricks.h"
+#include "kernels/start/coarsen.h"
+#include "kernels/start/graded_start.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
+/// A start mesh asks for the leaves a voxel around its block, in pairs of voxels.
+constexpr std::int64_t kLeafHalo = 2;
+// Each of the steps below grows by whole bricks, one of them.
+static_assert(kCoarsenHalo <= kBrick && LevelMap::kHalo <= kBrick && LevelMap::kCube == kBrick);
+
+bool is_empty(const Box3& box) {
+  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
+}
+
+Box3 bricks_around(const Box3& voxels, std::int64_t halo, Index3 volume) {
+  if (is_empty(voxels)) return {};
+  return bricks_over(intersection(grown(voxels, halo), {{0, 0, 0}, volume}));
+}
+
+Box3 wider(const Box3& bricks, const Box3& all) {
+  return is_empty(bricks) ? Box3{} : intersection(grown(bricks, 1), all);
+}
+
+}  // namespace
+
+bool is_coarsened(const MeshSettings& settings) {
+  // Coarsening keeps the topology of labels, not that of interfaces.
+  return settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels;
+}
+
+NeededBricks bricks_of(Index3 volume) {
+  const Box3 all = bricks_over({{0, 0, 0}, volume});
+  return {all, all, all};
+}
+
+NeededBricks bricks_of(const LabelNeed& need, Index3 volume, const MeshSettings& settings) {
+  const NeededBricks all = bricks_of(volume);
+  if (!settings.sizes.labels.empty()) return all;
+  NeededBricks out;
+  out.shapes = bricks_around(need.starts, kStartHalo, volume);
+  if (settings.start != StartMesh::kDense) {
+    // A cell of 16 voxels is allowed by its neighbours of 8 voxels, these by the labels around.
+    out.levels = wider(bricks_around(need.starts, kLeafHalo, volume), all.levels);
+    out.shapes = hull(out.shapes, wider(out.levels, all.shapes));
+  }
+  out.original = is_coarsened(settings) ? wider(out.shapes, all.original) : out.shapes;
+  out.original = hull(out.original, bricks_around(need.near, 0, volume));
+  return out;
+}
+
+Box3 hull(const Box3& a, const Box3& b) {
+  if (is_empty(a)) return b;
+  if (is_empty(b)) return a;
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/marches.h"
+
+#include <atomic>
+
+#include "engine/march/timed_visit.h"
+#include "engine/system/resident_memory.h"
+#include "engine/window/window_memory.h"
+
+namespace mw::engine {
+namespace {
+
+double seconds_between(Visited::Time a, Visited::Time b) {
+  return std::chrono::duration<double>(b - a).count();
+}
+
+}  // namespace
+
+std::uint64_t Marches::own_windows() const {
+  std::uint64_t count = 0;
+  for (std::uint32_t march = 0; march < run_.layout.marches(); ++march) {
+    for_each_index(run_.layout.grid(march).windows(), [&](Index3 w) {
+      if (run_.part->visits({march, w})) ++count;
+    });
+  }
+  return count;
+}
+
+AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,
+                               const WindowVisitor& visitor) const {
+  const std::uint64_t budget = run_.hooks.store.memory;
+  const bool is_ample = budget_is_ample(budget, order.grid(), run_.hooks.threads);
+  if (!is_ample && run_.hooks.owns_process) return_large_pieces_at_once();
+  const WindowNeeds needs{.start_size =
+                              [&order, &visitor, is_ample](Index3 block) {
+                                return is_ample ? max_start_size(order.grid(), block)
+                                                : visitor.start_size(block);
+                              },
+                          .max_distance = visitor.max_distance()};
+  return [&order, &store, needs, is_ample, budget](Index3 window) -> Admission {
+    const std::uint64_t bytes = window_bytes(order.grid(), window, store, needs);
+    if (!is_ample && bytes < budget) return_free_memory_above(budget - bytes);
+    if (!store.admit(window, bytes)) return nullptr;
+    return std::make_shared<Index3>(window);
+  };
+}
+
+void Marches::visit_all(std::uint32_t march_number, const WindowVisitor& visitor) {
+  BlockStore& store = run_.store.march(march_number);
+  const WindowOrder order = run_.layout.order(march_number);
+  const IsFinished is_done = [&](Index3 w) { return store.is_done(w); };
+  forecast_.begin_march([&](Index3 w) {
+    return !run_.part->visits({march_number, w}) || is_done(w);
+  });
+  const AdmitWindow admit = admission(order, store, visitor);
+  // Once a window has failed nobody will ask for the results of others.
+  std::atomic<bool> failed = false;
+  const VisitWindow visit = [&](Index3 window) {
+    if (failed) return;
+    try {
+      if (run_.hooks.before_visit) run_.hooks.before_visit(window);
+      add(visitor.visit(window));
+    } catch (...) {
+      failed = true;
+      throw;
+    }
+  };
+  const OnVisited tell = [&](const Visited& v) { note(march_number, v); };
+  if (run_.hooks.pick) {
+    const VisitWindow visit_and_tell = [&](Index3 w) {
+      const Admission admission = admit(w);
+      tell(timed_visit(visit, w, 0));
+    };
+    march_by_choice(order, visit_and_tell, run_.hooks.pick);
+    return;
+  }
+  MarchOptions options{
+      .threads = run_.hooks.threads, .admit = admit, .visited = tell, .finished_before = is_done};
+  const std::optional<PartialMarch> part = run_.part->part_of_march(march_number);
+  if (part) options.part = &*part;
+  march(order, visit, options);
+}
+
+void Marches::add(const VisitStats& visit) {
+  const std::lock_guard lock(mutex_);
+  stats_ += visit;
+}
+
+void Marches::note(std::uint32_t march_number, const Visited& v) {
+  if (run_.hooks.trace) {
+    run_.hooks.trace({.march = static_cast<int>(march_number),
+                      .window = v.window,
+                      .start_seconds = seconds_between(begin_, v.start),
+                      .end_seconds = seconds_between(begin_, v.end),
+                      .cpu_seconds = v.cpu_seconds,
+                      .slot = v.slot});
+  }
+  ++done_;
+  if (!run_.hooks.progress) return;
+  if (!total_) total_ = own_windows();
+  forecast_.visited(v.window);
+  run_.hooks.progress({.done = done_, .total = *total_, .seconds_left = forecast_.seconds_left()});
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The marches of a run: who is told of what, and what all visits add up to.
+#pragma once
+
+#include <mutex>
+
+#include "engine/forecast/run_forecast.h"
+#include "engine/run/run_context.h"
+
+namespace mw::engine {
+
+/// Marches one after the other.  The references outlive it.
+class Marches {
+ public:
+  /// REQUIRES: RunPart::begin_marches().
+  Marches(RunContext& run, RunForecast& forecast)
+      : run_(run), forecast_(forecast), done_(run.store.facts().resumed_windows) {}
+
+  /// Visits all windows of the march that are visited here, and that no earlier run has done.
+  /// ERRORS: those of visits, the store, the hooks and the part.
+  void visit_all(std::uint32_t march, const WindowVisitor& visitor);
+
+  [[nodiscard]] const VisitStats& stats() const { return stats_; }
+
+ private:
+  [[nodiscard]] std::uint64_t own_windows() const;
+  [[nodiscard]] AdmitWindow admission(const WindowOrder& order, BlockStore& store,
+                                      const WindowVisitor& visitor) const;
+  void add(const VisitStats& visit);
+  void note(std::uint32_t march, const Visited& v);
+
+  RunContext& run_;
+  RunForecast& forecast_;
+  std::optional<std::uint64_t> total_;  ///< own windows of all marches
+  std::uint64_t done_;
+  Visited::Time begin_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+  VisitStats stats_;
+};
+
+}  // namespace mw::engine

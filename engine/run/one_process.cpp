@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A run of one process: all windows, labels and blocks are here, and nobody has to be told.
+#include "engine/labels/label_scan.h"
+#include "engine/run/label_readers.h"
+#include "engine/run/processes.h"
+#include "engine/run/run.h"
+#include "engine/store/workdir.h"
+
+namespace mw::engine {
+namespace {
+
+class WholeRun : public RunPart {
+ public:
+  WholeRun(const StoreOptions& options, const std::string& identity) : folder_(options.workdir) {
+    if (folder_.empty()) return;
+    workdir_ = std::make_unique<Workdir>(folder_, options.resume, identity);
+  }
+
+  [[nodiscard]] WorkFiles* work_files() override { return workdir_.get(); }
+  [[nodiscard]] std::filesystem::path work_folder() const override { return folder_; }
+  [[nodiscard]] BlockRouter* router() override { return nullptr; }
+  [[nodiscard]] std::shared_ptr<void> attach(RunStore& /*store*/) override { return nullptr; }
+  [[nodiscard]] LabelPlan plan_labels(const io::DenseVolume& /*volume*/,
+                                      const MeshSettings& /*settings*/, const RunHooks& /*hooks*/,
+                                      RunStore& /*store*/) override {
+    return {};
+  }
+  void begin_marches(RunStore& /*store*/) override {}
+  [[nodiscard]] bool visits(const WindowKey& /*key*/) const override { return true; }
+  [[nodiscard]] std::optional<PartialMarch> part_of_march(std::uint32_t /*march*/) override {
+    return std::nullopt;
+  }
+  [[nodiscard]] VisitStats end_marches(const VisitStats& own) override { return own; }
+  [[nodiscard]] bool await_output() override { return true; }
+  [[nodiscard]] bool writes_with_others() const override { return false; }
+  [[nodiscard]] FinishedMesh write(FinalBlocks& blocks, const WindowGrid& grid,
+                                   const io::DenseVolume& volume, io::MeshSink& sink,
+                                   const OutputOptions& options) override {
+    return finish(blocks, grid, volume, sink, options);
+  }
+  [[nodiscard]] std::vector<ProcessFacts> end(const ProcessFacts& /*own*/) override {
+    if (workdir_ != nullptr) workdir_->discard();
+    return {};
+  }
+  [[nodiscard]] std::exception_ptr fail(const std::exception_ptr& error) override { return error; }
+  [[nodiscard]] bool keep_work(const RunStore& store) override {
+    if (workdir_ == nullptr || !store.has_saved_work()) return false;
+    workdir_->keep();
+    return true;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::unique_ptr<Workdir> workdir_;
+};
+
+class OneProcess : public Processes {
+ public:
+  [[nodiscard]] int count() const override { return 1; }
+  [[nodiscard]] int count_here() const override { return 1; }
+  [[nodiscard]] bool speaks() const override { return true; }
+  [[nodiscard]] io::LabelTable collect_labels(FingerprintVolume& volume, int threads) override {
+    return engine::collect_labels(volume, threads);
+  }
+  [[nodiscard]] std::uint64_t least_bytes(const RunLayout& layout, const io::DenseVolume& volume,
+                                          const MeshSettings& settings) const override {
+    return index_bytes(layout) + prepared_bytes(volume, settings, nullptr);
+  }
+  [[nodiscard]] std::unique_ptr<RunPart> take_part(const RunLayout& /*layout*/,
+                                                   const RunHooks& hooks,
+                                                   const std::string& identity) override {
+    return std::make_unique<WholeRun>(hooks.store, identity);
+  }
+  void fail(const std::exception_ptr& /*error*/) override {}
+};
+
+}  // namespace
+
+Processes& one_process() {
+  static OneProcess process;
+  return process;
+}
+
+}  // namespace mw::engine

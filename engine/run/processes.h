@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The processes that a run is divided among, as one of them sees them: one, or many (engine/team).
+#pragma once
+
+#include <array>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/labels/fingerprint.h"
+#include "engine/labels/label_counts.h"
+#include "engine/labels/label_need.h"
+#include "engine/march/arrival_front.h"
+#include "engine/output/finish.h"
+#include "engine/store/memory_budget.h"
+#include "engine/store/run_store.h"
+#include "engine/window/window_visitor.h"
+
+namespace mw::engine {
+
+struct RunHooks;
+
+/// What one process did and held.
+struct ProcessFacts {
+  std::uint64_t windows = 0;
+  std::uint64_t blocks_sent = 0;
+  std::uint64_t bytes_sent = 0;
+  std::uint64_t peak_accounted_bytes = 0;
+  std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
+};
+
+/// The labels that the windows of this process need.
+struct LabelPlan {
+  std::optional<LabelNeed> need;      ///< none: all of them
+  std::optional<LabelCounts> counts;  ///< of the whole volume; none: known once all are prepared
+};
+
+/// Thrown by a run that was asked to save its work and to stop (RunHooks::stop_after_save).
+struct StoppedAfterSave {};
+
+/// What one process does in a run.  The members are called in the order in which they stand.
+/// ERRORS (of all but fail() and keep_work()): those of the other processes.
+class RunPart {
+ public:
+  virtual ~RunPart() = default;
+
+  /// Null: there is no work folder.
+  [[nodiscard]] virtual WorkFiles* work_files() = 0;
+  /// Of temporary files; empty: there is none.
+  [[nodiscard]] virtual std::filesystem::path work_folder() const = 0;
+  /// Null: all blocks stay here.
+  [[nodiscard]] virtual BlockRouter* router() = 0;
+  /// Blocks come into the store from now on, until the result is destroyed.
+  [[nodiscard]] virtual std::shared_ptr<void> attach(RunStore& store) = 0;
+
+  /// Settles which labels are prepared here.  Memory: as preparation (LabelReaders).
+  [[nodiscard]] virtual LabelPlan plan_labels(const io::DenseVolume& volume,
+                                              const MeshSettings& settings, const RunHooks& hooks,
+                                              RunStore& store) = 0;
+  /// The labels are prepared.  ENSURES: what an earlier run left is in the store.
+  virtual void begin_marches(RunStore& store) = 0;
+  /// Whether the window is visited here.
+  [[nodiscard]] virtual bool visits(const WindowKey& key) const = 0;
+  /// None: all windows of the march are visited here.
+  [[nodiscard]] virtual std::optional<PartialMarch> part_of_march(std::uint32_t march) = 0;
+  /// All own windows are done.  Returns what the visits of all processes add up to.
+  [[nodiscard]] virtual VisitStats end_marches(const VisitStats& own) = 0;
+
+  /// Whether this process writes the mesh or a part of it; its final blocks are in the store then.
+  [[nodiscard]] virtual bool await_output() = 0;
+  /// Whether other processes write parts of it, too.
+  [[nodiscard]] virtual bool writes_with_others() const = 0;
+  [[nodiscard]] virtual FinishedMesh write(FinalBlocks& blocks, const WindowGrid& grid,
+                                           const io::DenseVolume& volume, io::MeshSink& sink,
+                                           const OutputOptions& options) = 0;
+  /// The output is complete: the work folder is not needed any more.  Returns what each process
+  /// did; empty: there is only one.
+  [[nodiscard]] virtual std::vector<ProcessFacts> end(const ProcessFacts& own) = 0;
+
+  /// This process cannot go on.  Returns the error that the run ends with.
+  /// ENSURES: nothing but what still comes in uses the store.
+  [[nodiscard]] virtual std::exception_ptr fail(const std::exception_ptr& error) = 0;
+  /// After fail(): keeps the work folder if work is saved in it.  Returns whether another run can
+  /// go on from there.
+  [[nodiscard]] virtual bool keep_work(const RunStore& store) = 0;
+};
+
+/// Thread safety: count(), count_here(), speaks() and fail() from any thread.
+class Processes {
+ public:
+  virtual ~Processes() = default;
+
+  [[nodiscard]] virtual int count() const = 0;
+  /// Those on this machine, which share its memory and its cores.
+  [[nodiscard]] virtual int count_here() const = 0;
+  /// Exactly one of them speaks to the user, and writes what one process writes.
+  [[nodiscard]] virtual bool speaks() const = 0;
+
+  /// The labels of the whole volume, which then has the fingerprint of all of it.
+  [[nodiscard]] virtual io::LabelTable collect_labels(FingerprintVolume& volume, int threads) = 0;
+  /// What the table of blocks and the prepared labels take at least, as far as it is known before
+  /// any label is read.
+  [[nodiscard]] virtual std::uint64_t least_bytes(const RunLayout& layout,
+                                                  const io::DenseVolume& volume,
+                                                  const MeshSettings& settings) const = 0;
+  /// Begins a run.  identity: lines "name = value" of what its result depends on.  All arguments
+  /// outlive the result.  ERRORS: those of Workdir; mw::Error(kUsage) when processes differ.
+  [[nodiscard]] virtual std::unique_ptr<RunPart> take_part(const RunLayout& layout,
+                                                           const RunHooks& hooks,
+                                                           const std::string& identity) = 0;
+  /// Tells the others that this process cannot go on.
+  virtual void fail(const std::exception_ptr& error) = 0;
+};
+
+/// A run of one process.
+[[nodiscard]] Processes& one_process();
+
+}  // namespace mw::engine

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The main job: prepare labels, march over the volume, write the mesh.
+#include "engine/run/run.h"
+
+#include <algorithm>
+
+#include "engine/forecast/run_forecast.h"
+#include "engine/labels/prepared_labels.h"
+#include "engine/run/label_readers.h"
+#include "engine/run/marches.h"
+#include "engine/run/run_context.h"
+#include "engine/store/damaged_work.h"
+#include "engine/system/resident_memory.h"
+#include "engine/system/stopwatch.h"
+#include "engine/system/tbb_for.h"
+#include "engine/window/inner_quality.h"
+#include "engine/window/window_memory.h"
+#include "io/file/errors.h"
+
+namespace mw::engine {
+namespace {
+
+/// The blocks of the last march; a run may be stopped while they are read.
+class FinishedBlocks : public FinalBlocks {
+ public:
+  FinishedBlocks(const BlockStore& store, const RunContext& run, RunForecast& forecast)
+      : store_(store),
+        progress_(run.hooks.progress),
+        forecast_(forecast),
+        windows_(run.layout.windows()) {}
+
+  [[nodiscard]] BlockMesh load(Index3 block) override {
+    if (progress_) {
+      progress_({.done = windows_, .total = windows_, .seconds_left = forecast_.seconds_left()});
+      forecast_.reading(block);
+    }
+    return store_.load(block);
+  }
+
+ private:
+  const BlockStore& store_;
+  const OnProgress& progress_;
+  RunForecast& forecast_;
+  std::uint64_t windows_;
+};
+
+/// The labels that windows are made from, and what is counted in the whole volume.
+struct ReadyLabels {
+  MemoryBudget::Reservation room;
+  LabelPlan plan;
+  std::optional<PreparedLabels> prepared;
+
+  [[nodiscard]] const LabelCounts& counts() const {
+    return plan.counts ? *plan.counts : prepared->counts();
+  }
+};
+
+void prepare(RunContext& run, ReadyLabels& out) {
+  Stopwatch watch;
+  const io::DenseVolume& labels = run.lattice.labels();
+  out.plan = run.part->plan_labels(labels, run.settings, run.hooks, run.store);
+  const LabelNeed* const need = out.plan.need ? &*out.plan.need : nullptr;
+  out.room = run.store.reserve(Purpose::kLabels, prepared_bytes(labels, run.settings, need));
+  const LabelReaders readers(labels, run.settings, run.hooks, run.store);
+  std::filesystem::path folder = run.part->work_folder();
+  if (folder.empty()) folder = io::scratch_folder();
+  if (need == nullptr) {
+    out.prepared.emplace(labels, run.settings, readers.threads, folder);
+  } else {
+    out.prepared.emplace(labels, run.settings, *need, readers.threads, folder);
+  }
+  watch.lap(run.report.prepare_seconds);
+}
+
+VisitPlan plan_of(RunContext& run, std::uint32_t march) {
+  VisitPlan plan;
+  if (run.hooks.threads > 1) plan.seeding = tbb_for;
+  if (march + 1 < run.layout.marches()) return plan;
+  plan.last = run.layout.order(march);
+  if (!run.workers) return plan;
+  plan.triangulate = [&workers = *run.workers](const Plc& plc) { return workers.triangulate(plc); };
+  return plan;
+}
+
+/// Visits all windows.  Returns how many were visited here.
+std::uint64_t march(RunContext& run, const ReadyLabels& labels, RunForecast& forecast) {
+  MeshSettings settings = run.settings;
+  if (!settings.inner_quality) settings.inner_quality = inner_quality_for(labels.counts().faces);
+  run.report.inner_quality = *settings.inner_quality;
+  const Metric metric(run.lattice.info().space.spacing);
+  run.part->begin_marches(run.store);
+  Marches marches(run, forecast);
+  for (std::uint32_t i = 0; i < run.layout.marches(); ++i) {
+    const WindowVisitor visitor(*labels.prepared, metric, settings, run.layout.grid(i),
+                                run.store.march(i), plan_of(run, i));
+    marches.visit_all(i, visitor);
+  }
+  if (run.workers) run.report.workers = run.workers->facts();
+  static_cast<VisitStats&>(run.report) = run.part->end_marches(marches.stats());
+  return marches.stats().windows;
+}
+
+/// What the output takes beside the rows that it remembers; blocks are spilled to make room.
+MemoryBudget::Reservation reserve_output(RunContext& run, const BlockStore& blocks,
+                                         const WindowGrid& grid) {
+  std::uint64_t largest = 0;
+  for_each_index(grid.blocks(),
+                 [&](Index3 b) { largest = std::max(largest, blocks.loaded_bytes(b)); });
+  return run.store.reserve(Purpose::kOutput,
+                           run.output_buffer_bytes() + written_block_bytes(largest));
+}
+
+void report_mesh(RunContext& run, FinishedMesh& finished, const LabelCounts& labels) {
+  RunReport& report = run.report;
+  report.vertices = finished.vertices;
+  report.tets = finished.tets;
+  report.quality = finished.quality;
+  report.shape = finished.shape;
+  if (finished.label_volumes6.empty()) return;
+  report.label_volumes6 = std::move(finished.label_volumes6);
+  report.longest_edges = std::move(finished.longest_edges);
+  report.label_voxels = labels.voxels;
+  const LabelSelection kept(run.hooks.output.wanted, run.lattice.volume().table());
+  for (Label label = 0; label < report.label_voxels.size(); ++label) {
+    if (!kept.keeps(label)) report.label_voxels[label] = 0;
+  }
+}
+
+/// Writes what the last march left.
+void write(RunContext& run, const LabelCounts& labels, RunForecast& forecast) {
+  run.report.written_together = run.part->writes_with_others();
+  if (!run.part->await_output()) return;
+  Stopwatch watch;
+  const std::uint32_t last = run.layout.marches() - 1;
+  const WindowGrid& grid = run.layout.grid(last);
+  const BlockStore& stored = run.store.march(last);
+  const auto room = reserve_output(run, stored, grid);
+  return_free_memory_above(0);
+  MemoryBudget::Reservation rows;
+  OutputOptions options = run.hooks.output;
+  options.hold = [&](std::uint64_t bytes) {
+    rows = {};
+    rows = run.store.reserve(Purpose::kOutput, bytes);
+  };
+  forecast.begin_output();
+  FinishedBlocks blocks(stored, run, forecast);
+  FinishedMesh finished = run.part->write(blocks, grid, run.lattice.volume(), run.sink, options);
+  watch.lap(run.report.output_seconds);
+  report_mesh(run, finished, labels);
+}
+
+template <std::size_t N>
+void copy_peaks(const MemoryBudget& budget, std::array<std::uint64_t, N>& out) {
+  for (std::size_t i = 0; i < N; ++i) out[i] = budget.peak(static_cast<Purpose>(i));
+}
+
+ProcessFacts facts_of(const MemoryBudget& budget, std::uint64_t windows) {
+  ProcessFacts out{.windows = windows, .peak_accounted_bytes = budget.peak()};
+  copy_peaks(budget, out.peak_bytes_by_purpose);
+  return out;
+}
+
+void go(RunContext& run) {
+  ReadyLabels labels;
+  prepare(run, labels);
+  RunForecast forecast(labels.counts().faces, run.layout, run.settings, run.hooks.threads);
+  const std::uint64_t windows = march(run, labels, forecast);
+  write(run, labels.counts(), forecast);
+  run.report.processes = run.part->end(facts_of(run.budget, windows));
+  run.report.memory_budget_bytes = run.budget.limit();
+  run.report.peak_accounted_bytes = run.budget.peak();
+  copy_peaks(run.budget, run.report.peak_bytes_by_purpose);
+  run.report.store = run.store.facts();
+}
+
+bool is_damage(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const DamagedWork&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+/// After an error: what can be saved is, and the first error stays the one that is told.  Nobody is
+/// told to go on from damage; it stays for whoever wants to know what happened.
+void keep_work(RunContext& run, const std::exception_ptr& error) {
+  const bool damaged = is_damage(error);
+  try {
+    if (!damaged) run.store.save();
+  } catch (...) {
+    // The disk is full or broken, or memory is out: what was saved before remains.
+  }
+  const bool can_go_on = run.part->keep_work(run.store);
+  if (can_go_on && run.hooks.store.kept && !damaged) run.hooks.store.kept();
+}
+
+/// The error with the way out of damaged work.
+[[noreturn]] void explain(const DamagedWork& damage, const StoreOptions& store) {
+  throw Error(damage.kind(), io::text(damage.what(), "; the disk or ", store.workdir.string(),
+                                      " is damaged: delete that folder and start again"));
+}
+
+RunReport run_and_explain(const io::DenseVolume& volume, const MeshSettings& settings,
+                          io::MeshSink& sink, const RunHooks& hooks) {
+  try {
+    RunContext run(volume, settings, sink, hooks);
+    try {
+      go(run);
+    } catch (...) {
+      const std::exception_ptr error = run.part->fail(std::current_exception());
+      keep_work(run, error);
+      std::rethrow_exception(error);
+    }
+    return std::move(run.report);
+  } catch (const DamagedWork& damage) {
+    explain(damage, hooks.store);
+  }
+}
+
+}  // namespace
+
+RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
+                      io::MeshSink& sink, const RunHooks& hooks) {
+  try {
+    return run_and_explain(volume, settings, sink, hooks);
+  } catch (...) {
+    if (hooks.processes != nullptr) hooks.processes->fail(std::current_exception());
+    throw;
+  }
+}
+
+}  // namespace mw::engine

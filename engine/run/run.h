@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The library's face: a volume and settings in, a mesh and a report out.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "engine/codt/worker_pool.h"
+#include "engine/march/march.h"
+#include "engine/output/finish.h"
+#include "engine/run/processes.h"
+#include "engine/settings/settings.h"
+#include "engine/store/store_options.h"
+#include "engine/window/window_visitor.h"
+#include "io/labels/label_table.h"
+#include "io/mesh/mesh_sink.h"
+#include "io/mesh/shared_mesh.h"
+
+namespace mw::engine {
+
+/// The lattice that a volume was meshed on.
+struct LatticeFacts {
+  Index3 shape;
+  std::array<double, 3> spacing{1, 1, 1};
+  Index3 layers{1, 1, 1};  ///< of each voxel of the volume
+};
+
+/// What a run did; windows without those done before a resume.  Times of windows are summed over
+/// threads, that of the output is wall seconds.
+struct RunReport : VisitStats {
+  LatticeFacts lattice;
+  std::uint64_t vertices = 0;
+  std::uint64_t tets = 0;
+  int threads = 1;
+  double inner_quality = 0.0;    ///< that was kept to, see MeshSettings
+  double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
+  double output_seconds = 0.0;
+  std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
+  std::optional<audit::ShapeReport> shape;      ///< the same, but of a mesh written together
+  std::vector<std::uint64_t> label_voxels;      ///< the same, by dense label; 0: not written
+  std::vector<Int128> label_volumes6;           ///< see FinishedMesh
+  std::vector<double> longest_edges;            ///< the same, with sizes
+  std::uint64_t memory_budget_bytes = 0;
+  std::uint64_t peak_accounted_bytes = 0;
+  std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
+  StoreFacts store;
+  std::vector<ProcessFacts> processes;     ///< empty: there is only one
+  bool written_together = false;           ///< by all of them, not by one alone
+  std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
+};
+
+/// How far a run is.
+struct RunProgress {
+  std::uint64_t done = 0;   ///< windows, those of an earlier run included
+  std::uint64_t total = 0;  ///< windows
+  /// An estimate (RunForecast); nothing before this run has done any.
+  std::optional<double> seconds_left;
+};
+
+/// Called after each window and for each block that is read for output, never by two threads at a
+/// time; may throw to stop the run.
+using OnProgress = std::function<void(const RunProgress& progress)>;
+
+/// One visit in a run's trace; seconds since the run began.
+struct TraceEvent {
+  int march = 0;
+  Index3 window;
+  double start_seconds = 0.0;
+  double end_seconds = 0.0;
+  double cpu_seconds = 0.0;  ///< of the visiting thread
+  int slot = 0;              ///< of the visiting thread, below the number of threads
+};
+
+/// How a run goes and who looks on.  Nothing here changes the result.
+struct RunHooks {
+  OnProgress progress;  ///< optional
+  PickReady pick;       ///< sequential, in this order among ready windows; empty: by threads
+  int threads = 1;      ///< 1: the sequential reference; 0: all cores
+  std::function<void(const TraceEvent&)> trace;  ///< optional, never called by two threads at once
+  /// Optional; called by the visiting thread before each visit, by many threads at once.
+  std::function<void(Index3 window)> before_visit;
+  OutputOptions output;
+  StoreOptions store;         ///< memory and disk
+  codt::PoolOptions workers;  ///< of Optimizer::kTetgen
+  /// The processes that the run is divided among; null: this one alone.  All of them call
+  /// mesh_volume() with the same volume and settings; only the one that speaks uses its sink, and
+  /// the others return when its output is complete.  Store options and threads are each one's own.
+  Processes* processes = nullptr;
+  /// With several processes: what all of them write the mesh into, in the place of the sink.  The
+  /// one that speaks decides: null there, and its sink is used; what the others have is joined only
+  /// when it is not.  REQUIRES: where it speaks it is created, and nothing of the output is
+  /// measured then.
+  io::SharedMesh* together = nullptr;
+  /// With several processes, optional, where it speaks; asked often, by a thread of its own:
+  /// whether to save and end the run, which throws StoppedAfterSave.
+  std::function<bool()> stop_after_save;
+  /// Under a tight budget the allocator is told to give large pieces back at once (mallopt).
+  bool owns_process = false;
+};
+
+/// Meshes the whole box of the volume into `sink`.
+/// On its VoxelLattice, which the windows and bounds of settings are counted in.
+/// ENSURES: promises P1 to P3 and P5 of the README.
+///          A run that ends early, by an error or because progress throws, leaves what it has done
+///          in the work folder, if there is one and anything was done; otherwise the folder goes.
+/// ERRORS: whatever volume and sink throw; those of check(volume, settings) (voxel_lattice.h),
+///         Workdir and RunStore.
+RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
+                      io::MeshSink& sink, const RunHooks& hooks = {});
+
+}  // namespace mw::engine

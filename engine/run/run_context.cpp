@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/run_context.h"
+
+#include <algorithm>
+
+#include "engine/store/run_identity.h"
+#include "engine/window/window_memory.h"
+
+namespace mw::engine {
+namespace {
+
+/// The same without what is wrong with them.
+const MeshSettings& checked(const io::DenseVolume& volume, const MeshSettings& settings) {
+  check(volume.info(), settings);
+  check(volume.table(), settings);
+  return settings;
+}
+
+io::MeshPromises promises_of(const MeshSettings& settings) {
+  return {.max_distance = settings.max_distance,
+          .quality_floor = settings.quality_floor,
+          .interfaces = settings.topology == KeptTopology::kInterfaces,
+          .smooth = settings.surface == Surface::kSmooth};
+}
+
+RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {
+  hooks.output.promises = promises_of(settings);
+  hooks.output.layers = layers;
+  hooks.threads = hooks.pick ? 1 : thread_count(hooks.threads);
+  if (hooks.processes == nullptr) hooks.processes = &one_process();
+  return hooks;
+}
+
+/// One grid a march.  A vertex near a block plane is free in half as many windows, so it stays
+/// denser there; the next march has other planes and heals that.
+std::vector<WindowGrid> march_grids(Index3 shape, const MeshSettings& settings) {
+  std::vector<WindowGrid> grids;
+  int window = settings.window;
+  for (int i = 0; i < settings.marches && window <= kMaxWindow; ++i, window *= 2) {
+    grids.emplace_back(shape, window);
+  }
+  return grids;
+}
+
+/// program_bytes(), and the names of labels: all, those that are written, and a sink's text of
+/// them.
+std::uint64_t always_bytes(const io::DenseVolume& volume, int threads) {
+  constexpr std::uint64_t kCopies = 8;
+  return program_bytes(volume.table().size(), threads) + kCopies * volume.info().names.bytes();
+}
+
+/// Tells at once, before any work, the least that the parts take whose size is known by then.
+/// What windows take depends on the labels, and on what earlier windows leave.
+MemoryBudget::Reservation reserve_program(RunContext& run) {
+  const io::DenseVolume& labels = run.lattice.labels();
+  const std::uint64_t program = always_bytes(labels, run.hooks.threads);
+  const std::uint64_t always =
+      program + run.hooks.processes->least_bytes(run.layout, labels, run.settings);
+  const std::uint64_t reading = preparation_bytes(run.settings) + labels.raw().buffer_bytes(1);
+  const std::uint64_t min = always + std::max(reading, run.output_buffer_bytes());
+  if (min > run.budget.limit()) run.budget.fail(min);
+  return run.budget.reserve(Purpose::kProgram, program);
+}
+
+std::optional<codt::WorkerPool> start_workers(const RunContext& run) {
+  if (run.settings.optimizer != Optimizer::kTetgen) return std::nullopt;
+  return std::optional<codt::WorkerPool>(std::in_place, run.hooks.workers);
+}
+
+std::unique_ptr<RunPart> take_part(RunContext& run, const io::VolumeInfo& info) {
+  const std::string identity = run.hooks.store.identity + identity_text(info, run.settings);
+  return run.hooks.processes->take_part(run.layout, run.hooks, identity);
+}
+
+RunReport begun_report(const RunContext& run) {
+  RunReport report;
+  report.lattice = {run.lattice.info().shape, run.lattice.info().space.spacing,
+                    run.lattice.layers()};
+  report.threads = run.hooks.threads;
+  return report;
+}
+
+}  // namespace
+
+RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted,
+                       io::MeshSink& output, const RunHooks& asked)
+    : settings(checked(volume, wanted)),
+      sink(output),
+      lattice(volume, settings.surface),
+      hooks(settled(asked, settings, lattice.layers())),
+      layout(march_grids(lattice.info().shape, settings), settings.order),
+      budget(hooks.store.memory, hooks.processes->count_here()),
+      program_room(reserve_program(*this)),
+      workers(start_workers(*this)),
+      part(take_part(*this, volume.info())),
+      store(layout, budget, part->work_files(), hooks.store.group, part->router()),
+      attached(part->attach(store)),
+      report(begun_report(*this)) {}
+
+std::uint64_t RunContext::output_buffer_bytes() const {
+  const std::uint64_t together = hooks.together == nullptr ? 0 : hooks.together->buffer_bytes();
+  return std::max(sink.buffer_bytes(), together);
+}
+
+}  // namespace mw::engine

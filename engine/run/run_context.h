@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What the steps of a run work on and with.
+#pragma once
+
+#include "engine/labels/voxel_lattice.h"
+#include "engine/run/run.h"
+
+namespace mw::engine {
+
+/// Everything that lives from before the first label is read until the mesh is written.
+/// The arguments outlive it.  Labels and marches belong to the steps that make
+/// them.
+struct RunContext {
+  /// ERRORS: those of check(volume, settings), RunPart, RunStore; mw::Error(kResource) with the
+  /// least budget that works, as far as that is known before any work.
+  RunContext(const io::DenseVolume& volume, const MeshSettings& settings, io::MeshSink& sink,
+             const RunHooks& asked);
+
+  [[nodiscard]] std::uint64_t output_buffer_bytes() const;
+
+  const MeshSettings& settings;
+  io::MeshSink& sink;
+  VoxelLattice lattice;
+  RunHooks hooks;  ///< with all that is known of the output, and as many threads as there will be
+  RunLayout layout;
+  MemoryBudget budget;
+  MemoryBudget::Reservation program_room;
+  std::optional<codt::WorkerPool> workers;  ///< with Optimizer::kTetgen
+  std::unique_ptr<RunPart> part;
+  RunStore store;
+  std::shared_ptr<void> attached;  ///< blocks come in as long as it lives
+  RunReport report;
+};
+
+}  // namespace mw::engine

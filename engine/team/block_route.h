@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Which window needs a block next, and which one left it: the flow of blocks between windows.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/store/run_layout.h"
+
+namespace mw::engine {
+
+/// The windows that cover a block visit it one after the other, so every version of it has exactly
+/// one next user: the next of them; after the last, the first window of the next march over the
+/// block that it becomes a part of; after the last march, the output.  A window may start when its
+/// inputs are there: this orders all windows as WindowOrder's edges do.
+/// Pure functions of the layout, which outlives this.
+class BlockRoute {
+ public:
+  explicit BlockRoute(const RunLayout& layout) : layout_(layout) {}
+
+  /// None: the output.  REQUIRES: the window covers the block, in its march.
+  [[nodiscard]] std::optional<WindowKey> next_user(const BlockVersion& version) const;
+
+  /// What a window takes that another one has left, blocks ascending; a block that it is the first
+  /// to see is made from voxels in the first march, and from its parts in a later one.
+  [[nodiscard]] std::vector<BlockVersion> inputs(const WindowKey& key) const;
+
+  /// The version of a block that the output reads.  REQUIRES: a block of the last march.
+  [[nodiscard]] BlockVersion last_version(const BlockKey& block) const;
+
+ private:
+  [[nodiscard]] std::optional<WindowKey> after(const BlockKey& block, std::uint64_t rank) const;
+  [[nodiscard]] std::optional<WindowKey> before(const BlockKey& block, std::uint64_t rank) const;
+
+  const RunLayout& layout_;
+};
+
+}  // namespace mw::engine

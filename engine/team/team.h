@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The processes of a run: what they tell one another beside blocks.
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "engine/team/exchange.h"
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+
+/// Sorts messages: parcels go to whoever listens, the rest is its own.
+/// Thread safety: send(), signal(), fail() and failure() from any thread; the others from one.
+class Team {
+ public:
+  /// exchange outlives it.
+  explicit Team(Exchange& exchange);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  [[nodiscard]] int rank() const { return exchange_.rank(); }
+  [[nodiscard]] int ranks() const { return exchange_.ranks(); }
+  [[nodiscard]] bool is_first() const { return rank() == 0; }
+  [[nodiscard]] int ranks_here() const { return exchange_.ranks_here(); }
+
+  /// Two threads of a rank may gather at the same time, each on a channel of its own.
+  enum class Channel : std::uint8_t { kRun, kEpochs };
+
+  /// What every rank says, by rank.  On each channel all ranks call it equally often.
+  /// ERRORS: that of the rank that failed, be it this one.
+  [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine,
+                                                           Channel channel = Channel::kRun);
+  /// What every rank says to this one, by rank, when each says `mine` to each, by rank.  It counts
+  /// as gather().  REQUIRES: as many as ranks.  ERRORS: as gather().
+  [[nodiscard]] std::vector<std::vector<std::byte>> trade(std::vector<std::vector<std::byte>> mine,
+                                                          Channel channel = Channel::kRun);
+  /// gather() of texts.
+  [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
+
+  /// The numbers are the sender's; parcels for a rank that has no listener wait.
+  using Head = std::array<std::uint64_t, 3>;
+  /// room: of the bytes, what Listener::room returned.
+  using OnParcel = std::function<void(const Head& head, std::vector<std::byte> bytes,
+                                      std::shared_ptr<void> room)>;
+  void send(int to, const Head& head, SharedBytes bytes);
+  /// A number for the listeners of all other ranks.
+  void signal(std::uint64_t number);
+  [[nodiscard]] bool is_idle() const { return exchange_.is_idle(); }
+  void let_go() { exchange_.let_go(); }
+
+  /// Who is told: of parcels, one at a time; that bytes have left; that a rank has failed.
+  struct Listener {
+    OnParcel parcel;
+    /// Optional, see TakeRoom: asked before a parcel's bytes are in memory, but not for those that
+    /// came before there was a listener.
+    std::function<std::shared_ptr<void>(std::uint64_t bytes)> room;
+    std::function<void(std::uint64_t number)> signalled;
+    std::function<void()> sent;
+    std::function<void(const Error& error)> failed;
+  };
+  /// Those of before come first.  ENSURES: the former listener is not called any more.
+  void listen(Listener listener);
+
+  /// Tells all ranks that this one cannot go on, and which one that is; only the first failure of a
+  /// run is told.
+  void fail(const Error& error);
+  void fail(const std::exception_ptr& error);
+  /// The failure of another rank, if that is why this one ends.
+  [[nodiscard]] std::optional<Error> failure() const;
+  /// Whether any rank has failed, this one or another.
+  [[nodiscard]] bool has_failed() const;
+
+ private:
+  using Gathering = std::pair<Channel, std::uint64_t>;
+
+  [[nodiscard]] Gathering next_gathering(Channel channel);
+  void say(int to, const Gathering& gathering, SharedBytes bytes);
+  /// What the others say; nothing in the place of this rank.
+  [[nodiscard]] std::vector<std::vector<std::byte>> hear(const Gathering& gathering);
+  void receive(Message message);
+  [[nodiscard]] std::shared_ptr<void> take_room(std::uint64_t kind, std::uint64_t bytes);
+  void note_failure(const Error& error);
+
+  Exchange& exchange_;
+  mutable std::mutex mutex_;  ///< guards the rest but listener_
+  std::condition_variable changed_;
+  std::map<Gathering, std::map<int, std::vector<std::byte>>> said_;  ///< by rank
+  std::map<Channel, std::uint64_t> gatherings_;
+  std::vector<Message> waiting_;  ///< parcels for a listener to come
+  std::optional<Error> failure_;
+  std::optional<Error> own_failure_;
+
+  std::mutex listening_;  ///< guards the next line; never taken inside mutex_
+  Listener listener_;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/team/team_labels.h"
+
+#include <algorithm>
+
+#include "engine/team/plain_bytes.h"
+#include "engine/window/window_memory.h"
+
+namespace mw::engine {
+namespace {
+
+/// Counts of faces without the bricks before and after all that have some: a part is a slab.
+struct SomeFaces {
+  std::uint64_t first = 0;
+  std::vector<std::uint16_t> counts;
+};
+
+SomeFaces without_ends(const BoundaryFaces& faces) {
+  const auto all = faces.counts();
+  const auto is_some = [](std::uint16_t n) { return n != 0; };
+  const auto begin = std::find_if(all.begin(), all.end(), is_some);
+  const auto end = std::find_if(all.rbegin(), std::make_reverse_iterator(begin), is_some).base();
+  return {static_cast<std::uint64_t>(begin - all.begin()), {begin, end}};
+}
+
+BoundaryFaces sum_of_all(Team& team, const BoundaryFaces& mine, Index3 volume) {
+  const SomeFaces some = without_ends(mine);
+  const auto firsts = team.gather(bytes_of(&some.first, 1));
+  const auto counts = team.gather(bytes_of(some.counts.data(), some.counts.size()));
+  BoundaryFaces sum(volume);
+  for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+    sum.add(list_of<std::uint64_t>(firsts[rank]).at(0), list_of<std::uint16_t>(counts[rank]));
+  }
+  return sum;
+}
+
+std::vector<std::uint64_t> sum_of_all(Team& team, const std::vector<std::uint64_t>& mine) {
+  std::vector<std::uint64_t> sum(mine.size());
+  for (const auto& said : team.gather(bytes_of(mine.data(), mine.size()))) {
+    const auto more = list_of<std::uint64_t>(said);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more.at(i);
+  }
+  return sum;
+}
+
+}  // namespace
+
+LabelCounts count_together(Team& team, const io::DenseVolume& volume, int threads) {
+  LabelCounts counts = counts_of_part(volume, threads, {team.rank(), team.ranks()});
+  counts.faces = sum_of_all(team, counts.faces, volume.info().shape);
+  counts.voxels = sum_of_all(team, counts.voxels);
+  return counts;
+}
+
+LabelNeed labels_needed(const RunLayout& layout, const Partition& partition, int rank,
+                    const MeshSettings& settings) {
+  LabelNeed need;
+  for (std::uint32_t march = 0; march < layout.marches(); ++march) {
+    Box3 boxes;
+    const WindowGrid& grid = layout.grid(march);
+    const Index3 windows = grid.windows();
+    for_each_index(Index3{1, windows.y, windows.z}, [&](Index3 w) {
+      if (partition.rank_of({march, w}) != rank) return;
+      const Index3 last{windows.x - 1, w.y, w.z};  // rows stay whole
+      boxes = hull(boxes, hull(grid.window_box(w), grid.window_box(last)));
+    });
+    // Later marches take blocks that were stored.
+    if (march == 0) need.starts = boxes;
+    if (boxes == Box3{} || !settings.max_distance) continue;
+    const std::int64_t halo = content_halo(grid, *settings.max_distance);
+    need.near = hull(need.near, intersection(grown(boxes, halo), {{0, 0, 0}, grid.volume()}));
+  }
+  return need;
+}
+
+}  // namespace mw::engine

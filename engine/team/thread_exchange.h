@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Processes played by threads of one, with messages that take their time.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "engine/team/exchange.h"
+
+namespace mw::engine {
+
+struct ThreadExchangeOptions {
+  int ranks = 1;
+  std::uint32_t seed = 1;                  ///< of the delays
+  std::chrono::microseconds max_delay{0};  ///< of a message; they overtake one another
+};
+
+/// Makes the exchanges of so many ranks, one for each; a thread of its own brings each one's
+/// messages.  For tests of what does not depend on a network.
+[[nodiscard]] std::vector<std::unique_ptr<Exchange>> thread_exchanges(
+    const ThreadExchangeOptions& options);
+
+}  // namespace mw::engine
