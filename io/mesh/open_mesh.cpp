@@ -18,7 +18,6 @@
 #include "io/mesh/pieces/pvtu_reader.h"
 #include "io/mesh/pieces/pvtu_sink.h"
 #include "io/mesh/vtkhdf/vtkhdf_reader.h"
-#include "io/mesh/vtkhdf/vtkhdf_shared.h"
 #include "io/mesh/vtkhdf/vtkhdf_sink.h"
 #include "io/mesh/vtu/vtu_reader.h"
 #include "io/mesh/vtu/vtu_sink.h"

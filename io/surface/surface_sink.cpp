@@ -1,11 +1,59 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Counts of a surface, and the way along its runs.
+// The one interface through which triangles leave the program, with the names of their labels.
 #include "io/surface/surface_sink.h"
 
+#include <algorithm>
+
+#include "io/file/errors.h"
+#include "io/mesh/grouped/group_names.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
+
+Colour SurfaceLabels::colour(Label rank) const {
+  const LabelName* const row = names.find(table.raw(rank));
+  return row == nullptr ? kPlainColour : row->colour.value_or(kPlainColour);
+}
+
+std::shared_ptr<const SurfaceLabels> surface_labels(const GroupedMesh& mesh) {
+  const GroupNames names(mesh);
+  auto labels = std::make_shared<SurfaceLabels>();
+  labels->table = mesh.table();
+  labels->names = mesh.names();
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    labels->titles.push_back(names.volume(rank));
+  }
+  return labels;
+}
+
+std::vector<Label> ranks_of(const SurfaceHeader& header) {
+  std::vector<Label> ranks;
+  for (const SurfaceShell& shell : header.shells) {
+    for (const SurfaceRun& run : shell.runs) {
+      ranks.push_back(run.inside);
+      if (run.side == Side::kInterface) ranks.push_back(run.outside);
+    }
+  }
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  return ranks;
+}
+
+LabelNames names_of(const SurfaceHeader& header) {
+  std::vector<LabelName> rows;
+  for (const Label rank : ranks_of(header)) {
+    const LabelName* const row = header.labels->names.find(header.labels->table.raw(rank));
+    if (row != nullptr) rows.push_back(*row);
+  }
+  return LabelNames(std::move(rows));
+}
+
+bool has_colours(const SurfaceHeader& header) {
+  const LabelNames names = names_of(header);
+  return std::any_of(names.rows().begin(), names.rows().end(),
+                     [](const LabelName& row) { return row.colour.has_value(); });
+}
 
 std::uint64_t SurfaceHeader::vertices() const {
   std::uint64_t sum = 0;
@@ -35,6 +83,13 @@ bool RunCursor::next() {
   }
   ++seen_;
   return other;
+}
+
+void check_max(std::string_view file, std::string_view what, std::uint64_t count,
+               std::uint64_t max) {
+  if (count <= max) return;
+  throw Error(ErrorKind::kUsage, text(file, ": ", count, " ", what, " are more than the ", max,
+                                      " that this format can hold; write each label apart"));
 }
 
 }  // namespace mw::io

@@ -1,18 +1,51 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The one interface through which triangles leave the program.
+// The one interface through which triangles leave the program, with the names of their labels.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "io/file/atomic_file.h"
+#include "io/file/byte_order.h"
+#include "io/labels/label_table.h"
 #include "io/mesh/grouped/box_sides.h"
-#include "io/surface/surface_labels.h"
+#include "io/names/label_names.h"
 
 namespace mw::io {
+
+class GroupedMesh;
+struct SurfaceHeader;
+
+/// Shown where a label has no colour of its own: grey.
+inline constexpr Colour kPlainColour{160, 160, 160, 255};
+
+/// What the ranks of labels stand for.
+struct SurfaceLabels {
+  LabelTable table;
+  LabelNames names;
+  std::vector<std::string> titles;  ///< by rank: never empty, no two the same
+
+  [[nodiscard]] Colour colour(Label rank) const;
+};
+
+/// All labels of a mesh; titles are those of GroupNames.
+[[nodiscard]] std::shared_ptr<const SurfaceLabels> surface_labels(const GroupedMesh& mesh);
+
+/// The labels that a surface's triangles are between, ascending.
+[[nodiscard]] std::vector<Label> ranks_of(const SurfaceHeader& header);
+
+/// What is known of these.
+[[nodiscard]] LabelNames names_of(const SurfaceHeader& header);
+
+/// Whether the colour of one of them is known.
+[[nodiscard]] bool has_colours(const SurfaceHeader& header);
 
 using Triangle = std::array<std::uint64_t, 3>;  ///< vertices of a surface, from 0
 
@@ -74,5 +107,18 @@ class RunCursor {
   std::uint64_t seen_ = 0;  ///< triangles of the run
   bool begun_ = false;
 };
+
+/// At the end of the file, least significant byte first.
+template <class T>
+void append_little(AtomicFile& file, T value) {
+  std::array<std::byte, sizeof value> bytes;
+  store_little(value, bytes.data());
+  file.append(bytes);
+}
+
+/// ERRORS: mw::Error(kUsage) when there are more than `max` of `what`, which is all that a format
+/// with numbers of 32 bits can hold.
+void check_max(std::string_view file, std::string_view what, std::uint64_t count,
+               std::uint64_t max);
 
 }  // namespace mw::io

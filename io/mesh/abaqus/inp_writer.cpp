@@ -5,11 +5,16 @@
 
 #include "io/file/errors.h"
 #include "io/file/external_sort.h"
-#include "io/mesh/abaqus/inp_comments.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/medit/medit_names.h"
 
 namespace mw::io {
 namespace {
+
+/// Two lines, "**" in front: the format has no end, so a file that has the first and not the second
+/// was cut.
+constexpr std::string_view kInpBegins = "** This mesh ends with a comment END OF MESH.";
+constexpr std::string_view kInpEnds = "** END OF MESH";
 
 constexpr std::uint64_t kMaxNumber = 999'999'999;
 
@@ -23,6 +28,16 @@ void append_rows(std::string& line, std::span<const std::uint64_t> rows) {
 const char* face_name(std::uint64_t opposite) {
   constexpr std::array<const char*, 4> kFaces{", S3", ", S4", ", S2", ", S1"};
   return kFaces[opposite];
+}
+
+/// `** label 7 "name" 255 0 0 255`, as in MEDIT files; empty where that is longer than the 256
+/// characters that Abaqus allows.
+std::string inp_comment(const LabelName& row, bool is_signed) {
+  constexpr std::size_t kMaxBytes = 256;
+  std::string line = medit_comment(row, is_signed);
+  line.replace(0, 1, "**");
+  line.pop_back();
+  return line.size() > kMaxBytes ? std::string() : line;
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace mw::io {
 /// Nodes are 1 + row, elements C3D4 or C3D10 from 1 on, in a set LABEL_7 a label (LABEL_M7 of
 /// -7).  An interface is a surface FACE_1_2 of faces of the lower label's elements, so its normals
 /// point out of that; a side of the box is one surface X_MIN .. Z_MAX (or OUTER) of all labels.  Of
-/// each the nodes are a node set of the same name.  Labels' names and colours are comments
-/// (inp_comments.h).
+/// each the nodes are a node set of the same name.  Labels' names and colours are comments, as in
+/// MEDIT files.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
 /// which is all that Abaqus has numbers for.
 class InpWriter : public GroupedWriter {

@@ -8,7 +8,7 @@
 
 #include "io/file/commit_together.h"
 #include "io/file/errors.h"
-#include "io/mesh/grouped/facet_numbers.h"
+#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/number_line.h"
 #include "io/mesh/xml_text.h"

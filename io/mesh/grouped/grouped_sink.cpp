@@ -1,11 +1,240 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A stream of tets becomes a grouped mesh.
+// The sorts that turn a stream of tets into a grouped mesh.
 #include "io/mesh/grouped/grouped_sink.h"
 
-#include "io/mesh/grouped/mesh_grouping.h"
+#include <algorithm>
+
+#include "io/file/errors.h"
+#include "io/file/external_sort.h"
+#include "io/labels/label_set.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/sink_counts.h"
+#include "io/mesh/tet_volume.h"
+#include "kernels/core/assert.h"
 
 namespace mw::io {
+namespace {
+
+/// The corners of the facet opposite to each corner of a positive tet, normal outwards.
+constexpr std::array<std::array<std::size_t, 3>, 4> kFacets{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+/// Rows of a facet that lie together: by which the two tets of a triangle find each other.
+std::array<std::uint64_t, 3> key_of(const std::array<std::uint64_t, 4>& face) {
+  return {face[0], face[1], face[2]};
+}
+
+std::array<std::uint64_t, 3> facet_rows(const TetRows& tet, std::uint64_t opposite) {
+  const auto& corners = kFacets[opposite];
+  return {tet[corners[0]], tet[corners[1]], tet[corners[2]]};
+}
+
+}  // namespace
+
+/// Takes vertices and tets, then groups them.
+class MeshGrouping {
+ public:
+  MeshGrouping(const std::filesystem::path& folder, Element element);
+
+  void begin(const MeshHeader& header) { mesh_.header_ = header; }
+  void add_vertices(std::span<const Position> positions);
+  void add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
+  /// Called once, after everything was added.
+  void group();
+  [[nodiscard]] GroupedMesh& mesh() { return mesh_; }
+
+ private:
+  static constexpr std::size_t kSortBytes = 8 << 20;
+  /// Three ascending rows, and 4 * tet + opposite corner.
+  using FaceRecord = std::array<std::uint64_t, 4>;
+  using Faces = ExternalSort<4>;
+  /// Side << 32 | first, second, 4 * tet + opposite corner.
+  using Facets = ExternalSort<3>;
+
+  void find_box();
+  void sort_tets(Faces& faces);
+  void place_tet(TetRows tet, Faces& faces);
+  void pair_faces(Faces& faces, Facets& facets);
+  void add_facet(std::span<const FaceRecord> sharing, Facets& facets);
+  void number_facets(Facets& facets);
+  void find_middles();
+
+  std::filesystem::path folder_;
+  GroupedMesh mesh_;
+  ScratchFile tets_;  ///< four rows and the label of each, as they came
+  LabelSet labels_;
+  Position lo_{};
+  Position hi_{};
+};
+
+MeshGrouping::MeshGrouping(const std::filesystem::path& folder, Element element)
+    : folder_(folder), mesh_(folder), tets_(folder) {
+  mesh_.element_ = element;
+}
+
+void MeshGrouping::add_vertices(std::span<const Position> positions) {
+  for (const Position& p : positions) {
+    if (mesh_.vertices_.size() == 0) lo_ = hi_ = p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      lo_[k] = std::min(lo_[k], p[k]);
+      hi_[k] = std::max(hi_[k], p[k]);
+    }
+    mesh_.vertices_.append(p);
+  }
+}
+
+void MeshGrouping::add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
+  MW_ASSERT(tets.size() == labels.size());
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    const auto [a, b, c, d] = tets[i];
+    const std::array<std::uint64_t, 5> record{a, b, c, d, labels[i]};
+    tets_.append(std::as_bytes(std::span(record)));
+  }
+  labels_.insert(labels);
+}
+
+void MeshGrouping::group() {
+  check_sink_counts("mesh", mesh_.header_, tets_.size() / sizeof(std::array<std::uint64_t, 5>));
+  mesh_.table_ = LabelTable(labels_.values(), mesh_.header_.labels_signed);
+  find_box();
+  Facets facets(folder_, kSortBytes);
+  {
+    Faces faces(folder_, kSortBytes);
+    sort_tets(faces);
+    pair_faces(faces, facets);
+  }
+  number_facets(facets);
+  if (mesh_.element_ == Element::kTet10) find_middles();
+}
+
+void MeshGrouping::find_box() {
+  if (mesh_.header_.record.box) {
+    mesh_.box_ = *mesh_.header_.record.box;
+    return;
+  }
+  mesh_.box_.origin = lo_;
+  for (std::size_t k = 0; k < 3; ++k) mesh_.box_.edges[k][k] = hi_[k] - lo_[k];
+}
+
+/// Tets by label, as they came within one, and their faces.
+void MeshGrouping::sort_tets(Faces& faces) {
+  using Record = std::array<std::uint64_t, 6>;
+  ExternalSort<6> tets(folder_, kSortBytes);
+  std::vector<std::array<std::uint64_t, 5>> batch;
+  const std::uint64_t bytes = tets_.size();
+  std::uint64_t number = 0;
+  for (std::uint64_t at = 0; at < bytes; at += batch.size() * sizeof batch[0]) {
+    batch.resize(std::min<std::uint64_t>(4096, (bytes - at) / sizeof batch[0]));
+    tets_.read_at(at, std::as_writable_bytes(std::span(batch)));
+    for (const auto& [a, b, c, d, label] : batch) {
+      tets.add({mesh_.table_.dense(label), number++, a, b, c, d});
+    }
+  }
+  mesh_.label_tets_.resize(mesh_.table_.size());
+  tets.each([&](const Record& record) {
+    RowRange& range = mesh_.label_tets_[record[0]];
+    if (range.size() == 0) range = {mesh_.tets_.size(), mesh_.tets_.size()};
+    ++range.end;
+    place_tet({record[2], record[3], record[4], record[5]}, faces);
+  });
+}
+
+void MeshGrouping::place_tet(TetRows tet, Faces& faces) {
+  for (const std::uint64_t row : tet) {
+    if (row >= mesh_.vertices_.size()) {
+      throw Error(ErrorKind::kInput,
+                  text("a tet names vertex ", row, " of ", mesh_.vertices_.size()));
+    }
+  }
+  const auto at = [&](std::size_t corner) { return mesh_.vertices_[tet[corner]]; };
+  if (volume6(at(0), at(1), at(2), at(3)) < 0) std::swap(tet[2], tet[3]);
+  const std::uint64_t number = mesh_.tets_.size();
+  mesh_.tets_.append(tet);
+  for (std::uint64_t opposite = 0; opposite < 4; ++opposite) {
+    std::array<std::uint64_t, 3> rows = facet_rows(tet, opposite);
+    std::sort(rows.begin(), rows.end());
+    faces.add({rows[0], rows[1], rows[2], number << 2 | opposite});
+  }
+}
+
+void MeshGrouping::pair_faces(Faces& faces, Facets& facets) {
+  std::array<FaceRecord, 2> sharing{};
+  std::size_t count = 0;
+  const auto close = [&] {
+    if (count > 0) add_facet(std::span(sharing).first(count), facets);
+    count = 0;
+  };
+  faces.each([&](const FaceRecord& face) {
+    if (count > 0 && key_of(face) != key_of(sharing[0])) close();
+    if (count == 2) {
+      throw Error(ErrorKind::kInput,
+                  text("three tets share the triangle of vertices ", face[0], ", ", face[1],
+                       " and ", face[2], ": this is no mesh of a solid, and has no facets"));
+    }
+    sharing[count++] = face;
+  });
+  close();
+}
+
+void MeshGrouping::add_facet(std::span<const FaceRecord> sharing, Facets& facets) {
+  const Label one = mesh_.label_of(sharing[0][3] >> 2);
+  if (sharing.size() == 1) {
+    std::array<Position, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = mesh_.vertices_[sharing[0][i]];
+    const auto side = static_cast<std::uint64_t>(BoxSides(mesh_.box_).side_of(corners));
+    facets.add({side << 32 | one, kExterior, sharing[0][3]});
+    return;
+  }
+  const Label other = mesh_.label_of(sharing[1][3] >> 2);
+  if (one == other) return;
+  // Side::kInterface is 0.
+  facets.add({std::min(one, other), std::max(one, other), sharing[one < other ? 0 : 1][3]});
+}
+
+void MeshGrouping::number_facets(Facets& facets) {
+  std::vector<FacetGroup>& groups = mesh_.facet_groups_;
+  facets.each([&](const std::array<std::uint64_t, 3>& record) {
+    const FacetGroup group{.side = static_cast<Side>(record[0] >> 32),
+                           .first = static_cast<Label>(record[0] & 0xffffffffU),
+                           .second = static_cast<Label>(record[1])};
+    const std::uint64_t number = mesh_.facets_.size();
+    if (groups.empty() || groups.back().side != group.side || groups.back().first != group.first ||
+        groups.back().second != group.second) {
+      groups.push_back(group);
+      groups.back().facets = {number, number};
+    }
+    ++groups.back().facets.end;
+    const std::uint64_t tet = record[2] >> 2;
+    const std::uint64_t opposite = record[2] & 3;
+    mesh_.facets_.append({facet_rows(mesh_.tets_[tet], opposite), tet, opposite});
+  });
+}
+
+/// Edges get numbers in the order of their rows, then each tet those of its six.
+void MeshGrouping::find_middles() {
+  ExternalSort<3> edges(folder_, kSortBytes);  // two ascending rows, 8 * tet + edge
+  for (std::uint64_t number = 0; number < mesh_.tets_.size(); ++number) {
+    const TetRows tet = mesh_.tets_[number];
+    for (std::uint64_t e = 0; e < kTetEdges.size(); ++e) {
+      const auto [low, high] = std::minmax(tet[kTetEdges[e][0]], tet[kTetEdges[e][1]]);
+      edges.add({low, high, number << 3 | e});
+    }
+  }
+  ExternalSort<2> uses(folder_, kSortBytes);  // 8 * tet + edge, row of the middle
+  std::array<std::uint64_t, 2> last{};
+  edges.each([&](const std::array<std::uint64_t, 3>& record) {
+    const std::array<std::uint64_t, 2> corners{record[0], record[1]};
+    if (mesh_.edges_.size() == 0 || corners != last) mesh_.edges_.append(corners);
+    last = corners;
+    uses.add({record[2], mesh_.node_count() - 1});
+  });
+  std::array<std::uint64_t, 6> rows{};
+  uses.each([&](const std::array<std::uint64_t, 2>& use) {
+    rows[use[0] & 7] = use[1];
+    if ((use[0] & 7) == 5) mesh_.middles_.append(rows);
+  });
+}
 
 GroupedSink::GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
                          Element element)

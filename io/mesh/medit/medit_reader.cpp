@@ -3,12 +3,149 @@
 // Reads an ASCII MEDIT .mesh file.
 #include "io/mesh/medit/medit_reader.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/file/byte_source.h"
 #include "io/file/errors.h"
 #include "io/mesh/medit/medit_names.h"
-#include "io/mesh/medit/token_scanner.h"
 
 namespace mw::io {
 namespace {
+
+constexpr std::uint64_t kBufferBytes = 1 << 20;
+/// No number or keyword is that long; keeps memory bounded on binary files.
+constexpr std::size_t kMaxWordBytes = 256;
+constexpr std::size_t kMaxCommentBytes = 1 << 13;
+
+bool is_blank(int c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+std::string_view without_plus(std::string_view word) {
+  return word.starts_with('+') ? word.substr(1) : word;
+}
+
+template <class T>
+bool parse_all(std::string_view word, T& number) {
+  const auto [stop, verdict] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return verdict == std::errc{} && stop == word.data() + word.size();
+}
+
+/// Words are separated by blanks, tabs, line ends of any kind; '#' begins a comment up to the end
+/// of its line.
+class TokenScanner {
+ public:
+  explicit TokenScanner(const ByteSource& source) : source_(source) {}
+  /// From now on each comment is passed on, without its '#' and line end, cut at 8 KiB.
+  void on_comment(std::function<void(std::string_view)> take) { take_comment_ = std::move(take); }
+
+  /// The next word, or empty at the end.  Valid until the next call.
+  [[nodiscard]] std::string_view next();
+  /// ERRORS of all: mw::Error(kInput) with file, line and what was expected.
+  [[nodiscard]] double next_real(std::string_view expected);
+  [[nodiscard]] std::uint64_t next_count(std::string_view expected);
+  /// An integer in -2^63 .. 2^64-1, as two's complement; negative tells the sign.
+  [[nodiscard]] std::uint64_t next_integer(std::string_view expected, bool& negative);
+  [[noreturn]] void fail(std::string_view reason) const;
+
+ private:
+  /// The next character without taking it, or -1 at the end.
+  [[nodiscard]] int peek() { return at_ < buffer_.size() || refill() ? buffer_[at_] : -1; }
+  bool refill();
+  void skip_blanks();
+  void skip_comment();
+  [[noreturn]] void fail_word(std::string_view expected, std::string_view word) const;
+
+  const ByteSource& source_;
+  std::uint64_t offset_ = 0;
+  std::vector<unsigned char> buffer_;
+  std::size_t at_ = 0;
+  std::uint64_t line_ = 1;
+  std::string word_;
+  std::function<void(std::string_view)> take_comment_;
+};
+
+bool TokenScanner::refill() {
+  const std::uint64_t count = source_.size_within(offset_ + kBufferBytes) - offset_;
+  buffer_.resize(count);
+  source_.read_at(offset_, std::as_writable_bytes(std::span(buffer_)));
+  offset_ += count;
+  at_ = 0;
+  return count > 0;
+}
+
+void TokenScanner::skip_blanks() {
+  for (int c = peek(); c >= 0 && (is_blank(c) || c == '#'); c = peek()) {
+    if (c == '#') {
+      skip_comment();
+      continue;
+    }
+    if (c == '\n') ++line_;
+    ++at_;
+  }
+}
+
+/// Leaves the line end.
+void TokenScanner::skip_comment() {
+  std::string comment;
+  ++at_;
+  for (int c = peek(); c >= 0 && c != '\n'; c = peek()) {
+    if (comment.size() < kMaxCommentBytes) comment.push_back(static_cast<char>(c));
+    ++at_;
+  }
+  if (take_comment_) take_comment_(comment);
+}
+
+std::string_view TokenScanner::next() {
+  skip_blanks();
+  word_.clear();
+  for (int c = peek(); c >= 0 && !is_blank(c) && c != '#'; c = peek()) {
+    if (word_.size() == kMaxWordBytes) fail("not an ASCII mesh file");
+    word_.push_back(static_cast<char>(c));
+    ++at_;
+  }
+  return word_;
+}
+
+double TokenScanner::next_real(std::string_view expected) {
+  const std::string_view word = next();
+  double number = 0;
+  if (!parse_all(without_plus(word), number) || !std::isfinite(number)) fail_word(expected, word);
+  return number;
+}
+
+std::uint64_t TokenScanner::next_count(std::string_view expected) {
+  bool negative = false;
+  const std::uint64_t number = next_integer(expected, negative);
+  if (negative) fail_word(expected, word_);
+  return number;
+}
+
+std::uint64_t TokenScanner::next_integer(std::string_view expected, bool& negative) {
+  const std::string_view word = next();
+  negative = word.starts_with('-');
+  std::int64_t below = 0;
+  std::uint64_t above = 0;
+  if (!(negative ? parse_all(word, below) : parse_all(without_plus(word), above))) {
+    fail_word(expected, word);
+  }
+  return negative ? static_cast<std::uint64_t>(below) : above;
+}
+
+void TokenScanner::fail_word(std::string_view expected, std::string_view word) const {
+  if (word.empty()) fail(text("truncated: the file ends where ", expected, " is expected"));
+  fail(text("'", word, "' stands where ", expected, " is expected"));
+}
+
+void TokenScanner::fail(std::string_view reason) const {
+  fail_input(source_.name(), text("line ", line_), reason, "write the mesh anew");
+}
 
 constexpr std::string_view kRecord = " mwmesh ";
 

@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A data set of numbers in an HDF5 file, read by rows.
+// Data sets of numbers in an HDF5 file, read by rows, and the meshes that they are of.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 
 #include "io/hdf5/hdf5_handle.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/kept_rows.h"
 
 namespace mw::io {
 
@@ -43,5 +47,21 @@ class Hdf5Array {
   bool is_integer_ = false;
   bool is_signed_ = false;
 };
+
+/// ERRORS: mw::Error(kInput) when it is missing, damaged or no HDF5 file.
+[[nodiscard]] Hdf5Handle open_hdf5(const std::string& file);
+
+/// Runs read in a child, since damage makes the library crash, and passes on to sink what it
+/// writes.  bytes: of all files that it reads, by which its time is bounded.
+/// ERRORS: those of read and of sink; mw::Error(kInput) naming the file when the child died.
+void read_hdf5_apart(const std::string& file, std::uint64_t bytes,
+                     const std::function<void(MeshSink&)>& read, MeshSink& sink);
+
+/// Writes points in batches; those that stay.  kept: null when all do.
+/// REQUIRES: 3 components.  ERRORS: mw::Error(kInput) when there are fewer, or one is not finite.
+void stream_points(const Hdf5Array& points, RowRange range, const KeptRows* kept, MeshSink& sink);
+
+/// Fills out with labels from row `first` on.  REQUIRES: integers of 1 component.
+void read_labels(const Hdf5Array& labels, std::uint64_t first, std::vector<RawLabel>& out);
 
 }  // namespace mw::io

@@ -1,17 +1,36 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An HDF5 file that is written, whole or not at all.
+// An HDF5 file that is written, whole or not at all, and its columns of numbers.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "io/file/atomic_file.h"
 #include "io/file/placed_output.h"
 #include "io/hdf5/hdf5_tree.h"
-#include "io/mesh/vtkhdf/hdf5_rooms.h"
 
 namespace mw::io {
+
+/// Gives out the bytes of a file one behind the other: whoever asks for the same in the same order
+/// gets the same addresses.
+class Hdf5Rooms {
+ public:
+  /// Room for a data set: the address of its first byte.
+  [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes) {
+    return std::exchange(end_, end_ + (bytes + 7) / 8 * 8);
+  }
+  /// Where the next room will begin: for data whose size is not known yet.
+  /// REQUIRES: it is reserved when they are written, and nothing else before.
+  [[nodiscard]] std::uint64_t next() const { return end_; }
+
+ private:
+  std::uint64_t end_ = kHdf5HeadBytes;  ///< of what is reserved; a multiple of 8
+};
 
 /// Data first, each in one piece, then what tells of them.  Without the HDF5 library, which does
 /// not survive an allocation that fails: here that is std::bad_alloc.  Equal content is equal
@@ -46,6 +65,51 @@ class Hdf5Output : public PlacedOutput {
   std::string name_;
   AtomicFile file_;
   Hdf5Rooms rooms_;
+};
+
+/// Numbers one behind the other, from an address on.  T: as wide as the numbers in the file.
+/// Cost: half a MiB.
+template <class T>
+class Hdf5Column {
+ public:
+  Hdf5Column() = default;
+  /// address: reserved for as many bytes as will be added, or the next to be.
+  /// REQUIRES: output outlives the column.
+  Hdf5Column(PlacedOutput& output, std::uint64_t address) : output_(&output), address_(address) {
+    buffer_.reserve(kBuffered);
+  }
+  /// ERRORS of all: as the output.
+  void add(T value) {
+    buffer_.push_back(value);
+    if (buffer_.size() == kBuffered) flush();
+  }
+  /// The next to be added is that number of the column: what is between is another one's to write.
+  void go_to(std::uint64_t number) {
+    if (number == written_ + buffer_.size()) return;
+    flush();
+    written_ = number;
+  }
+  void flush() {
+    if (buffer_.empty()) return;
+    output_->write_at(address_ + written_ * sizeof(T), std::as_bytes(std::span(buffer_)));
+    written_ += buffer_.size();
+    buffer_.clear();
+  }
+  /// Writes what is left; a data set of this shape.  REQUIRES: it has as many numbers.
+  [[nodiscard]] Hdf5DataSet finish(const std::string& name, Hdf5Kind kind,
+                                   const std::vector<std::uint64_t>& shape) {
+    flush();
+    return {.name = name, .kind = kind, .shape = shape, .address = address_};
+  }
+
+ private:
+  static_assert(std::endian::native == std::endian::little, "numbers are written as they are");
+  static constexpr std::size_t kBuffered = (std::size_t{1} << 19) / sizeof(T);
+
+  PlacedOutput* output_ = nullptr;
+  std::uint64_t address_ = 0;
+  std::uint64_t written_ = 0;  ///< numbers before those that are buffered
+  std::vector<T> buffer_;
 };
 
 }  // namespace mw::io

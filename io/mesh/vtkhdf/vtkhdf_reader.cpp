@@ -12,7 +12,7 @@
 #include "io/mesh/apart_mesh.h"
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"
-#include "io/mesh/vtkhdf/hdf5_mesh.h"
+#include "io/mesh/vtkhdf/hdf5_array.h"
 #include "io/mesh/vtkhdf/vtkhdf_names.h"
 
 namespace mw::io {

@@ -1,17 +1,30 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What a .vtu file written here looks like: its XML and where its arrays are.
+// What a .vtu file written here looks like: its XML with names of labels and the record of the run,
+// and where its arrays are.
 #pragma once
 
 #include <array>
 #include <string>
 
 #include "io/mesh/element.h"
+#include "io/mesh/field_names.h"
 #include "io/mesh/mesh_sink.h"
+#include "io/vtk_xml/vtk_document.h"
 
 namespace mw::io {
 
-/// The file: XML head whose length depends on its fields alone (vtu_names.h), '_', then
+/// The element FieldData with the arrays of field_names.h, where there are names, and a string
+/// `mwmesh`, the record, where there is one; else empty.  Everything is
+/// written as numbers, as VTK writes strings in text, so nothing needs escaping.
+[[nodiscard]] std::string vtu_fields(const MeshHeader& header);
+
+/// Nothing when the document has no such arrays; those of VTK's writers are read as well.
+/// ERRORS: mw::Error(kInput) when they are damaged.
+[[nodiscard]] LabelNames read_vtu_names(VtkDocument& document);
+[[nodiscard]] MeshRecord read_vtu_record(VtkDocument& document);
+
+/// The file: XML head whose length depends on its fields alone (vtu_fields()), '_', then
 /// for each array a UInt64 byte count and the numbers, little-endian (connectivity Int64 x 4 or 10,
 /// offsets Int64, types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.
 /// The points are last, so that every place but the end is known before their number is; behind

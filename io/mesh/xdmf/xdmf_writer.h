@@ -3,17 +3,20 @@
 // Writes a mesh as XDMF over HDF5, with tags as dolfinx reads them.
 #pragma once
 
-#include "io/mesh/grouped/facet_numbers.h"
+#include <string>
+#include <vector>
+
+#include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
-#include "io/mesh/xdmf/xdmf_text.h"
 
 namespace mw::io {
 
 /// XDMF 3 for M.xdmf, which gets its name last.  Three grids in one domain:
 ///   mesh        the tets; cell attribute `label`, the labels themselves (UInt64 or Int64)
 ///   cell_tags   the same tets; cell attribute `cell_tags`, Int32 numbers (label_numbers.h)
-///   facet_tags  the triangles; cell attribute `facet_tags`, Int32 numbers (facet_numbers.h)
+///   facet_tags  the triangles; cell attribute `facet_tags`, Int32 numbers (group_names.h)
 /// The last two have an Information a number: its Name is that of the group, its Value the number.
 /// The domain has an Information `mwmesh`, the record of the run (mesh_record.h).
 /// The numbers of all are in M.h5:

@@ -8,7 +8,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/medit/medit_names.h"
-#include "io/surface/binary_numbers.h"
+#include "io/surface/surface_sink.h"
 
 namespace mw::io {
 namespace {

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "io/file/errors.h"
-#include "io/surface/binary_numbers.h"
+#include "io/surface/surface_sink.h"
 
 namespace mw::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/surface/binary_numbers.h"
+#include "io/surface/surface_sink.h"
 
 namespace mw::io {
 namespace {
