@@ -148,13 +148,12 @@ io::RawLayout raw_layout(const VolumeRequest& request) {
 }  // namespace
 
 void add_input_option(OptionSet& options, std::filesystem::path& path) {
-  options.add(
-      {.name = "input",
-       .value = "INPUT",
-       .help = "labelled volume: .npy .npz .nii .nrrd .nhdr .mha .mhd .h5 .tif .vti .inr, raw with "
-               "--shape, or a folder: Zarr, OME-NGFF, N5, precomputed, TIFF or PNG slices",
-       .flags = "INPUT,--input",
-       .assign = [&](const std::string& text) { path = text; }});
+  options.add({.name = "input",
+               .value = "INPUT",
+               .help = "labelled volume: .npy .nii .nrrd .nhdr .mha .mhd .h5 .tif, raw with "
+                       "--shape, or a folder: Zarr, OME-NGFF, N5, precomputed, TIFF or PNG slices",
+               .flags = "INPUT,--input",
+               .assign = [&](const std::string& text) { path = text; }});
 }
 
 void add_volume_options(OptionSet& options, VolumeRequest& request) {

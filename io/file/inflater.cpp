@@ -19,15 +19,7 @@ constexpr std::size_t kChunkBytes = 1 << 18;
 /// zlib's "window bits": the largest window, and the wrapper.
 int window_bits(DeflateFraming framing) {
   constexpr int kWindow = 15;
-  switch (framing) {
-    case DeflateFraming::kGzipChain:
-      return kWindow + 16;
-    case DeflateFraming::kZlibOrGzip:
-      return kWindow + 32;
-    case DeflateFraming::kBare:
-      break;
-  }
-  return -kWindow;
+  return kWindow + (framing == DeflateFraming::kGzipChain ? 16 : 32);
 }
 
 }  // namespace

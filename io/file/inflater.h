@@ -16,7 +16,6 @@ namespace mw::io {
 enum class DeflateFraming {
   kGzipChain,   ///< gzip members, one after the other
   kZlibOrGzip,  ///< one stream of either kind
-  kBare,        ///< one stream without header and checksum, as in zip archives
 };
 
 /// Where deflated bytes are.

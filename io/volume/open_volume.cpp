@@ -12,7 +12,6 @@
 #include "io/volume/checks.h"
 #include "io/volume/cropped_volume.h"
 #include "io/volume/hdf5/open_hdf5.h"
-#include "io/volume/inr/open_inr.h"
 #include "io/volume/metaimage/metaimage_header.h"
 #include "io/volume/metaimage/open_metaimage.h"
 #include "io/volume/n5/open_n5.h"
@@ -20,8 +19,6 @@
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/npy_header.h"
 #include "io/volume/npy/open_npy.h"
-#include "io/volume/npz/open_npz.h"
-#include "io/volume/npz/zip_directory.h"
 #include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/nrrd/open_nrrd.h"
 #include "io/volume/png/open_png.h"
@@ -30,7 +27,6 @@
 #include "io/volume/raw/open_raw.h"
 #include "io/volume/slices/slice_folder.h"
 #include "io/volume/tiff/open_tiff.h"
-#include "io/volume/vti/open_vti.h"
 #include "io/volume/zarr/open_zarr.h"
 
 namespace mw::io {
@@ -54,10 +50,6 @@ constexpr std::array kFileFormats{
                [](auto source, const auto&, const auto& options) {
                  return open_npy(std::move(source), options);
                }},
-    FileFormat{".npz", has_zip_magic,
-               [](auto source, const auto&, const auto& options) {
-                 return open_npz(std::move(source), options);
-               }},
     FileFormat{".nrrd .nhdr", has_nrrd_text, open_nrrd},
     FileFormat{".h5 .hdf5 .hdf .he5 .h5ad .dream3d", has_hdf5_magic,
                [](auto source, const auto&, const auto& options) {
@@ -67,14 +59,6 @@ constexpr std::array kFileFormats{
     FileFormat{".tif .tiff", has_tiff_magic,
                [](auto source, const auto&, const auto& options) {
                  return open_tiff(std::move(source), options);
-               }},
-    FileFormat{".vti", has_vtk_xml_magic,
-               [](auto source, const auto&, const auto& options) {
-                 return open_vti(std::move(source), options);
-               }},
-    FileFormat{".inr", has_inr_magic,
-               [](auto source, const auto&, const auto& options) {
-                 return open_inr(std::move(source), options);
                }},
     FileFormat{".png", has_png_magic,
                [](auto, const auto& path, const auto& options) {
@@ -155,8 +139,8 @@ std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
   const FileFormat* format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
   if (format != nullptr) return format->open(std::move(source), path, options);
   fail_input(path.string(), "format", "unknown by content and by extension",
-             "supported are .npy, .npz, .nii, .nrrd, .nhdr, .mha, .mhd, .h5, .tif, .png, .vti and "
-             ".inr, most of them also as .gz, raw files with --shape and --dtype, and folders: "
+             "supported are .npy, .npz, .nii, .nrrd, .nhdr, .mha, .mhd, .h5, .tif, .png, "
+             "most of them also as .gz, raw files with --shape and --dtype, and folders: "
              "Zarr, N5, neuroglancer precomputed, slices");
 }
 

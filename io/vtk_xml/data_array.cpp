@@ -63,10 +63,17 @@ void inflate_lz4(const std::vector<std::byte>& packed, std::span<std::byte> out,
   }
 }
 
+/// What is there by now shows that the rest is credible: no growing by doubling.
+void append(std::vector<std::byte>& all, const std::vector<std::byte>& piece,
+            std::uint64_t expected) {
+  if (all.empty()) all.reserve(expected);
+  all.insert(all.end(), piece.begin(), piece.end());
+}
+
 /// [blocks][bytes of a block][bytes of the last, 0 when whole][packed bytes of each] and then the
 /// packed blocks.
-void visit_compressed(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
-                      const ArrayName& name, const UseBytes& use) {
+std::vector<std::byte> read_compressed(ByteStream& stream, const VtkEncoding& encoding,
+                                       std::uint64_t expected, const ArrayName& name) {
   const std::uint64_t blocks = read_word(stream, encoding);
   const std::uint64_t block_bytes = read_word(stream, encoding);
   const std::uint64_t last_bytes = read_word(stream, encoding);
@@ -81,6 +88,7 @@ void visit_compressed(ByteStream& stream, const VtkEncoding& encoding, std::uint
   check_length(blocks == 0 ? 0 : (blocks - 1) * block_bytes + last, expected, name);
   std::vector<std::uint64_t> packed_bytes(blocks);
   for (std::uint64_t& size : packed_bytes) size = read_word(stream, encoding);
+  std::vector<std::byte> all;
   std::vector<std::byte> out;
   std::vector<std::byte> packed;
   for (std::uint64_t i = 0; i < blocks; ++i) {
@@ -95,8 +103,9 @@ void visit_compressed(ByteStream& stream, const VtkEncoding& encoding, std::uint
     } else {
       inflate_zlib(packed, out, name);
     }
-    use(out);
+    append(all, out, expected);
   }
+  return all;
 }
 
 /// Calls use(number) on each number of the bytes.
@@ -165,38 +174,24 @@ std::optional<NumberType> parse_number_type(std::string_view name) {
   return std::nullopt;
 }
 
-void check_payload_length(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
-                          const ArrayName& name) {
+std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
+                                    std::uint64_t expected, const ArrayName& name) {
+  if (encoding.packing != VtkPacking::kNone) {
+    return read_compressed(stream, encoding, expected, name);
+  }
   check_length(read_word(stream, encoding), expected, name);
   const std::uint64_t left = stream.left(expected);
   if (expected > left) {
     fail(name, text("truncated: needs ", expected, " bytes, at most ", left, " are left"));
   }
-}
-
-void visit_payload(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
-                   const ArrayName& name, const UseBytes& use) {
-  if (encoding.packing != VtkPacking::kNone) {
-    return visit_compressed(stream, encoding, expected, name, use);
-  }
-  check_payload_length(stream, encoding, expected, name);
+  std::vector<std::byte> all;
   std::vector<std::byte> piece;
-  for (std::uint64_t done = 0; done < expected; done += piece.size()) {
-    piece.resize(static_cast<std::size_t>(std::min(expected - done, kPieceBytes)));
+  while (all.size() < expected) {
+    piece.resize(static_cast<std::size_t>(std::min(expected - all.size(), kPieceBytes)));
     stream.read(piece);
-    use(piece);
+    append(all, piece, expected);
   }
-}
-
-std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
-                                    std::uint64_t expected, const ArrayName& name) {
-  std::vector<std::byte> bytes;
-  visit_payload(stream, encoding, expected, name, [&](std::span<const std::byte> piece) {
-    // What is there by now shows that the rest is credible: no growing by doubling.
-    if (bytes.empty()) bytes.reserve(expected);
-    bytes.insert(bytes.end(), piece.begin(), piece.end());
-  });
-  return bytes;
+  return all;
 }
 
 std::uint64_t announced_bytes(ByteStream& stream, const VtkEncoding& encoding,

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,20 +37,8 @@ struct ArrayName {
   std::string array;
 };
 
-using UseBytes = std::function<void(std::span<const std::byte>)>;
-
-/// Hands the bytes of an array of `expected` bytes, decompressed, to use, piece by piece.
-/// Memory: one block of the file's, or 1 MiB.
+/// The bytes of an array of `expected` bytes, decompressed.
 /// ERRORS of all: mw::Error(kInput) naming file and array.
-void visit_payload(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
-                   const ArrayName& name, const UseBytes& use);
-
-/// Reads the length in front of bytes that are not compressed.
-/// ENSURES: it is the one that is expected, and so many bytes are left.
-void check_payload_length(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
-                          const ArrayName& name);
-
-/// All bytes at once.
 [[nodiscard]] std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
                                                   std::uint64_t expected, const ArrayName& name);
 

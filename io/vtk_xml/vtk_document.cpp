@@ -176,23 +176,6 @@ std::vector<std::byte> VtkDocument::bytes_of(pugi::xml_node array, NumberType ty
   return read_payload(*stream, encoding_, count * static_cast<std::uint64_t>(type.bytes), name);
 }
 
-std::optional<std::uint64_t> VtkDocument::plain_bytes(pugi::xml_node array, std::uint64_t bytes) {
-  const std::string_view format = array.attribute("format").as_string("ascii");
-  if (format != "appended" || !appended_raw_ || encoding_.packing != VtkPacking::kNone) {
-    return std::nullopt;
-  }
-  const ArrayName name = name_of(array, file());
-  const std::unique_ptr<ByteStream> stream = stream_of(array, name);
-  check_payload_length(*stream, encoding_, bytes, name);
-  return appended_start_ + number(array, "offset", 0) +
-         static_cast<std::uint64_t>(encoding_.header_bytes);
-}
-
-void VtkDocument::visit_bytes(pugi::xml_node array, std::uint64_t bytes, const UseBytes& use) {
-  const ArrayName name = name_of(array, file());
-  visit_payload(*stream_of(array, name), encoding_, bytes, name, use);
-}
-
 std::vector<std::uint64_t> VtkDocument::integers(pugi::xml_node array, std::uint64_t count) {
   const ArrayName name = name_of(array, file());
   const NumberType type = type_of(array, name);

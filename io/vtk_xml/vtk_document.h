@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A VTK XML file (.vtu, .vti), and its arrays as numbers or bytes.
+// A VTK XML file (.vtu, .vtp, .pvtu), and its arrays as numbers.
 #pragma once
 
 #include <pugixml.hpp>
@@ -32,12 +32,6 @@ class VtkDocument {
   /// REQUIRES: array is a DataArray of the document.
   [[nodiscard]] std::vector<std::uint64_t> integers(pugi::xml_node array, std::uint64_t count);
   [[nodiscard]] std::vector<double> reals(pugi::xml_node array, std::uint64_t count);
-  /// Where the bytes of an array begin that the file has as they are; empty when it has not.
-  /// ENSURES: so many are in the file.
-  [[nodiscard]] std::optional<std::uint64_t> plain_bytes(pugi::xml_node array, std::uint64_t bytes);
-  /// The bytes of an array whose format is not ascii.
-  void visit_bytes(pugi::xml_node array, std::uint64_t bytes, const UseBytes& use);
-  [[nodiscard]] ByteOrder order() const { return encoding_.order; }
   /// REQUIRES: array is an Array of strings, each with a NUL behind it.  At most 64 MiB of them.
   [[nodiscard]] std::vector<std::string> strings(pugi::xml_node array);
 

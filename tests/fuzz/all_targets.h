@@ -9,14 +9,11 @@ namespace mw::fuzz {
 
 // volume_files.cpp
 void fuzz_npy(Bytes bytes);
-void fuzz_npz(Bytes bytes);
 void fuzz_nrrd(Bytes bytes);
 void fuzz_nifti(Bytes bytes);
 void fuzz_metaimage(Bytes bytes);
-void fuzz_inr(Bytes bytes);
 void fuzz_tiff(Bytes bytes);
 void fuzz_png(Bytes bytes);
-void fuzz_vti(Bytes bytes);
 void fuzz_raw(Bytes bytes);
 void fuzz_gzip(Bytes bytes);
 // volume_folders.cpp

@@ -10,14 +10,11 @@ namespace {
 
 constexpr std::array kTargets{
     Target{"npy", fuzz_npy},
-    Target{"npz", fuzz_npz},
     Target{"nrrd", fuzz_nrrd},
     Target{"nifti", fuzz_nifti},
     Target{"metaimage", fuzz_metaimage},
-    Target{"inr", fuzz_inr},
     Target{"tiff", fuzz_tiff},
     Target{"png", fuzz_png},
-    Target{"vti", fuzz_vti},
     Target{"raw", fuzz_raw},
     Target{"gzip", fuzz_gzip},
     Target{"zarr", fuzz_zarr},

@@ -3,16 +3,13 @@
 // Volumes in one file.
 #include "io/file/inflated_source.h"
 #include "io/file/open_bytes.h"
-#include "io/volume/inr/open_inr.h"
 #include "io/volume/metaimage/open_metaimage.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/open_npy.h"
-#include "io/volume/npz/open_npz.h"
 #include "io/volume/nrrd/open_nrrd.h"
 #include "io/volume/png/open_png.h"
 #include "io/volume/raw/open_raw.h"
 #include "io/volume/tiff/open_tiff.h"
-#include "io/volume/vti/open_vti.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/byte_file.h"
 #include "tests/fuzz/choices.h"
@@ -43,10 +40,6 @@ void fuzz_npy(Bytes bytes) {
   open_and_look(io::open_npy, bytes);
 }
 
-void fuzz_npz(Bytes bytes) {
-  open_and_look(io::open_npz, bytes);
-}
-
 void fuzz_nrrd(Bytes bytes) {
   open_and_look(io::open_nrrd, bytes);
 }
@@ -59,16 +52,8 @@ void fuzz_metaimage(Bytes bytes) {
   open_and_look(io::open_metaimage, bytes);
 }
 
-void fuzz_inr(Bytes bytes) {
-  open_and_look(io::open_inr, bytes);
-}
-
 void fuzz_tiff(Bytes bytes) {
   open_and_look(io::open_tiff, bytes);
-}
-
-void fuzz_vti(Bytes bytes) {
-  open_and_look(io::open_vti, bytes);
 }
 
 /// The reader opens files itself.

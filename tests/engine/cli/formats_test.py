@@ -77,12 +77,6 @@ class Formats(unittest.TestCase):
             numpy.save(name + ".npy", array)
             self.check(name + ".npy", *PLACE)
 
-    def test_npz(self):
-        numpy.savez("one.npz", labels=self.labels)
-        self.check("one.npz", *PLACE)
-        numpy.savez_compressed("two.npz", image=numpy.zeros(3), labels=self.labels)
-        self.check("two.npz", "--dataset", "labels", *PLACE)
-
     def test_nifti(self):
         nibabel = needs("nibabel")
         affine = numpy.diag([*SPACING, 1.0])
@@ -375,49 +369,6 @@ class Formats(unittest.TestCase):
         array.SetName("label")
         image.GetPointData().SetScalars(array)
         return image
-
-    def test_vti_layouts(self):
-        vtk = needs("vtk")
-        writer = vtk.vtkXMLImageDataWriter()
-        writer.SetInputData(self.vtk_points(self.labels))
-        writer.SetFileName("l.vti")
-        writer.SetBlockSize(1024)
-        for packing in ("LZ4", "ZLib", "None"):
-            getattr(writer, "SetCompressorTypeTo" + packing)()
-            for encoded in (False, True):
-                writer.SetEncodeAppendedData(encoded)
-                getattr(writer, "SetHeaderTypeToUInt" + ("64" if encoded else "32"))()
-                getattr(writer, "SetByteOrderTo" + ("Big" if encoded else "Little") + "Endian")()
-                writer.Write()
-                self.check("l.vti")
-
-    def test_vti(self):
-        vtk = needs("vtk")
-        from vtk.util import numpy_support
-        image = vtk.vtkImageData()
-        image.SetDimensions(27, 19, 22)
-        image.SetSpacing(*SPACING)
-        image.SetOrigin(*CORNER)
-        array = numpy_support.numpy_to_vtk(self.labels.ravel())
-        array.SetName("label")
-        image.GetCellData().SetScalars(array)
-        writer = vtk.vtkXMLImageDataWriter()
-        writer.SetInputData(image)
-        for mode in ("Ascii", "Binary", "Appended"):
-            getattr(writer, "SetDataModeTo" + mode)()
-            writer.SetFileName("a.vti")
-            writer.Write()
-            self.check("a.vti")
-
-    def test_inr(self):
-        header = ("#INRIMAGE-4#{\nXDIM=26\nYDIM=18\nZDIM=21\nVDIM=1\nTYPE=unsigned fixed\n"
-                  "PIXSIZE=16 bits\nSCALE=2**0\nCPU=decm\n"
-                  + "".join(f"V{n}={s}\n" for n, s in zip("XYZ", SPACING))
-                  + "".join(f"T{n}={c}\n" for n, c in zip("XYZ", CORNER)))
-        header += "\n" * (256 - 4 - len(header)) + "##}\n"
-        with open("a.inr", "wb") as file:
-            file.write(header.encode() + self.labels.astype("<u2").tobytes())
-        self.check("a.inr")
 
     def test_raw(self):
         self.labels.astype(">u4").tofile("a.raw")

@@ -36,13 +36,6 @@ TEST_F(PackedBytes, BehindTheVoxelsAreNotUnpacked) {
   const std::string nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 5 4 3\n";
   const std::string mha =
       "ObjectType = Image\nNDims = 3\nDimSize = 5 4 3\nElementType = MET_UCHAR\n";
-  std::string inr = "#INRIMAGE-4#{\nXDIM=5\nYDIM=4\nZDIM=3\nTYPE=unsigned fixed\nPIXSIZE=8 bits\n";
-  inr.resize(252, '\n');
-  const std::string vti =
-      "<VTKFile type=\"ImageData\" header_type=\"UInt32\"><ImageData WholeExtent=\"0 5 0 4 0 3\">"
-      "<Piece Extent=\"0 5 0 4 0 3\"><CellData Scalars=\"a\"><DataArray type=\"UInt8\" Name=\"a\" "
-      "format=\"appended\" offset=\"0\"/></CellData></Piece></ImageData>"
-      "<AppendedData encoding=\"raw\">_";
   expect_read("a.npy.gz", bomb(npy_file("|u1", false, "(3, 4, 5)", voxels_)));
   expect_read("a.nii.gz", bomb(NiftiSample{.magic = {}}.header() + voxels_));
   expect_read("a.nrrd.gz", bomb(nrrd + "encoding: raw\n\n" + voxels_));
@@ -52,8 +45,6 @@ TEST_F(PackedBytes, BehindTheVoxelsAreNotUnpacked) {
   expect_read("a.mha", mha + "CompressedData = True\nElementDataFile = LOCAL\n" + bomb(voxels_));
   expect_read("b.mha.gz",
               bomb(mha + "CompressedData = True\nElementDataFile = LOCAL\n" + gzip(voxels_)));
-  expect_read("a.inr.gz", bomb(inr + "##}\n" + voxels_));
-  expect_read("a.vti.gz", bomb(vti + number_bytes(voxels_.size(), 4, false) + voxels_));
 }
 
 TEST_F(PackedBytes, OfARawVolumeMustBeAsManyAsItsVoxels) {
@@ -84,8 +75,6 @@ TEST_F(PackedBytes, WithoutXmlAreNoXml) {
     const auto path = dir_.file(name, bomb(""));
     expect_error(ErrorKind::kInput, {name}, [&] { static_cast<void>(read_mesh(path)); });
   }
-  expect_error(ErrorKind::kInput, {"v.vti", "no VTKFile begins here"},
-               [&] { static_cast<void>(open_volume(dir_.file("v.vti", bomb("")))); });
 }
 
 }  // namespace
