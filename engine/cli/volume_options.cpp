@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/cli/values.h"
+#include "io/file/errors.h"
 #include "io/names/named_volume.h"
 #include "io/names/read_names.h"
 #include "io/volume/file_space.h"
@@ -103,13 +104,15 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
 }
 
 void add_array_options(OptionSet& options, VolumeRequest& request) {
-  options.add({.name = "dataset",
-               .value = "PATH",
-               .help = "array within a file or store that holds several",
-               .assign = [&](const std::string& text) { request.dataset = text; }});
+  options.add(
+      {.name = "dataset",
+       .value = "PATH",
+       .help = "array within a file or store that holds several: " + io::formats_with_datasets(),
+       .assign = [&](const std::string& text) { request.dataset = text; }});
   options.add({.name = "scale",
                .value = "N",
-               .help = "resolution level of a store that has several, 0 the finest",
+               .help = io::text("resolution level of a store that has several, 0 the finest: ",
+                                io::formats_with_scales()),
                .kind = ValueKind::kInteger,
                .assign = [&](const std::string& text) { request.scale = parse_scale(text); }});
 }
@@ -150,8 +153,8 @@ io::RawLayout raw_layout(const VolumeRequest& request) {
 void add_input_option(OptionSet& options, std::filesystem::path& path) {
   options.add({.name = "input",
                .value = "INPUT",
-               .help = "labelled volume: .npy .nii .nrrd .nhdr .mha .mhd .h5 .tif, raw with "
-                       "--shape, or a folder: Zarr, OME-NGFF, N5, precomputed, TIFF or PNG slices",
+               .help = io::text("labelled volume: ", io::volume_endings(),
+                                ", raw with --shape, or a folder: ", io::volume_folders()),
                .flags = "INPUT,--input",
                .assign = [&](const std::string& text) { path = text; }});
 }

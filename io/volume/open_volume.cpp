@@ -32,72 +32,111 @@
 namespace mw::io {
 namespace {
 
-/// A format of one file.
-struct FileFormat {
-  const char* extensions;  ///< each with a dot, a blank between two; also in front of .gz
-  bool (*has_magic)(std::span<const std::byte> head);
-  std::unique_ptr<LabelVolume> (*open)(std::unique_ptr<ByteSource> source,
-                                       const std::filesystem::path& path,
-                                       const OpenOptions& options);
+using OpenFile = std::unique_ptr<LabelVolume> (*)(std::unique_ptr<ByteSource> source,
+                                                  const OpenOptions& options);
+using OpenFolder = std::unique_ptr<LabelVolume> (*)(const std::filesystem::path& folder,
+                                                    const OpenOptions& options);
+
+/// One format: what it is called, how it is told, how it is read, and which options it understands.
+struct VolumeFormat {
+  const char* name;  ///< in help and errors
+  /// Of a file: endings, each with a dot and a blank between two, which may also be in front of
+  /// .gz; null in rows of folders, as is what follows.
+  const char* endings = nullptr;
+  bool (*is_file)(std::span<const std::byte> head) = nullptr;
+  OpenFile open_file = nullptr;
+  /// Null in rows of files.
+  bool (*is_folder)(const std::filesystem::path& folder) = nullptr;
+  OpenFolder open_folder = nullptr;
+  bool has_datasets = false;  ///< --dataset chooses in it
+  bool has_scales = false;    ///< --scale chooses in it
 };
 
-bool has_nrrd_text(std::span<const std::byte> head) {
-  return has_nrrd_magic({reinterpret_cast<const char*>(head.data()), head.size()});
+/// Folders of slices come last: other stores may hold pictures, too.
+constexpr std::array kFormats{
+    VolumeFormat{"NumPy", ".npy", has_npy_magic, open_npy},
+    VolumeFormat{"NRRD", ".nrrd .nhdr", has_nrrd_magic, open_nrrd},
+    VolumeFormat{.name = "HDF5",
+                 .endings = ".h5 .hdf5 .hdf .he5 .h5ad .dream3d",
+                 .is_file = has_hdf5_magic,
+                 .open_file = open_hdf5,
+                 .has_datasets = true},
+    VolumeFormat{"MetaImage", ".mha .mhd", has_metaimage_magic, open_metaimage},
+    VolumeFormat{"TIFF", ".tif .tiff", has_tiff_magic, open_tiff},
+    VolumeFormat{"PNG", ".png", has_png_magic, open_png},
+    VolumeFormat{"NIfTI", ".nii", has_nifti_magic, open_nifti},
+    VolumeFormat{.name = "neuroglancer precomputed",
+                 .is_folder = is_precomputed,
+                 .open_folder = open_precomputed,
+                 .has_datasets = true,
+                 .has_scales = true},
+    VolumeFormat{.name = "N5",
+                 .is_folder = is_n5,
+                 .open_folder = open_n5,
+                 .has_datasets = true,
+                 .has_scales = true},
+    VolumeFormat{.name = "Zarr",
+                 .is_folder = is_zarr,
+                 .open_folder = open_zarr,
+                 .has_datasets = true,
+                 .has_scales = true},
+    VolumeFormat{.name = "TIFF or PNG slices",
+                 .is_folder = is_slice_folder,
+                 .open_folder = open_slice_folder},
+};
+/// Whatever the content, where the caller says how the voxels lie.
+constexpr VolumeFormat kRawFormat{.name = "raw"};
+
+/// The names of the formats that are meant, as "A, B, C".
+template <class IsMeant>
+std::string names_of(IsMeant is_meant) {
+  std::string out;
+  for (const VolumeFormat& format : kFormats) {
+    if (is_meant(format)) out += (out.empty() ? "" : ", ") + text(format.name);
+  }
+  return out;
 }
 
-constexpr std::array kFileFormats{
-    FileFormat{".npy", has_npy_magic,
-               [](auto source, const auto&, const auto& options) {
-                 return open_npy(std::move(source), options);
-               }},
-    FileFormat{".nrrd .nhdr", has_nrrd_text, open_nrrd},
-    FileFormat{".h5 .hdf5 .hdf .he5 .h5ad .dream3d", has_hdf5_magic,
-               [](auto source, const auto&, const auto& options) {
-                 return open_hdf5(std::move(source), options);
-               }},
-    FileFormat{".mha .mhd", has_metaimage_magic, open_metaimage},
-    FileFormat{".tif .tiff", has_tiff_magic,
-               [](auto source, const auto&, const auto& options) {
-                 return open_tiff(std::move(source), options);
-               }},
-    FileFormat{".png", has_png_magic,
-               [](auto, const auto& path, const auto& options) {
-                 return open_png_slices({path}, options);
-               }},
-    FileFormat{".nii", has_nifti_magic,
-               [](auto source, const auto&, const auto& options) {
-                 return open_nifti(std::move(source), options);
-               }},
-};
-
-/// A format of a folder.
-struct FolderFormat {
-  bool (*is_one)(const std::filesystem::path& folder);
-  std::unique_ptr<LabelVolume> (*open)(const std::filesystem::path& folder,
-                                       const OpenOptions& options);
-};
-
-/// Slices come last: other stores may hold pictures too.
-constexpr std::array kFolderFormats{
-    FolderFormat{is_precomputed, open_precomputed},
-    FolderFormat{is_n5, open_n5},
-    FolderFormat{is_zarr, open_zarr},
-    FolderFormat{is_slice_folder, open_slice_folder},
-};
+bool has_ending(const VolumeFormat& format, const std::string& ending) {
+  if (ending.empty() || format.endings == nullptr) return false;
+  return text(format.endings, " ").find(ending + " ") != std::string::npos;
+}
 
 /// By content, else by extension, so that the right reader explains what is wrong.
-const FileFormat* format_of(std::span<const std::byte> head, std::filesystem::path path) {
-  for (const FileFormat& format : kFileFormats) {
-    if (format.has_magic(head)) return &format;
+const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::path path) {
+  for (const VolumeFormat& format : kFormats) {
+    if (format.is_file != nullptr && format.is_file(head)) return format;
   }
+  const std::string file = path.string();
   if (path.extension() == ".gz") path = path.stem();
-  const std::string extension = path.extension().string();
-  for (const FileFormat& format : kFileFormats) {
-    if (extension.empty()) break;
-    const std::string all = std::string(format.extensions) + " ";
-    if (all.find(extension + " ") != std::string::npos) return &format;
+  for (const VolumeFormat& format : kFormats) {
+    if (has_ending(format, path.extension().string())) return format;
   }
-  return nullptr;
+  fail_input(file, "format", "unknown by content and by extension",
+             text("supported are ", volume_endings(),
+                  ", most of them also as .gz, raw files with --shape and --dtype, and folders: ",
+                  volume_folders()));
+}
+
+const VolumeFormat& format_of_folder(const std::filesystem::path& folder) {
+  for (const VolumeFormat& format : kFormats) {
+    if (format.is_folder != nullptr && format.is_folder(folder)) return format;
+  }
+  fail_input(folder.string(), "format", "the folder is no volume that is known here",
+             "give a file in it");
+}
+
+/// An option that says nothing about this file is a mistake, which is better said than passed over.
+void check_understood(const VolumeFormat& format, const std::filesystem::path& path,
+                      const OpenOptions& options) {
+  const auto fail = [&](const char* option, const char* what, const std::string& others) {
+    throw Error(ErrorKind::kUsage, text(option, ": ", path.string(), " is ", format.name,
+                                        ", which has no ", what, "; it is for ", others));
+  };
+  if (!options.dataset.empty() && !format.has_datasets) {
+    fail("--dataset", "arrays to choose from", formats_with_datasets());
+  }
+  if (options.scale && !format.has_scales) fail("--scale", "scales", formats_with_scales());
 }
 
 void check_options(const OpenOptions& options) {
@@ -111,40 +150,47 @@ void check_options(const OpenOptions& options) {
   }
 }
 
-/// A raw file of the right size may begin with gzip's magic by chance: it is then not inflated.
-std::unique_ptr<ByteSource> open_raw_bytes(const std::filesystem::path& path,
-                                           const RawLayout& layout) {
-  auto plain = std::make_unique<FileSource>(path);
-  const Index3 shape =
-      checked_shape(plain->name(), "shape", {layout.shape.x, layout.shape.y, layout.shape.z});
-  const VolumeInfo info{.shape = shape, .type = layout.type, .format = "raw"};
-  if (plain->size() == payload_bytes(info)) return plain;
-  return open_bytes(path);
-}
-
-std::unique_ptr<LabelVolume> open_folder(const std::filesystem::path& path,
-                                         const OpenOptions& options) {
-  for (const FolderFormat& format : kFolderFormats) {
-    if (format.is_one(path)) return format.open(path, options);
-  }
-  fail_input(path.string(), "format", "the folder is no volume that is known here",
-             "give a file in it");
-}
-
 std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
                                         const OpenOptions& options) {
-  if (options.raw) return open_raw(open_raw_bytes(path, *options.raw), options);
-  if (std::filesystem::is_directory(path)) return open_folder(path, options);
+  if (options.raw) {
+    check_understood(kRawFormat, path, options);
+    return open_raw(open_raw_bytes(path, *options.raw), options);
+  }
+  if (std::filesystem::is_directory(path)) {
+    const VolumeFormat& format = format_of_folder(path);
+    check_understood(format, path, options);
+    return format.open_folder(path, options);
+  }
   std::unique_ptr<ByteSource> source = open_bytes(path);
-  const FileFormat* format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
-  if (format != nullptr) return format->open(std::move(source), path, options);
-  fail_input(path.string(), "format", "unknown by content and by extension",
-             "supported are .npy, .npz, .nii, .nrrd, .nhdr, .mha, .mhd, .h5, .tif, .png, "
-             "most of them also as .gz, raw files with --shape and --dtype, and folders: "
-             "Zarr, N5, neuroglancer precomputed, slices");
+  const VolumeFormat& format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
+  check_understood(format, path, options);
+  return format.open_file(std::move(source), options);
 }
 
 }  // namespace
+
+std::string volume_endings() {
+  std::string out;
+  for (const VolumeFormat& format : kFormats) {
+    if (format.endings != nullptr) out += (out.empty() ? "" : " ") + text(format.endings);
+  }
+  for (std::size_t at = 0; (at = out.find(' ', at)) != std::string::npos; at += 2) {
+    out.insert(at, ",");
+  }
+  return out;
+}
+
+std::string volume_folders() {
+  return names_of([](const VolumeFormat& format) { return format.is_folder != nullptr; });
+}
+
+std::string formats_with_datasets() {
+  return names_of([](const VolumeFormat& format) { return format.has_datasets; });
+}
+
+std::string formats_with_scales() {
+  return names_of([](const VolumeFormat& format) { return format.has_scales; });
+}
 
 std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {

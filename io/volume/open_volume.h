@@ -9,11 +9,20 @@
 
 namespace mw::io {
 
+/// The endings of files that are read, as ".npy, .nrrd, .nhdr".
+[[nodiscard]] std::string volume_endings();
+/// The kinds of folders that are read, as "N5, Zarr".
+[[nodiscard]] std::string volume_folders();
+/// The formats in which OpenOptions::dataset and OpenOptions::scale choose.
+[[nodiscard]] std::string formats_with_datasets();
+[[nodiscard]] std::string formats_with_scales();
+
 /// Tells the format of a file by content, then by extension, whether it is gzipped or not, and that
 /// of a folder by what is in it; raw when options.raw is given.  The numbers of the options are
 /// checked like the file's.
 /// ERRORS: mw::Error(kInput) naming file, field, reason and way out; kResource when a gzipped
-/// file does not fit into $TMPDIR; kUsage when the options make no sense.
+/// file does not fit into $TMPDIR; kUsage when the options make no sense, also those that the
+/// format does not have: --scale of a file without scales.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                                        const OpenOptions& options = {});
 

@@ -12,6 +12,7 @@
 
 namespace mw::fuzz {
 
+/// Names of other files that it gives lead nowhere from its own.
 /// REQUIRES: the bytes outlive it.
 class ByteFile : public io::ByteSource {
  public:
@@ -28,7 +29,7 @@ class ByteFile : public io::ByteSource {
 
  private:
   Bytes bytes_;
-  std::string name_ = "fuzzed file";
+  std::string name_ = "/nonexistent/fuzzed";
 };
 
 }  // namespace mw::fuzz

@@ -21,17 +21,8 @@ namespace {
 
 using OpenSource = std::unique_ptr<io::LabelVolume> (*)(std::unique_ptr<io::ByteSource> source,
                                                         const io::OpenOptions& options);
-using OpenWithPath = std::unique_ptr<io::LabelVolume> (*)(std::unique_ptr<io::ByteSource> source,
-                                                          const std::filesystem::path& path,
-                                                          const io::OpenOptions& options);
-
 void open_and_look(OpenSource open, Bytes bytes, const io::OpenOptions& options = {}) {
   ends_well([&] { look_at(*open(std::make_unique<ByteFile>(bytes), options)); });
-}
-
-/// Names of other files lead nowhere.
-void open_and_look(OpenWithPath open, Bytes bytes) {
-  ends_well([&] { look_at(*open(std::make_unique<ByteFile>(bytes), "/nonexistent/fuzzed", {})); });
 }
 
 }  // namespace

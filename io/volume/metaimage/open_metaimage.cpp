@@ -73,13 +73,13 @@ void inflate(Placed& data, const MetaImageHeader& header, std::uint64_t needed) 
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_metaimage(std::unique_ptr<ByteSource> source,
-                                            const std::filesystem::path& path,
                                             const OpenOptions& options) {
   std::string head(source->size_within(kMaxMetaImageBytes), '\0');
   source->read_at(0, std::as_writable_bytes(std::span(head)));
-  const MetaImageHeader header = parse_metaimage_header(head, source->name());
+  const std::filesystem::path path = source->name();
+  const MetaImageHeader header = parse_metaimage_header(head, path.string());
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "metaimage"};
-  info.space = placed(source->name(), header.space, options);
+  info.space = placed(path.string(), header.space, options);
   const std::uint64_t needed = payload_bytes(info);
   Placed data;
   if (names_many_files(header.data_file)) {

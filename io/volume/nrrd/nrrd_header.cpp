@@ -319,12 +319,13 @@ FileSpace parse_space(const FieldMap& fields, std::string_view file) {
 
 }  // namespace
 
-bool has_nrrd_magic(std::string_view text) {
-  return text.starts_with("NRRD000");
+bool has_nrrd_magic(std::span<const std::byte> head) {
+  return std::string_view(reinterpret_cast<const char*>(head.data()), head.size())
+      .starts_with("NRRD000");
 }
 
 NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
-  if (!has_nrrd_magic(head)) {
+  if (!has_nrrd_magic(std::as_bytes(std::span(head)))) {
     fail_input(file, "NRRD magic", "the file does not begin with NRRD000",
                "it is damaged or of another format");
   }

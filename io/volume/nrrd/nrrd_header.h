@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -30,7 +31,7 @@ struct NrrdHeader {
   LabelNames names;  ///< of the segments of a .seg.nrrd
 };
 
-[[nodiscard]] bool has_nrrd_magic(std::string_view text);
+[[nodiscard]] bool has_nrrd_magic(std::span<const std::byte> head);
 
 /// REQUIRES: head is the beginning of the file, kMaxNrrdHeaderBytes or as much as there is.
 /// ERRORS: mw::Error(kInput) naming file and field.

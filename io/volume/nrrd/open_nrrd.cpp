@@ -24,9 +24,9 @@ NrrdHeader read_header(const ByteSource& source) {
 
 /// The source that holds the voxels, still packed when the encoding is gzip.
 std::unique_ptr<ByteSource> data_source(std::unique_ptr<ByteSource> source,
-                                        const NrrdHeader& header,
-                                        const std::filesystem::path& path) {
+                                        const NrrdHeader& header) {
   if (header.data_file.empty()) return source;
+  const std::filesystem::path path = source->name();
   const std::filesystem::path data = path.parent_path() / header.data_file;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(data, ignored)) {
@@ -40,7 +40,6 @@ std::unique_ptr<ByteSource> data_source(std::unique_ptr<ByteSource> source,
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
-                                       const std::filesystem::path& path,
                                        const OpenOptions& options) {
   const std::string file = source->name();
   const NrrdHeader header = read_header(*source);
@@ -48,7 +47,7 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   info.space = placed(file, header.space, options);
   info.names = header.names;
 
-  std::unique_ptr<ByteSource> data = data_source(std::move(source), header, path);
+  std::unique_ptr<ByteSource> data = data_source(std::move(source), header);
   std::uint64_t offset = header.data_file.empty() ? header.bytes : 0;
   if (header.gzip) {
     data = std::make_unique<InflatedSource>(std::move(data), offset);

@@ -54,6 +54,11 @@ void check_alike(const std::vector<std::filesystem::path>& files, const PngHeade
 
 }  // namespace
 
+std::unique_ptr<LabelVolume> open_png(std::unique_ptr<ByteSource> source,
+                                      const OpenOptions& options) {
+  return open_png_slices({source->name()}, options);
+}
+
 std::unique_ptr<LabelVolume> open_png_slices(std::vector<std::filesystem::path> files,
                                              const OpenOptions& options) {
   const PngHeader header = read_png_header(FileSource(files.front()));

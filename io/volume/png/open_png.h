@@ -6,9 +6,14 @@
 #include <filesystem>
 #include <vector>
 
+#include "io/file/byte_source.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {
+
+/// One slice, which is read through its name; otherwise as open_png_slices().
+[[nodiscard]] std::unique_ptr<LabelVolume> open_png(std::unique_ptr<ByteSource> source,
+                                                    const OpenOptions& options);
 
 /// Files are slices, in this order; rows go along x, from the top down along y.  Spacing is 1, the
 /// first corner at 0.  REQUIRES: at least one file.

@@ -25,7 +25,7 @@ TEST(VolumeErrors, Files) {
   expect_error(ErrorKind::kInput, {dir.path().string(), "folder"},
                [&] { static_cast<void>(open_volume(dir.path())); });
   expect_refused(dir, "empty.npy", "", {"empty"});
-  expect_refused(dir, "a.xyz", "what is this", {"unknown", ".npy, .nii, .nrrd"});
+  expect_refused(dir, "a.xyz", "what is this", {"unknown", volume_endings(), volume_folders()});
 }
 
 TEST(VolumeErrors, Gzip) {
