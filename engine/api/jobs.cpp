@@ -10,7 +10,7 @@
 #include "engine/settings/bytes_text.h"
 #include "engine/settings/setting_table.h"
 #include "engine/system/machine_memory.h"
-#include "io/file/unlinked_file.h"
+#include "io/file/scratch/scratch_file.h"
 #include "kernels/core/error.h"
 
 namespace mw::api {

@@ -5,7 +5,7 @@
 
 #include "engine/api/guarded.h"
 #include "engine/api/spaces.h"
-#include "io/file/unlinked_file.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 

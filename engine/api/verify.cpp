@@ -7,7 +7,7 @@
 #include "engine/api/meshes.h"
 #include "engine/api/volume_access.h"
 #include "engine/job/verify_job.h"
-#include "io/file/unlinked_file.h"
+#include "io/file/scratch/scratch_file.h"
 
 namespace mwmesh {
 namespace {

@@ -5,7 +5,7 @@
 #include "engine/api/guarded.h"
 #include "engine/api/spaces.h"
 #include "engine/api/volume_access.h"
-#include "io/names/named_volume.h"
+#include "io/names/read_names.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
 #include "kernels/synth/synth.h"

@@ -10,7 +10,7 @@
 #include "engine/cli/report_names.h"
 #include "engine/cli/values.h"
 #include "engine/cli/volume_options.h"
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/names/read_names.h"

@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "io/file/external_sort.h"
-#include "io/file/paged_file.h"
+#include "io/file/scratch/external_sort.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/shape.h"

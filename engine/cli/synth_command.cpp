@@ -7,8 +7,8 @@
 #include "engine/cli/commands.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/values.h"
+#include "io/volume/decode.h"
 #include "io/volume/npy_writer.h"
-#include "io/volume/voxel_type.h"
 #include "kernels/core/error.h"
 #include "kernels/synth/synth.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "io/names/csv_records.h"
+#include "io/names/csv_names.h"
 
 namespace mw::cli {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/run/run.h"
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 
 namespace mw::cli {
 

@@ -8,7 +8,7 @@
 #include "engine/cli/verify_request.h"
 #include "engine/job/verify_job.h"
 #include "engine/report/mesh_facts.h"
-#include "io/file/unlinked_file.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/mesh/open_mesh.h"
 
 namespace mw::cli {

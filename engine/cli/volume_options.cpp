@@ -7,11 +7,10 @@
 
 #include "engine/cli/values.h"
 #include "io/file/errors.h"
-#include "io/names/named_volume.h"
 #include "io/names/read_names.h"
+#include "io/volume/decode.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
-#include "io/volume/voxel_type.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {

@@ -8,7 +8,6 @@
 #include "engine/march/march.h"
 #include "engine/system/tbb_for.h"
 #include "io/labels/label_set.h"
-#include "io/labels/labels_in.h"
 
 namespace mw::engine {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <span>
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_data.h"

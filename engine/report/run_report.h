@@ -9,7 +9,7 @@
 #include "engine/report/json_rows.h"
 #include "engine/report/resource_meter.h"
 #include "engine/run/run.h"
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
 #include "io/labels/despeckled_volume.h"
 #include "kernels/audit/audit.h"

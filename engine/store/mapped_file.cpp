@@ -14,7 +14,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/file_descriptor.h"
-#include "io/file/sync_folder.h"
+#include "io/file/sink/partial_file.h"
 #include "kernels/core/assert.h"
 
 namespace mw::engine {

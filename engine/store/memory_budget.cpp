@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/file/min_memory.h"
+#include "io/file/text_numbers.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/error.h"
 

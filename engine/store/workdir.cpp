@@ -17,11 +17,11 @@
 
 #include "engine/store/journal.h"
 #include "engine/store/mapped_file.h"
-#include "io/file/atomic_file.h"
 #include "io/file/errors.h"
-#include "io/file/printable.h"
-#include "io/file/sync_folder.h"
-#include "io/file/unlinked_file.h"
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/sink/atomic_file.h"
+#include "io/file/sink/partial_file.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::engine {
 namespace {

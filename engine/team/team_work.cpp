@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "engine/store/damaged_work.h"
-#include "io/file/atomic_file.h"
 #include "io/file/errors.h"
+#include "io/file/sink/atomic_file.h"
 
 namespace mw::engine {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "io/file/external_sort.h"
+#include "io/file/scratch/external_sort.h"
 #include "kernels/audit/cavities.h"
 
 namespace mw::engine {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "io/file/external_sort.h"
+#include "io/file/scratch/external_sort.h"
 namespace mw::engine {
 
 /// Items (tets, voxels) by number, in runs, each in a part of a tile.

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "io/file/scratch_file.h"
+#include "io/file/scratch/scratch_file.h"
 
 namespace mw::engine {
 

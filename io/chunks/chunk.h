@@ -1,14 +1,20 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A piece of a volume that a store keeps, and reads, as one.
+// A piece of a volume that a store keeps, and reads, as one: how large it may be, how it is read
+// from a file of its own, and what stores call its voxels.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "io/file/source/file_source.h"
 #include "io/volume/decode.h"
+#include "io/volume/label_volume.h"
 
 namespace mw::io {
 
@@ -40,5 +46,31 @@ class ChunkSource {
   /// The most that load() takes in memory beside what it returns.
   [[nodiscard]] virtual std::uint64_t scratch_bytes() const = 0;
 };
+
+/// The most bytes that a chunk may unpack to, whatever a store says.
+inline constexpr std::uint64_t kMaxChunkBytes = 2ULL << 30U;
+
+/// Bytes of the voxels of a chunk.
+/// ERRORS: mw::Error(kInput) naming file and field when an axis is not positive, or when they are
+/// more than kMaxChunkBytes.
+[[nodiscard]] std::uint64_t checked_chunk_bytes(std::string_view file, std::string_view field,
+                                                Index3 chunk, VoxelType type);
+
+/// What no codec's packed form of that many bytes exceeds: lz4-java's adds the most, a third.
+[[nodiscard]] constexpr std::uint64_t max_packed_bytes(std::uint64_t unpacked) {
+  constexpr std::uint64_t kHeaders = 64U << 10U;
+  return unpacked + unpacked / 2 + kHeaders;
+}
+
+/// A file of a store; null when there is none.
+/// ERRORS: mw::Error(kInput) when there is something that cannot be read.
+[[nodiscard]] std::unique_ptr<FileSource> open_if_there(const std::filesystem::path& path);
+
+/// The bytes from offset on.  ERRORS: mw::Error(kInput) when they are more than `most`.
+[[nodiscard]] std::vector<std::byte> read_rest(const ByteSource& source, std::uint64_t offset,
+                                               std::uint64_t max);
+
+/// "uint8" .. "uint64", "int8" .. "int64", "float32", "float64", in small or capital letters.
+[[nodiscard]] std::optional<VoxelType> parse_store_type(std::string_view text);
 
 }  // namespace mw::io

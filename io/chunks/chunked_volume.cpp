@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Finds the chunks of a box, and copies rows out of them.
+// Reads regions of a volume from its chunks.
 #include "io/chunks/chunked_volume.h"
 
 #include <algorithm>
@@ -11,6 +11,73 @@
 #include "kernels/core/for_each_index.h"
 
 namespace mw::io {
+namespace {
+
+/// What a chunk costs beside its voxels: two nodes and a slot.
+constexpr std::uint64_t kOverhead = 256;
+
+}  // namespace
+
+ChunkCache::Loaded ChunkCache::get(std::uint64_t number,
+                                   const std::function<std::optional<Chunk>()>& load) {
+  const std::shared_ptr<Slot> slot = touch(number);
+  const std::lock_guard lock(slot->loading);
+  if (slot->loaded) return slot->chunk;
+  try {
+    if (std::optional<Chunk> chunk = load()) {
+      slot->chunk = std::make_shared<const Chunk>(std::move(*chunk));
+    }
+  } catch (...) {
+    forget(number, slot);
+    throw;
+  }
+  slot->loaded = true;
+  account(number, slot);
+  return slot->chunk;
+}
+
+void ChunkCache::clear() {
+  const std::lock_guard lock(mutex_);
+  entries_.clear();
+  ages_.clear();
+  bytes_ = 0;
+}
+
+std::shared_ptr<ChunkCache::Slot> ChunkCache::touch(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(number);
+  if (found != entries_.end()) {
+    ages_.splice(ages_.begin(), ages_, found->second.age);
+    return found->second.slot;
+  }
+  ages_.push_front(number);
+  return entries_.emplace(number, Entry{std::make_shared<Slot>(), ages_.begin()})
+      .first->second.slot;
+}
+
+/// Counts what was loaded, and makes room for it.  The entry may be gone, or be another one by now.
+void ChunkCache::account(std::uint64_t number, const std::shared_ptr<Slot>& slot) {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(number);
+  if (found == entries_.end() || found->second.slot != slot) return;
+  found->second.bytes = kOverhead + (slot->chunk ? slot->chunk->bytes.size() : 0);
+  bytes_ += found->second.bytes;
+  while (bytes_ > max_bytes_ && !ages_.empty()) {
+    const auto oldest = entries_.find(ages_.back());
+    bytes_ -= oldest->second.bytes;
+    entries_.erase(oldest);
+    ages_.pop_back();
+  }
+}
+
+void ChunkCache::forget(std::uint64_t number, const std::shared_ptr<Slot>& slot) {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(number);
+  if (found == entries_.end() || found->second.slot != slot) return;
+  ages_.erase(found->second.age);
+  entries_.erase(found);
+}
+
 namespace {
 
 /// Whether the bytes hold every voxel that the strides lead to.

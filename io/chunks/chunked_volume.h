@@ -1,15 +1,59 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A volume in chunks, read by region: what all chunked stores end in.
+// A volume in chunks, read by region: what all chunked stores end in. Unpacked chunks are kept for
+// a while, within a bound.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <list>
 #include <memory>
+#include <mutex>
+#include <unordered_map>
 
 #include "io/chunks/chunk.h"
-#include "io/chunks/chunk_cache.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
+
+/// Keeps what was used last.  Two threads that ask for the same chunk at once unpack it once.
+/// Thread safety: all members may be called from many threads.
+class ChunkCache {
+ public:
+  /// An empty pointer in the result: the store has no such chunk.
+  using Loaded = std::shared_ptr<const Chunk>;
+
+  explicit ChunkCache(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
+
+  /// The chunk of that number, from load() unless it is still here.
+  /// Memory: what is kept stays within the bound; one chunk a thread may be in use beyond that.
+  /// ERRORS: what load throws; the next one who asks loads again.
+  [[nodiscard]] Loaded get(std::uint64_t number, const std::function<std::optional<Chunk>()>& load);
+  /// Forgets everything.
+  void clear();
+
+ private:
+  struct Slot {
+    std::mutex loading;
+    bool loaded = false;
+    Loaded chunk;
+  };
+  struct Entry {
+    std::shared_ptr<Slot> slot;
+    std::list<std::uint64_t>::iterator age;
+    std::uint64_t bytes = 0;
+  };
+
+  [[nodiscard]] std::shared_ptr<Slot> touch(std::uint64_t number);
+  void account(std::uint64_t number, const std::shared_ptr<Slot>& slot);
+  void forget(std::uint64_t number, const std::shared_ptr<Slot>& slot);
+
+  std::uint64_t max_bytes_;
+  std::mutex mutex_;
+  std::list<std::uint64_t> ages_;  ///< numbers, the one used last in front
+  std::unordered_map<std::uint64_t, Entry> entries_;
+  std::uint64_t bytes_ = 0;
+};
 
 class ChunkedVolume : public LabelVolume {
  public:

@@ -3,7 +3,7 @@
 // The ways in which chunks of stores are packed.
 #include "io/codec/codec.h"
 
-#include "io/codec/damage.h"
+#include "io/codec/stream.h"
 #include "io/codec/unpackers.h"
 
 namespace mw::io {

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An owned POSIX file descriptor.
+// An owned file descriptor, and pread and pwrite that go on until all is done: the system may do
+// less, and signals interrupt.
 #pragma once
 
 #include <unistd.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 
 namespace mw::io {
@@ -28,5 +32,16 @@ class FileDescriptor {
  private:
   int fd_ = -1;
 };
+
+/// What came of it.
+struct Transfer {
+  std::size_t bytes =
+      0;          ///< fewer than asked for after an error, and where a file that is read ends
+  int error = 0;  ///< an errno; 0: none
+};
+
+/// file: an open descriptor.  Thread safety: any, as far as the bytes are apart.
+[[nodiscard]] Transfer read_all(int file, std::uint64_t offset, std::span<std::byte> out);
+[[nodiscard]] Transfer write_all(int file, std::uint64_t offset, std::span<const std::byte> bytes);
 
 }  // namespace mw::io

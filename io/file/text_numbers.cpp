@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Words and numbers of text headers.
+// Numbers from text, and text that may be damaged.
 #include "io/file/text_numbers.h"
 
 #include <algorithm>
@@ -74,6 +74,20 @@ double decimal_of(float value) {
   double out = 0;
   std::from_chars(text.data(), end, out);
   return out;
+}
+
+std::string printable(std::string_view text, std::size_t max) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string out;
+  for (const char character : text.substr(0, max)) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (byte >= 0x20 && byte < 0x7f) {
+      out += character;
+    } else {
+      out.append("\\x").append({kDigits[byte >> 4U], kDigits[byte & 15U]});
+    }
+  }
+  return text.size() > max ? out + "..." : out;
 }
 
 }  // namespace mw::io

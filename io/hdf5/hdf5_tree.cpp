@@ -1,16 +1,106 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Object headers, and the superblock in front of them.  Sections (II.A, IV.A.2.d) are those of the
-// HDF5 file format specification.
+// Writes the metadata of an HDF5 file.
 #include "io/hdf5/hdf5_tree.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <numeric>
 
-#include "io/hdf5/little_bytes.h"
-#include "io/hdf5/metadata_checksum.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
+namespace {
+
+using State = std::array<std::uint32_t, 3>;
+
+void mix(State& s) {
+  auto& [a, b, c] = s;
+  a -= c, a ^= std::rotl(c, 4), c += b;
+  b -= a, b ^= std::rotl(a, 6), a += c;
+  c -= b, c ^= std::rotl(b, 8), b += a;
+  a -= c, a ^= std::rotl(c, 16), c += b;
+  b -= a, b ^= std::rotl(a, 19), a += c;
+  c -= b, c ^= std::rotl(b, 4), b += a;
+}
+
+void finish(State& s) {
+  auto& [a, b, c] = s;
+  c ^= b, c -= std::rotl(b, 14);
+  a ^= c, a -= std::rotl(c, 11);
+  b ^= a, b -= std::rotl(a, 25);
+  c ^= b, c -= std::rotl(b, 16);
+  a ^= c, a -= std::rotl(c, 4);
+  b ^= a, b -= std::rotl(a, 14);
+  c ^= b, c -= std::rotl(b, 24);
+}
+
+/// Up to twelve bytes, least significant first.
+void add(std::string_view bytes, State& s) {
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    s[i / 4] += std::uint32_t{static_cast<unsigned char>(bytes[i])} << 8 * (i % 4);
+  }
+}
+
+}  // namespace
+
+std::uint32_t metadata_checksum(std::string_view bytes) {
+  constexpr std::size_t kStep = 12;
+  const std::uint32_t start = 0xdeadbeef + static_cast<std::uint32_t>(bytes.size());
+  State s{start, start, start};
+  if (bytes.empty()) return s[2];
+  for (; bytes.size() > kStep; bytes.remove_prefix(kStep)) {
+    add(bytes.substr(0, kStep), s);
+    mix(s);
+  }
+  add(bytes, s);
+  finish(s);
+  return s[2];
+}
+
+namespace {
+
+constexpr std::size_t kMaxObjects = 1000;
+constexpr std::size_t kHeadBytes = 16;        ///< of a collection, and of an object in it
+constexpr std::size_t kMinCollection = 4096;  ///< what the library reads at once
+
+std::size_t padded(std::size_t bytes) {
+  return (bytes + 7) / 8 * 8;
+}
+
+/// One collection; object 0, the last, is what is free.
+LittleBytes collection_of(std::span<const std::string> strings) {
+  LittleBytes objects;
+  for (std::size_t i = 0; i < strings.size(); ++i) {
+    objects.number(i + 1, 2).number(1, 2).number(0, 4).number(strings[i].size(), 8);
+    objects.text(strings[i]).pad_to(padded(objects.size()));
+  }
+  const std::size_t size = std::max(kMinCollection, 2 * kHeadBytes + objects.size());
+  LittleBytes out;
+  out.text("GCOL").number(1, 4).number(size, 8).text(objects.bytes());
+  out.number(0, 8).number(size - kHeadBytes - objects.size(), 8).pad_to(size);
+  return out;
+}
+
+}  // namespace
+
+Hdf5Texts hdf5_texts(std::span<const std::string> strings, std::uint64_t address) {
+  Hdf5Texts out;
+  LittleBytes positions;
+  for (; !strings.empty(); strings = strings.subspan(std::min(kMaxObjects, strings.size()))) {
+    const auto some = strings.first(std::min(kMaxObjects, strings.size()));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const bool empty = some[i].empty();  // which is nowhere
+      positions.number(some[i].size(), 4).number(empty ? 0 : address + out.heap.size(), 8);
+      positions.number(empty ? 0 : i + 1, 4);
+    }
+    out.heap += collection_of(some).bytes();
+  }
+  out.positions = positions.bytes();
+  return out;
+}
+
 namespace {
 
 constexpr std::uint64_t kNowhere = ~std::uint64_t{0};

@@ -1,14 +1,53 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Groups and data sets of an HDF5 file that is written without the library.
+// Groups, data sets and their strings in an HDF5 file that is written without the library.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 namespace mw::io {
+
+/// Grows at its end.
+class LittleBytes {
+ public:
+  /// The low `bytes` bytes of value, least significant first.
+  LittleBytes& number(std::uint64_t value, unsigned bytes) {
+    for (unsigned i = 0; i < bytes; ++i) bytes_ += static_cast<char>(value >> 8 * i & 0xffU);
+    return *this;
+  }
+  LittleBytes& text(std::string_view text) {
+    bytes_ += text;
+    return *this;
+  }
+  /// Zeros up to this size.
+  LittleBytes& pad_to(std::size_t size) {
+    if (size > bytes_.size()) bytes_.resize(size, '\0');
+    return *this;
+  }
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// Jenkins' "lookup3" (hashlittle) from 0, as the HDF5 file format asks for.
+[[nodiscard]] std::uint32_t metadata_checksum(std::string_view bytes);
+
+/// Global heap collections (HDF5 file format, III.E), and what a data set of Hdf5Kind::kText holds
+/// of them: of each string its length, its collection and its place in there.
+struct Hdf5Texts {
+  std::string heap;       ///< for `address`
+  std::string positions;  ///< the data set
+};
+
+/// address: a multiple of 8.
+[[nodiscard]] Hdf5Texts hdf5_texts(std::span<const std::string> strings, std::uint64_t address);
 
 /// What a data set holds, least significant byte first.
 enum class Hdf5Kind : std::uint8_t {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "io/file/errors.h"
-#include "io/file/file_source.h"
+#include "io/file/source/file_source.h"
 
 namespace mw::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/file/unlinked_file.h"
+#include "io/file/scratch/scratch_file.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
 

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A growing set of raw labels.
+// Sets of labels.
 #include "io/labels/label_set.h"
 
 #include <bit>
+
+#include "io/labels/label_runs.h"
 
 namespace mw::io {
 namespace {
@@ -58,6 +60,30 @@ std::vector<RawLabel> LabelSet::values() const {
     if (label != 0) out.push_back(label);
   }
   return out;
+}
+
+namespace {
+
+/// 512 KiB of raw labels: stays in a second-level cache.
+constexpr std::int64_t kSlabVoxels = 1 << 16;
+
+}  // namespace
+
+std::vector<RawLabel> labels_in(const LabelVolume& volume, const Box3& box) {
+  if (box.voxels() == 0) return {};
+  LabelSet set;
+  std::vector<RawLabel> buffer;
+  const auto visit = [&](const Box3& slab) {
+    buffer.resize(static_cast<std::size_t>(slab.voxels()));
+    volume.read(slab, buffer);
+    set.insert(buffer);
+  };
+  if (volume.info().z_fastest) {
+    for_each_x_slab(box, kSlabVoxels, visit);
+  } else {
+    for_each_z_slab(box, kSlabVoxels, visit);
+  }
+  return set.values();
 }
 
 }  // namespace mw::io

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A growing set of raw labels, made for long runs of few different ones.
+// A growing set of raw labels, made for long runs of few different ones, and which labels a part of
+// a volume has.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "io/volume/label_volume.h"
 #include "kernels/core/label.h"
 
 namespace mw::io {
@@ -34,5 +36,9 @@ class LabelSet {
   x ^= x >> 32;
   return x * 0xd6e8feb86659fd93U;
 }
+
+/// The labels of a box of the volume, in no particular order: one pass in the order of the file, in
+/// slabs of bounded memory.
+[[nodiscard]] std::vector<RawLabel> labels_in(const LabelVolume& volume, const Box3& box);
 
 }  // namespace mw::io

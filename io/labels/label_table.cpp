@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "io/labels/label_runs.h"
 #include "io/labels/label_set.h"
-#include "io/labels/labels_in.h"
-#include "io/labels/slabs.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/error.h"
 

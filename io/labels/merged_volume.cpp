@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
-#include "io/labels/slabs.h"
+#include "io/labels/label_runs.h"
 
 namespace mw::io {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <tuple>
 
-#include "io/file/min_memory.h"
+#include "io/file/text_numbers.h"
 #include "io/labels/label_runs.h"
 #include "io/labels/speck_memory.h"
 

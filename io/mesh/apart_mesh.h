@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "io/file/apart.h"
+#include "io/file/wall/apart.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {

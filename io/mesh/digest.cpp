@@ -7,7 +7,7 @@
 #include <bit>
 
 #include "io/file/errors.h"
-#include "io/file/paged_file.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/mesh/hasher.h"
 
 namespace mw::io {

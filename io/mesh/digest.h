@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "io/file/external_sort.h"
+#include "io/file/scratch/external_sort.h"
 #include "io/mesh/mesh_data.h"
 
 namespace mw::io {

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "io/file/errors.h"
-#include "io/file/open_bytes.h"
+#include "io/file/source/inflated_source.h"
 #include "io/mesh/abaqus/inp_writer.h"
 #include "io/mesh/febio/febio_writer.h"
 #include "io/mesh/gmsh/msh_reader.h"

@@ -6,7 +6,7 @@
 #include <pugixml.hpp>
 #include <string>
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 
 namespace mw::io {
 

@@ -10,11 +10,20 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernels/core/label.h"
 
 namespace mw::io {
+
+/// Longest name that is kept, bytes.
+inline constexpr std::size_t kMaxNameBytes = 1000;
+
+/// ENSURES: valid UTF-8 of at most kMaxNameBytes, cut between two characters; without control
+/// characters (a blank instead), without characters that XML does not allow (U+FFFD instead, as for
+/// bytes that are no UTF-8), without blanks at its ends.  A clean name stays as it is.
+[[nodiscard]] std::string clean_name(std::string_view bytes);
 
 /// Red, green, blue and opacity, 0 to 255.
 using Colour = std::array<std::uint8_t, 4>;

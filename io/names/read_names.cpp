@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
-#include "io/file/open_bytes.h"
+#include "io/file/source/inflated_source.h"
 #include "io/names/colour_table.h"
 #include "io/names/csv_names.h"
 

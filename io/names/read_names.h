@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads what labels are called from a file (--names).
+// Reads what labels are called from a file (--names), and gives a volume these names.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 #include "io/names/label_names.h"
+#include "io/volume/label_volume.h"
 
 namespace mw::io {
 
@@ -22,5 +24,26 @@ inline constexpr std::uint64_t kMaxNamesBytes = 64 << 20;
 
 /// The same of text; `file` is what errors call it.
 [[nodiscard]] LabelNames parse_names(std::string_view text, std::string_view file);
+
+/// The volume with these names added to its own; where both name a label, these win.
+/// Thread safety: as the volume below.
+class NamedVolume : public LabelVolume {
+ public:
+  NamedVolume(std::unique_ptr<LabelVolume> volume, const LabelNames& names)
+      : volume_(std::move(volume)), info_(volume_->info()) {
+    info_.names = info_.names.merged_with(names);
+  }
+
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+  void read(const Box3& box, std::span<RawLabel> out) const override { volume_->read(box, out); }
+  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override {
+    return volume_->buffer_bytes(threads);
+  }
+  void drop_buffers() const override { volume_->drop_buffers(); }
+
+ private:
+  std::unique_ptr<LabelVolume> volume_;
+  VolumeInfo info_;
+};
 
 }  // namespace mw::io

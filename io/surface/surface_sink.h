@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/file/atomic_file.h"
 #include "io/file/byte_order.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/grouped/box_sides.h"
 #include "io/names/label_names.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "io/file/external_sort.h"
+#include "io/file/scratch/external_sort.h"
 
 namespace mw::io {
 namespace {

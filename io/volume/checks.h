@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 #include "io/volume/label_volume.h"
 #include "kernels/core/axis_limit.h"
 

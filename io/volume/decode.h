@@ -1,16 +1,27 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Voxels of any type and byte order from bytes and to bytes.
+// Voxels of any type and byte order from bytes and to bytes; the types by their names and sizes.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "io/file/byte_order.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
+
+/// "u8" .. "i64", "f32", "f64" as name() gives them.
+[[nodiscard]] std::optional<VoxelType> parse_voxel_type(std::string_view text);
+
+/// REQUIRES: bytes is 1, 2, 4 or 8.
+[[nodiscard]] VoxelType integer_type(int bytes, bool is_signed);
+
+/// REQUIRES: bytes is 4 or 8.
+[[nodiscard]] VoxelType float_type(int bytes);
 
 /// How stored numbers become labels: slope * stored + intercept (NIfTI).
 struct VoxelScaling {

@@ -7,7 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/volume/decode.h"
-#include "io/volume/npy/npy_header.h"
+#include "io/volume/npy/open_npy.h"
 
 namespace mw::io {
 namespace {

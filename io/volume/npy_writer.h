@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "io/file/byte_order.h"
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 #include "io/volume/decode.h"
 #include "io/volume/label_volume.h"
 

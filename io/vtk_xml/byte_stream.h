@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 
 namespace mw::io {
 

@@ -6,7 +6,7 @@
 #include <pugixml.hpp>
 #include <string>
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 #include "io/vtk_xml/data_array.h"
 
 namespace mw::io {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "io/file/byte_source.h"
 #include "io/file/errors.h"
+#include "io/file/source/byte_source.h"
 #include "tests/fuzz/target.h"
 
 namespace mw::fuzz {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "io/names/clean_name.h"
+#include "io/names/label_names.h"
 #include "tests/fuzz/target.h"
 
 namespace mw::fuzz {

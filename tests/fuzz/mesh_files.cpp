@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "io/file/file_source.h"
+#include "io/file/source/file_source.h"
 #include "io/mesh/gmsh/msh_reader.h"
 #include "io/mesh/medit/medit_reader.h"
 #include "io/mesh/pieces/pvtu_reader.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Tables of names of labels.
-#include "io/names/clean_name.h"
-#include "io/names/label_table_xml.h"
+#include "io/names/header_names.h"
+#include "io/names/label_names.h"
 #include "io/names/read_names.h"
 #include "tests/fuzz/all_targets.h"
 

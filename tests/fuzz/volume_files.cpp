@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Volumes in one file.
-#include "io/file/inflated_source.h"
-#include "io/file/open_bytes.h"
+#include "io/file/source/inflated_source.h"
 #include "io/volume/metaimage/open_metaimage.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/open_npy.h"

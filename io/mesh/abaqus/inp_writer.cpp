@@ -4,7 +4,7 @@
 #include "io/mesh/abaqus/inp_writer.h"
 
 #include "io/file/errors.h"
-#include "io/file/external_sort.h"
+#include "io/file/scratch/external_sort.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/medit/medit_names.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
-#include "io/file/commit_together.h"
 #include "io/file/errors.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/number_line.h"

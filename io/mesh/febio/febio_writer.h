@@ -3,7 +3,7 @@
 // Writes the geometry of an FEBio model.
 #pragma once
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/label_numbers.h"
 

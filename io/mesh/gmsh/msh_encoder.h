@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 
 namespace mw::io {
 

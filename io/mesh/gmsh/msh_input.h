@@ -3,8 +3,8 @@
 // Sections and numbers of a .msh file, from text or from bytes.
 #pragma once
 
-#include "io/file/byte_cursor.h"
 #include "io/file/byte_order.h"
+#include "io/file/source/byte_cursor.h"
 
 namespace mw::io {
 

@@ -4,7 +4,7 @@
 #include "io/mesh/gmsh/msh_reader.h"
 
 #include "io/file/errors.h"
-#include "io/file/open_bytes.h"
+#include "io/file/source/inflated_source.h"
 #include "io/file/text_numbers.h"
 #include "io/mesh/gmsh/msh_sections.h"
 #include "io/mesh/grouped/label_numbers.h"

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "io/file/commit_together.h"
 #include "io/file/errors.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/gmsh/msh_elements.h"
 
 namespace mw::io {

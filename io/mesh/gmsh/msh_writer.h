@@ -3,7 +3,7 @@
 // Writes a grouped mesh as Gmsh's .msh 4.1.
 #pragma once
 
-#include "io/file/partial_file.h"
+#include "io/file/sink/partial_file.h"
 #include "io/mesh/gmsh/msh_encoder.h"
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/group_names.h"

@@ -3,7 +3,7 @@
 // Which surface or volume each node of a mesh lies on.
 #pragma once
 
-#include "io/file/external_sort.h"
+#include "io/file/scratch/external_sort.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {

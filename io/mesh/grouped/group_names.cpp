@@ -8,7 +8,7 @@
 #include <map>
 
 #include "io/file/errors.h"
-#include "io/names/csv_records.h"
+#include "io/names/csv_names.h"
 
 namespace mw::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {

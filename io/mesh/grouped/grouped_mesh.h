@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "io/file/paged_file.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/element.h"
 #include "io/mesh/grouped/box_sides.h"

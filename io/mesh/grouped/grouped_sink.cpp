@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
-#include "io/file/external_sort.h"
+#include "io/file/scratch/external_sort.h"
 #include "io/labels/label_set.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/sink_counts.h"

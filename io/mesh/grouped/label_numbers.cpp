@@ -7,11 +7,10 @@
 #include <set>
 
 #include "io/file/errors.h"
-#include "io/file/open_bytes.h"
+#include "io/file/source/inflated_source.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/names/colour_table.h"
 #include "io/names/csv_names.h"
-#include "io/names/csv_records.h"
-#include "io/names/name_fields.h"
 
 namespace mw::io {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/labels/label_table.h"
 #include "io/names/label_names.h"
 

@@ -5,7 +5,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
-#include "io/names/name_fields.h"
+#include "io/names/colour_table.h"
 
 namespace mw::io {
 namespace {

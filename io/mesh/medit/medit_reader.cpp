@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/file/byte_source.h"
 #include "io/file/errors.h"
+#include "io/file/source/byte_source.h"
 #include "io/mesh/medit/medit_names.h"
 
 namespace mw::io {

@@ -3,7 +3,7 @@
 // Reads an ASCII MEDIT .mesh file.
 #pragma once
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 #include "io/mesh/mesh_data.h"
 
 namespace mw::io {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "io/file/atomic_file.h"
-#include "io/file/scratch_file.h"
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {

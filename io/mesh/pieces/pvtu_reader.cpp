@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "io/file/errors.h"
-#include "io/file/named_beside.h"
-#include "io/file/open_bytes.h"
+#include "io/file/source/file_source.h"
+#include "io/file/source/inflated_source.h"
 #include "io/mesh/vtu/vtu_layout.h"
 #include "io/mesh/vtu/vtu_reader.h"
 #include "io/vtk_xml/vtk_document.h"

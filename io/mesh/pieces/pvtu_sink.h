@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "io/file/atomic_file.h"
-#include "io/file/atomic_folder.h"
+#include "io/file/sink/atomic_file.h"
+#include "io/file/sink/atomic_folder.h"
 #include "io/mesh/mesh_data.h"
 
 namespace mw::io {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/hdf5_file.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/kept_rows.h"
 

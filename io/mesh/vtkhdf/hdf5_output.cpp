@@ -3,7 +3,7 @@
 // An HDF5 file that is written, whole or not at all.
 #include "io/mesh/vtkhdf/hdf5_output.h"
 
-#include "io/hdf5/hdf5_text_heap.h"
+#include "io/hdf5/hdf5_tree.h"
 
 namespace mw::io {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/file/atomic_file.h"
-#include "io/file/placed_output.h"
+#include "io/file/sink/atomic_file.h"
+#include "io/file/sink/partial_file.h"
 #include "io/hdf5/hdf5_tree.h"
 
 namespace mw::io {

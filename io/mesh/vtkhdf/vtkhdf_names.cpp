@@ -7,7 +7,7 @@
 #include <array>
 
 #include "io/file/errors.h"
-#include "io/hdf5/library_errors.h"
+#include "io/hdf5/hdf5_file.h"
 #include "io/mesh/vtkhdf/hdf5_array.h"
 
 namespace mw::io {

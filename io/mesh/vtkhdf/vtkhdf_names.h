@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/hdf5_file.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"

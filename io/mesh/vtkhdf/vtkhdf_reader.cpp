@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/file/errors.h"
-#include "io/file/file_source.h"
+#include "io/file/source/file_source.h"
 #include "io/mesh/apart_mesh.h"
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"

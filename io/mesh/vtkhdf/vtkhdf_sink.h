@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/file/joined_partial.h"
+#include "io/file/sink/partial_file.h"
 #include "io/mesh/element.h"
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/shared_mesh.h"

@@ -3,7 +3,7 @@
 // Reads a tetrahedral .vtu file, ours or another tool's.
 #pragma once
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 #include "io/mesh/mesh_data.h"
 
 namespace mw::io {

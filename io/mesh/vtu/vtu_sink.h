@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/vtu/vtu_layout.h"
 

@@ -3,8 +3,8 @@
 // Writes a mesh as XDMF over HDF5, with tags as dolfinx reads them.
 #include "io/mesh/xdmf/xdmf_writer.h"
 
-#include "io/file/commit_together.h"
 #include "io/file/errors.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/ten_node_writer.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
 #include "io/mesh/xml_text.h"

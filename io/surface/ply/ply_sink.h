@@ -3,7 +3,7 @@
 // Writes a surface as a binary .ply file.
 #pragma once
 
-#include "io/file/atomic_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/surface/surface_sink.h"
 

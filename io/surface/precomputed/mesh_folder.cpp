@@ -5,8 +5,8 @@
 
 #include <limits>
 
-#include "io/file/atomic_file.h"
 #include "io/file/errors.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
 #include "io/surface/precomputed/draco_sink.h"
 #include "io/surface/surface_sink.h"

@@ -3,8 +3,8 @@
 // A folder of neuroglancer's precomputed meshes.
 #pragma once
 
-#include "io/file/atomic_file.h"
-#include "io/file/atomic_folder.h"
+#include "io/file/sink/atomic_file.h"
+#include "io/file/sink/atomic_folder.h"
 #include "io/surface/surface_sink.h"
 
 namespace mw::io {

@@ -3,8 +3,8 @@
 // Writes triangles as a binary .stl file.
 #pragma once
 
-#include "io/file/atomic_file.h"
-#include "io/file/paged_file.h"
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/surface/surface_sink.h"
 
 namespace mw::io {

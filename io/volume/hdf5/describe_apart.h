@@ -1,18 +1,33 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What the HDF5 library tells of a data set.  To be called apart (io/file/apart.h) only: damage
+// What the HDF5 library tells of a data set. To be called apart (io/file/wall/apart.h) only: damage
 // makes the library crash.
 #pragma once
 
 #include <hdf5.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 
-#include "io/hdf5/source_driver.h"
+#include "io/file/byte_order.h"
+#include "io/hdf5/hdf5_file.h"
 #include "io/volume/hdf5/description.h"
+#include "io/volume/label_volume.h"
 
 namespace mw::io {
+
+struct Hdf5NumberType {
+  VoxelType type = VoxelType::kU8;
+  ByteOrder order = ByteOrder::kLittle;
+};
+
+/// Integers of 8 to 64 bits, enumerations of them (h5py's booleans), and floats of IEEE 754 in 32
+/// or 64 bits; empty for all others.
+[[nodiscard]] std::optional<Hdf5NumberType> number_type(hid_t type);
+
+/// "u8", or what the type is instead: "compound".
+[[nodiscard]] std::string type_text(hid_t type);
 
 /// hdf5: the file, opened through source.
 /// ERRORS: mw::Error(kInput) for damage, and for types and storage that cannot be read.

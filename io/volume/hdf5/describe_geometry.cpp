@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "io/file/errors.h"
-#include "io/hdf5/hdf5_handle.h"
-#include "io/hdf5/library_errors.h"
+#include "io/hdf5/hdf5_file.h"
 
 namespace mw::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {

@@ -1,17 +1,34 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The array that an attributes.json of N5 describes.
+// The array that an attributes.json of N5 describes, and its blocks, a file each.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "io/chunks/chunk.h"
 #include "io/codec/codec.h"
+#include "io/json/json.h"
 #include "io/json/json_fields.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
+
+struct N5Document {
+  Json json;
+  std::string file;
+
+  /// Looks at json, which must outlive it.  ERRORS: mw::Error(kInput) when that is no object.
+  [[nodiscard]] JsonFields fields() const { return {json, file}; }
+};
+
+/// The attributes of a folder; empty: it has none.
+/// ERRORS: mw::Error(kInput) when the file cannot be read or is no JSON.
+[[nodiscard]] std::optional<N5Document> read_attributes(const std::filesystem::path& folder);
 
 /// Axes go from the fastest to the slowest, as N5 has them.
 struct N5Array {
@@ -35,5 +52,25 @@ struct N5Array {
 /// Of the axes x, y and z.
 [[nodiscard]] Index3 shape_of(const N5Array& array);
 [[nodiscard]] Index3 block_of(const N5Array& array);
+
+/// A block file: mode (u16), number of axes (u16), extents (u32 each), in mode 1 the number of
+/// values (u32); then the values, packed; the most significant byte of each number first.
+class N5Blocks : public ChunkSource {
+ public:
+  /// folder: the array's.
+  N5Blocks(std::filesystem::path folder, N5Array array)
+      : folder_(std::move(folder)), array_(std::move(array)) {}
+
+  [[nodiscard]] std::string name() const override { return folder_.string(); }
+  [[nodiscard]] std::string name_of(Index3 chunk) const override { return path_of(chunk).string(); }
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box) const override;
+  [[nodiscard]] std::uint64_t scratch_bytes() const override;
+
+ private:
+  [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;
+
+  std::filesystem::path folder_;
+  N5Array array_;
+};
 
 }  // namespace mw::io

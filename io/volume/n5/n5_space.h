@@ -4,7 +4,6 @@
 #pragma once
 
 #include "io/volume/n5/n5_array.h"
-#include "io/volume/n5/n5_document.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {

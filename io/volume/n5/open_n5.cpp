@@ -1,15 +1,145 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Brings an array of N5 together with its place and its blocks.
+// Looks through a container of N5 for the array that is meant, and opens it.
 #include "io/volume/n5/open_n5.h"
 
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include "io/chunks/chunk.h"
 #include "io/chunks/chunked_volume.h"
 #include "io/file/errors.h"
-#include "io/volume/n5/n5_blocks.h"
-#include "io/volume/n5/n5_container.h"
+#include "io/json/json.h"
+#include "io/volume/n5/n5_array.h"
 #include "io/volume/n5/n5_space.h"
 
 namespace mw::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Kind { kArray, kPyramid, kGroup };
+
+bool has_array(const fs::path& folder) {
+  const auto attributes = read_attributes(folder);
+  return attributes && attributes->json.is_object() && is_n5_array(attributes->fields());
+}
+
+Kind kind_of(const fs::path& folder) {
+  if (has_array(folder)) return Kind::kArray;
+  return has_array(folder / "s0") ? Kind::kPyramid : Kind::kGroup;
+}
+
+/// By name, so that what is found does not depend on the file system.
+std::vector<fs::path> folders_in(const fs::path& folder) {
+  std::vector<fs::path> out;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code ignored;
+    if (at->is_directory(ignored)) out.push_back(at->path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Arrays and pyramids below a group, within bounds: links may lead round and round.
+class Search {
+ public:
+  explicit Search(const fs::path& container) { look(container, "", 0); }
+
+  [[nodiscard]] const std::vector<std::string>& found() const { return found_; }
+  /// Whether there was more than is looked through.
+  [[nodiscard]] bool gave_up() const { return folders_ >= kMaxFolders; }
+  [[nodiscard]] std::string names() const {
+    constexpr std::size_t kMax = 30;
+    std::string out;
+    for (std::size_t i = 0; i < std::min(kMax, found_.size()); ++i) {
+      out += (i == 0 ? "" : ", ") + found_[i];
+    }
+    return found_.size() > kMax || gave_up() ? out + ", ..." : out;
+  }
+
+ private:
+  static constexpr int kMaxDepth = 8;
+  static constexpr int kMaxFolders = 5000;
+
+  void look(const fs::path& folder, const std::string& prefix, int depth) {
+    for (const fs::path& child : folders_in(folder)) {
+      if (++folders_ >= kMaxFolders) return;
+      const std::string name = prefix + child.filename().string();
+      if (kind_of(child) != Kind::kGroup) {
+        found_.push_back(name);
+      } else if (depth < kMaxDepth) {
+        look(child, name + "/", depth + 1);
+      }
+    }
+  }
+
+  std::vector<std::string> found_;
+  int folders_ = 0;
+};
+
+fs::path only_one(const fs::path& group) {
+  const Search search(group);
+  if (search.found().size() == 1 && !search.gave_up()) return group / search.found()[0];
+  if (search.found().empty()) {
+    fail_input(group.string(), "N5", "there is no array in the folder",
+               "give the folder of a container or an array");
+  }
+  fail_input(group.string(), "N5", text("there are several arrays: ", search.names()),
+             "choose one with --dataset");
+}
+
+/// "/volumes/labels" is meant from the container on.
+fs::path dataset_folder(const fs::path& container, const std::string& dataset) {
+  const std::size_t start = dataset.find_first_not_of('/');
+  const fs::path inside = start == dataset.npos ? fs::path() : fs::path(dataset.substr(start));
+  const bool leaves = std::find(inside.begin(), inside.end(), "..") != inside.end();
+  std::error_code ignored;
+  fs::path folder = container / inside;
+  if (!leaves && fs::is_directory(folder, ignored)) return folder;
+  throw Error(ErrorKind::kUsage, text("--dataset ", dataset, ": not in ", container.string(),
+                                      "; it has ", Search(container).names()));
+}
+
+fs::path level_in(const fs::path& pyramid, int level) {
+  const auto folder = [&](int i) { return pyramid / text("s", i); };
+  if (level >= 0 && has_array(folder(level))) return folder(level);
+  int count = 1;
+  while (has_array(folder(count))) ++count;
+  throw Error(ErrorKind::kUsage, text("--scale ", level, ": ", pyramid.string(), " has ", count,
+                                      " levels, 0 (the finest) to ", count - 1));
+}
+
+}  // namespace
+
+std::optional<N5Document> read_attributes(const fs::path& folder) {
+  const fs::path path = folder / "attributes.json";
+  if (!open_if_there(path)) return std::nullopt;
+  return N5Document{.json = read_json(path), .file = path.string()};
+}
+
+std::optional<std::size_t> level_of(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  if (name.size() < 2 || name[0] != 's') return std::nullopt;
+  std::size_t level = 0;
+  const char* end = name.data() + name.size();
+  const auto parsed = std::from_chars(name.data() + 1, end, level);
+  if (parsed.ec != std::errc() || parsed.ptr != end) return std::nullopt;
+  return level;
+}
+
+fs::path find_n5_array(const fs::path& container, const OpenOptions& options) {
+  fs::path folder =
+      options.dataset.empty() ? container : dataset_folder(container, options.dataset);
+  if (kind_of(folder) == Kind::kGroup) folder = only_one(folder);
+  if (kind_of(folder) == Kind::kPyramid) return level_in(folder, options.scale.value_or(0));
+  if (options.scale.value_or(0) == 0) return folder;
+  throw Error(ErrorKind::kUsage,
+              text("--scale ", *options.scale, ": ", folder.string(), " has one resolution"));
+}
+
 namespace {
 
 /// A level of a pyramid needs what is written of the finest one and of all.

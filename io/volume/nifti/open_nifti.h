@@ -1,12 +1,50 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Opens a NIfTI file as a volume.
+// Opens a single-file NIfTI-1 or NIfTI-2 volume, with the names that it has for labels.
 #pragma once
 
-#include "io/file/byte_source.h"
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "io/file/byte_order.h"
+#include "io/file/source/byte_source.h"
+#include "io/names/label_names.h"
+#include "io/volume/decode.h"
+#include "io/volume/file_space.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {
+
+/// Bytes that hold a header of either version.
+inline constexpr std::size_t kNiftiHeaderBytes = 540;
+
+struct NiftiHeader {
+  int version = 1;
+  ByteOrder order = ByteOrder::kLittle;
+  VoxelType type = VoxelType::kU8;
+  Index3 shape;
+  std::uint64_t data_offset = 0;
+  VoxelScaling scaling{};
+  /// By the sform, else the qform (NIfTI-1 methods 3 and 2), in RAS; else by pixdim alone (method
+  /// 1), of an unknown orientation, the centre of the first voxel at 0.
+  FileSpace space;
+};
+
+/// Whether the bytes begin a NIfTI-1 or -2 header of either byte order, paired files included.
+[[nodiscard]] bool has_nifti_magic(std::span<const std::byte> bytes);
+
+/// REQUIRES: bytes is the beginning of the file, kNiftiHeaderBytes or as much as there is.
+/// ERRORS: mw::Error(kInput) naming file and field.
+[[nodiscard]] NiftiHeader parse_nifti_header(std::span<const std::byte> bytes,
+                                             std::string_view file);
+
+/// The first label table (io/names/header_names.h) among the header extensions.  Extensions that are
+/// damaged, or hold something else, are nothing: the voxels do not need them.
+/// Memory: one extension and its XML tree; none above 4 MiB is looked at.
+/// ERRORS: mw::Error(kInput) when the file cannot be read.
+[[nodiscard]] LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header);
 
 /// Bytes behind the voxels are ignored.  ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,

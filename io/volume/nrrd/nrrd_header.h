@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "io/file/byte_order.h"
-#include "io/names/slicer_segments.h"
+#include "io/names/header_names.h"
 #include "io/volume/file_space.h"
 
 namespace mw::io {

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
-#include "io/file/file_source.h"
-#include "io/file/inflated_source.h"
+#include "io/file/source/file_source.h"
+#include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
 #include "io/volume/nrrd/nrrd_header.h"

@@ -3,7 +3,7 @@
 // Opens an NRRD file as a volume.
 #pragma once
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {

@@ -7,8 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "io/chunks/chunk_bytes.h"
-#include "io/chunks/store_type.h"
+#include "io/chunks/chunk.h"
 #include "io/file/errors.h"
 #include "io/json/json_fields.h"
 #include "io/volume/checks.h"

@@ -1,18 +1,54 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of chunks, and the index of a minishard.
+// Finds chunks in shards, and reads them.
 #include "io/volume/precomputed/sharding.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cstring>
 
+#include "io/chunks/chunk.h"
+#include "io/codec/codec.h"
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
-#include "io/volume/precomputed/murmur_hash.h"
 
 namespace mw::io {
+namespace {
+
+constexpr std::uint32_t kC1 = 0x239b961b;
+constexpr std::uint32_t kC2 = 0xab0e9789;
+constexpr std::uint32_t kC3 = 0x38b34ae5;
+constexpr std::uint32_t kLength = 8;
+
+/// Lets every bit of h depend on every other.
+constexpr std::uint32_t avalanche(std::uint32_t h) {
+  h = (h ^ (h >> 16U)) * 0x85ebca6b;
+  h = (h ^ (h >> 13U)) * 0xc2b2ae35;
+  return h ^ (h >> 16U);
+}
+
+using State = std::array<std::uint32_t, 4>;
+
+void add_up(State& h) {
+  h[0] += h[1] + h[2] + h[3];
+  for (const std::size_t i : {1U, 2U, 3U}) h[i] += h[0];
+}
+
+}  // namespace
+
+std::uint64_t murmur_hash(std::uint64_t key) {
+  const auto low = static_cast<std::uint32_t>(key);
+  const auto high = static_cast<std::uint32_t>(key >> 32U);
+  State h{std::rotl(low * kC1, 15) * kC2, std::rotl(high * kC2, 16) * kC3, 0, 0};
+  for (std::uint32_t& part : h) part ^= kLength;
+  add_up(h);
+  for (std::uint32_t& part : h) part = avalanche(part);
+  add_up(h);
+  return std::uint64_t{h[1]} << 32U | h[0];
+}
+
 namespace {
 
 /// Bits that the places 0 .. extent - 1 need.
@@ -107,6 +143,104 @@ std::vector<ShardEntry> parse_minishard_index(std::span<const std::byte> bytes,
     entries[i] = last;
   }
   return entries;
+}
+
+namespace {
+
+/// Enough for the minishards around a window: one of 512 chunks takes 12 KiB.
+constexpr std::uint64_t kKeptIndexBytes = 4ULL << 20U;
+
+/// Chunks of a minishard come in any order: the differences between them may wrap.
+std::optional<ShardEntry> entry_of(const Chunk& index, std::uint64_t chunk) {
+  ShardEntry entry;
+  for (std::size_t at = 0; at < index.bytes.size(); at += sizeof entry) {
+    std::memcpy(&entry, index.bytes.data() + at, sizeof entry);
+    if (entry.chunk == chunk) return entry;
+  }
+  return std::nullopt;
+}
+
+/// Before 2019 a shard was two files, <shard>.index and <shard>.data.
+void refuse_old_shard(std::filesystem::path path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path.replace_extension(".index"), ignored)) return;
+  fail_input(path.string(), {}, "the shard is of an old form, an index and data apart",
+             "join the two to a file with .shard instead of .index");
+}
+
+std::vector<std::byte> read_part(const ByteSource& file, std::uint64_t offset, std::uint64_t size) {
+  std::vector<std::byte> bytes(size);
+  file.read_at(offset, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+ShardFolder::ShardFolder(std::filesystem::path folder, const Sharding& sharding, Index3 grid)
+    : folder_(std::move(folder)),
+      sharding_(sharding),
+      max_index_bytes_(sizeof(ShardEntry) * max_in_minishard(sharding, grid)),
+      indices_(kKeptIndexBytes) {}
+
+std::filesystem::path ShardFolder::path_of(std::uint64_t chunk) const {
+  return folder_ / shard_file_name(sharding_, position_of(sharding_, chunk).shard);
+}
+
+std::optional<std::vector<std::byte>> ShardFolder::read(std::uint64_t chunk,
+                                                        std::uint64_t max) const {
+  const ShardPosition position = position_of(sharding_, chunk);
+  const std::filesystem::path path = path_of(chunk);
+  const std::uint64_t number =
+      position.shard << static_cast<unsigned>(sharding_.minishard_bits) | position.minishard;
+  const auto index = indices_.get(number, [&] { return load_index(path, position.minishard); });
+  if (!index) return std::nullopt;
+  const auto entry = entry_of(*index, chunk);
+  if (!entry) return std::nullopt;
+  if (entry->size > max) {
+    fail_input(path.string(), text("chunk ", chunk),
+               text("the chunk has ", entry->size, " bytes, and its voxels need at most ", max),
+               "get a whole copy of the store");
+  }
+  return read_part(FileSource(path), shard_index_bytes(sharding_) + entry->offset, entry->size);
+}
+
+std::optional<Chunk> ShardFolder::load_index(const std::filesystem::path& path,
+                                             std::uint64_t minishard) const {
+  const auto file = open_if_there(path);
+  if (!file) {
+    refuse_old_shard(path);
+    return std::nullopt;
+  }
+  const std::uint64_t start = shard_index_bytes(sharding_);
+  std::array<std::byte, 16> entry{};
+  file->read_at(entry.size() * minishard, entry);
+  const auto begin = load<std::uint64_t>(entry.data(), ByteOrder::kLittle);
+  const auto end = load<std::uint64_t>(entry.data() + 8, ByteOrder::kLittle);
+  if (begin == end) return std::nullopt;
+  const std::string name = text(path.string(), ": minishard ", minishard);
+  const std::uint64_t data_bytes = file->size() > start ? file->size() - start : 0;
+  if (begin > end || end > data_bytes) {
+    fail_input(name, "shard index",
+               text("bytes ", begin, " to ", end, " are not in the ", data_bytes, " of the shard"),
+               "get a whole copy of the store");
+  }
+  const std::uint64_t max =
+      sharding_.packed_index ? max_packed_bytes(max_index_bytes_) : max_index_bytes_;
+  if (end - begin > max) {
+    fail_input(name, "shard index",
+               text("an index of ", end - begin, " bytes, and all its chunks need at most ", max),
+               "get a whole copy of the store");
+  }
+  std::vector<std::byte> bytes = read_part(*file, start + begin, end - begin);
+  if (sharding_.packed_index) bytes = unpack(Codec::kGzip, bytes, max_index_bytes_, name);
+  const auto entries = parse_minishard_index(bytes, data_bytes, name);
+  const auto raw = std::as_bytes(std::span(entries));
+  return Chunk{.bytes = {raw.begin(), raw.end()}};
+}
+
+std::uint64_t ShardFolder::scratch_bytes() const {
+  return kKeptIndexBytes + max_packed_bytes(max_index_bytes_) + 3 * max_index_bytes_ +
+         max_scratch(Codec::kGzip, max_index_bytes_);
 }
 
 }  // namespace mw::io

@@ -1,18 +1,26 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Where chunks are in "neuroglancer_uint64_sharded_v1": which shard, and where in it.
+// Where chunks are in "neuroglancer_uint64_sharded_v1", and a folder of such shards, from which
+// they are read by their numbers.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/chunks/chunked_volume.h"
 #include "kernels/core/index.h"
 
 namespace mw::io {
+
+/// MurmurHash3_x86_128 (A. Appleby, public domain) of the 8 bytes of key, least significant first,
+/// with seed 0: the low 64 of its 128 bits.
+[[nodiscard]] std::uint64_t murmur_hash(std::uint64_t key);
 
 /// The member "sharding" of a scale (neuroglancer's "precomputed" format, sharding).
 struct Sharding {
@@ -59,5 +67,30 @@ struct ShardEntry {
 [[nodiscard]] std::vector<ShardEntry> parse_minishard_index(std::span<const std::byte> bytes,
                                                             std::uint64_t data_bytes,
                                                             std::string_view name);
+
+/// Thread safety: all members may be called from many threads.
+class ShardFolder {
+ public:
+  ShardFolder(std::filesystem::path folder, const Sharding& sharding, Index3 grid);
+
+  /// The chunk's bytes as the shard has them, maybe gzipped; empty: there is no such chunk.
+  /// most: the most bytes that they may be.
+  /// ERRORS: mw::Error(kInput) naming the shard when it is damaged, or the chunk is larger.
+  [[nodiscard]] std::optional<std::vector<std::byte>> read(std::uint64_t chunk,
+                                                           std::uint64_t max) const;
+  /// The shard that a chunk is in, if it is there.
+  [[nodiscard]] std::filesystem::path path_of(std::uint64_t chunk) const;
+  /// The most that read() takes in memory beside what it returns, indices that are kept included.
+  [[nodiscard]] std::uint64_t scratch_bytes() const;
+
+ private:
+  [[nodiscard]] std::optional<Chunk> load_index(const std::filesystem::path& path,
+                                                std::uint64_t minishard) const;
+
+  std::filesystem::path folder_;
+  Sharding sharding_;
+  std::uint64_t max_index_bytes_;  ///< of one minishard, unpacked
+  mutable ChunkCache indices_;     ///< as arrays of ShardEntry, by shard and minishard
+};
 
 }  // namespace mw::io

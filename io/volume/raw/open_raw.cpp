@@ -3,8 +3,8 @@
 // Opens a headerless file as a volume.
 #include "io/volume/raw/open_raw.h"
 
-#include "io/file/file_source.h"
-#include "io/file/open_bytes.h"
+#include "io/file/source/file_source.h"
+#include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
 #include "io/volume/raw_array.h"

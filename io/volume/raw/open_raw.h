@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "io/file/byte_source.h"
+#include "io/file/source/byte_source.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {

@@ -1,22 +1,152 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Opens a TIFF, BigTIFF or OME-TIFF stack as a volume.
+// Reads the ImageDescription of a stack, as OME-XML or as ImageJ's lines, and opens the stack.
 #include "io/volume/tiff/open_tiff.h"
 
+#include <pugixml.hpp>
+
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "io/chunks/chunked_volume.h"
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
 #include "io/volume/raw_array.h"
-#include "io/volume/tiff/tiff_chunks.h"
-#include "io/volume/tiff/tiff_description.h"
 #include "io/volume/tiff/tiff_stack.h"
 
 namespace mw::io {
+namespace {
+
+/// A micrometre goes by many names, also as ImageJ and Latin-1 write the letter.
+std::string plain_unit(std::string_view unit) {
+  for (const char* other :
+       {"micron", "microns", "micrometer", "\xc2\xb5m", "\xce\xbcm", "\xb5m", "\\u00B5m"}) {
+    if (unit == other) return "um";
+  }
+  return unit == "pixel" || unit == "pixels" ? "" : std::string(unit);
+}
+
+/// Metres; 0 for a unit that is not known.
+double metres(std::string_view unit) {
+  constexpr std::pair<std::string_view, double> kUnits[]{{"m", 1},     {"cm", 1e-2}, {"mm", 1e-3},
+                                                         {"um", 1e-6}, {"nm", 1e-9}, {"pm", 1e-12}};
+  for (const auto& [name, length] : kUnits) {
+    if (unit == name) return length;
+  }
+  return 0;
+}
+
+std::int64_t line_number(std::string_view description, std::string_view key,
+                         std::int64_t otherwise) {
+  const std::size_t at = description.find(text("\n", key, "="));
+  if (at == std::string_view::npos) return otherwise;
+  const std::string_view rest = description.substr(at + key.size() + 2);
+  return parse_integer(trimmed(rest.substr(0, rest.find('\n')))).value_or(otherwise);
+}
+
+std::string_view line_text(std::string_view description, std::string_view key) {
+  const std::size_t at = description.find(text("\n", key, "="));
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = description.substr(at + key.size() + 2);
+  return trimmed(rest.substr(0, rest.find('\n')));
+}
+
+/// "ImageJ=1.53t\nimages=12\nslices=12\nunit=micron\nspacing=2.5".
+TiffDescription parse_imagej(std::string_view description, std::array<double, 2> resolution,
+                             const std::string& file) {
+  for (const char* axis : {"channels", "frames"}) {
+    const std::int64_t extent = line_number(description, axis, 1);
+    if (extent == 1) continue;
+    fail_input(file, text("ImageJ ", axis), text("the stack has ", extent),
+               "save one of them as a stack of slices");
+  }
+  TiffDescription out{.unit = plain_unit(line_text(description, "unit")), .is_imagej = true};
+  if (const auto images = line_number(description, "images", 0); images > 0) out.slices = images;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (resolution[i] > 0) out.spacing[i] = 1 / resolution[i];
+  }
+  const std::string_view spacing = line_text(description, "spacing");
+  if (!spacing.empty()) {
+    // A negative one is a stack from top to bottom.
+    out.spacing[2] = std::abs(parse_real(spacing).value_or(std::nan("")));
+  }
+  return out;
+}
+
+void refuse_other_axes(pugi::xml_node pixels, const std::string& file) {
+  for (const char* axis : {"SizeC", "SizeT"}) {
+    const std::int64_t extent = pixels.attribute(axis).as_llong(1);
+    if (extent == 1) continue;
+    fail_input(file, text("OME-XML ", axis), text("the stack has ", extent),
+               "save one channel and one time as a stack of slices");
+  }
+}
+
+void refuse_other_order(pugi::xml_node pixels, const std::string& file) {
+  for (const pugi::xml_node data : pixels.children("TiffData")) {
+    const std::int64_t z = data.attribute("FirstZ").as_llong();
+    const std::int64_t page = data.attribute("IFD").as_llong();
+    if (z == page) continue;
+    fail_input(file, "OME-XML TiffData", text("slice ", z, " is page ", page, " of a file"),
+               "save the slices in order and in one file");
+  }
+}
+
+/// Edges of a voxel in the unit of the first axis that has one; PhysicalSize is in um by default.
+void read_sizes(pugi::xml_node pixels, TiffDescription& out) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string size = text("PhysicalSize", std::string_view("XYZ").substr(i, 1));
+    const pugi::xml_attribute value = pixels.attribute(size.c_str());
+    if (!value) {
+      out.spacing[i] = std::nan("");
+      continue;
+    }
+    const std::string unit =
+        plain_unit(pixels.attribute((size + "Unit").c_str()).as_string("\xc2\xb5m"));
+    if (out.unit.empty()) out.unit = unit;
+    const double factor = unit == out.unit ? 1 : metres(unit) / metres(out.unit);
+    out.spacing[i] = parse_real(value.as_string()).value_or(std::nan("")) * factor;
+  }
+  const auto unknown = [](double x) { return std::isnan(x); };
+  if (std::all_of(out.spacing.begin(), out.spacing.end(), unknown)) out.spacing = {1, 1, 1};
+  // One slice is as thick as its pixels are wide.
+  if (out.slices == 1 && unknown(out.spacing[2])) out.spacing[2] = out.spacing[0];
+}
+
+TiffDescription parse_ome(std::string_view description, const std::string& file) {
+  pugi::xml_document xml;
+  const auto result = xml.load_buffer(description.data(), description.size());
+  if (!result) {
+    fail_input(file, text("OME-XML at offset ", result.offset), result.description(),
+               "the file is damaged");
+  }
+  const pugi::xml_node image = xml.child("OME").child("Image");
+  const pugi::xml_node pixels = image.child("Pixels");
+  if (!pixels) fail_input(file, "OME-XML", "it has no Image with Pixels", "the file is damaged");
+  if (image.next_sibling("Image")) {
+    fail_input(file, "OME-XML", "the file has several images", "save one of them");
+  }
+  refuse_other_axes(pixels, file);
+  refuse_other_order(pixels, file);
+  TiffDescription out;
+  if (pixels.attribute("SizeZ")) out.slices = pixels.attribute("SizeZ").as_llong();
+  read_sizes(pixels, out);
+  return out;
+}
+
+}  // namespace
+
+TiffDescription parse_tiff_description(std::string_view description,
+                                       std::array<double, 2> resolution, const std::string& file) {
+  if (description.starts_with("ImageJ=")) return parse_imagej(description, resolution, file);
+  if (description.find("<OME") != std::string_view::npos) return parse_ome(description, file);
+  return {};
+}
+
 namespace {
 
 VolumeInfo info_of(const TiffStack& stack, const TiffDescription& said,

@@ -9,7 +9,6 @@
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
 #include "io/volume/zarr/multiscale.h"
-#include "io/volume/zarr/store_contents.h"
 #include "io/volume/zarr/zarr_chunks.h"
 #include "io/volume/zarr/zarr_metadata.h"
 #include "io/volume/zarr/zarr_node.h"

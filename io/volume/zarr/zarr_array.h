@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What the metadata of a Zarr array say, of either version.
+// What the metadata of a Zarr array say, of either version of the format, and how the bytes of a
+// chunk become voxels by it.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "io/chunks/chunk.h"
 #include "io/codec/codec.h"
 #include "io/file/byte_order.h"
 #include "io/volume/label_volume.h"
+#include "io/volume/zarr/multiscale.h"
 
 namespace mw::io {
 
@@ -71,5 +74,21 @@ void check_grid(std::string_view file, std::string_view field,
 /// The same, and when the voxels are more than kMaxChunkBytes.
 void check_chunk(std::string_view file, std::string_view field,
                  const std::vector<std::int64_t>& chunk, std::size_t axes, VoxelType type);
+
+/// Unpacks a chunk.  name: what errors call it.
+/// ENSURES: the bytes are as many as the chunk's voxels need.
+/// ERRORS: mw::Error(kInput) naming `name` when it is damaged.
+[[nodiscard]] Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes,
+                                 std::vector<std::byte> packed, std::string_view name);
+
+/// The bytes in front of the CRC-32C that ends them.
+/// ERRORS: mw::Error(kInput) naming `name` when it is another.
+void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
+
+/// The most that a packed chunk may have.
+[[nodiscard]] std::uint64_t max_packed(const ZarrArray& array);
+/// The most that reading and unpacking a chunk takes beside its voxels that are in the volume: axes
+/// of one entry may have chunks of more.
+[[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes);
 
 }  // namespace mw::io

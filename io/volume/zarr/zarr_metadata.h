@@ -3,12 +3,22 @@
 // The metadata of a Zarr array, in both versions of the format.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/json/json.h"
+#include "io/volume/label_volume.h"
 #include "io/volume/zarr/zarr_array.h"
 
 namespace mw::io {
+
+/// From `fill_value` of either version: null is 0; true and false are 1 and 0; numbers are exact up
+/// to 64 bits; floats may be "NaN", "Infinity", "-Infinity" or the hexadecimal of their bits.
+/// ENSURES: empty for a float that is no whole number: an error only when such a voxel is read.
+/// ERRORS: mw::Error(kInput) naming file and field for what the type cannot hold.
+[[nodiscard]] std::optional<RawLabel> parse_fill_value(const Json& value, VoxelType type,
+                                                       std::string_view file);
 
 // Of both: file is what errors name.  ERRORS: mw::Error(kInput) naming file and field for what is
 // missing, wrong or not read here.

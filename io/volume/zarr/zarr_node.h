@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Groups and arrays of a Zarr store.
+// Groups and arrays of a Zarr store, and which volumes it holds.
 #pragma once
 
 #include <filesystem>
@@ -38,5 +38,17 @@ struct ZarrNode {
 /// ENSURES: empty for a path that leads out of the store.
 [[nodiscard]] std::optional<std::filesystem::path> path_in_store(
     const std::filesystem::path& folder, std::string_view path);
+
+/// Paths, below the group, of arrays and of multiscale images (whose levels are not named): sorted,
+/// the first 100, at most 5 groups deep.
+/// ERRORS: mw::Error(kInput) when metadata on the way are damaged.
+[[nodiscard]] std::vector<std::string> volumes_below(const std::filesystem::path& group);
+
+/// The labels of a multiscale image, as --dataset wants them: "labels/cells".  Damaged metadata of
+/// theirs are none.
+[[nodiscard]] std::vector<std::string> labels_of_image(const std::filesystem::path& group);
+
+/// "a, b, c", and "..." behind the first 20.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
 }  // namespace mw::io

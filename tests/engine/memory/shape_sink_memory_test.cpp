@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/cli/shape_sink.h"
-#include "io/file/unlinked_file.h"
+#include "io/file/scratch/scratch_file.h"
 #include "tests/engine/memory/counted_memory.h"
 
 namespace mw::cli {

@@ -5,8 +5,7 @@
 
 #include <random>
 
-#include "io/hdf5/hdf5_handle.h"
-#include "io/hdf5/metadata_checksum.h"
+#include "io/hdf5/hdf5_file.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
 #include "tests/io/test_files.h"
 

@@ -3,7 +3,7 @@
 // .vtkhdf files as other tools write them, and what ours hold.
 #include <map>
 
-#include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/hdf5_file.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/sample_mesh.h"
 

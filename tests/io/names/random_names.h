@@ -7,7 +7,6 @@
 
 #include <random>
 
-#include "io/names/clean_name.h"
 #include "io/names/label_names.h"
 
 namespace mw::io {

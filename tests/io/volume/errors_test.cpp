@@ -28,6 +28,28 @@ TEST(VolumeErrors, Files) {
   expect_refused(dir, "a.xyz", "what is this", {"unknown", volume_endings(), volume_folders()});
 }
 
+/// They would say nothing about this file: that is an error, and names the formats they are for.
+TEST(VolumeErrors, OptionsThatAFormatDoesNotHave) {
+  const TempDir dir;
+  const auto path = dir.file("a.npy", npy_file("|u1", false, "(2, 2, 2)", kEight));
+  const auto refuse = [&](const OpenOptions& options, const std::vector<std::string>& pieces) {
+    expect_error(ErrorKind::kUsage, pieces, [&] { static_cast<void>(open_volume(path, options)); });
+  };
+  refuse({.dataset = "labels"}, {"--dataset", "a.npy", "NumPy", formats_with_datasets()});
+  refuse({.scale = 0}, {"--scale", "a.npy", "NumPy", formats_with_scales()});
+  refuse({.raw = RawLayout{{2, 2, 2}}, .scale = 0}, {"--scale", "raw", formats_with_scales()});
+}
+
+/// What help and errors list.
+TEST(VolumeFormats, AreListedFromOneTable) {
+  for (const char* ending : {".npy", ".nii", ".nrrd", ".mha", ".h5", ".tif", ".png"}) {
+    EXPECT_NE((volume_endings() + ",").find(text(ending, ",")), std::string::npos) << ending;
+  }
+  EXPECT_EQ(formats_with_datasets(), "HDF5, neuroglancer precomputed, N5, Zarr");
+  EXPECT_EQ(formats_with_scales(), "neuroglancer precomputed, N5, Zarr");
+  EXPECT_EQ(volume_folders(), formats_with_scales() + ", TIFF or PNG slices");
+}
+
 TEST(VolumeErrors, Gzip) {
   const TempDir dir;
   const std::string packed =

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Formats that are read from their end, inside of .gz files that unpack to more than they should.
-#include "io/file/file_source.h"
-#include "io/file/inflated_source.h"
+#include "io/file/source/file_source.h"
+#include "io/file/source/inflated_source.h"
 #include "io/volume/hdf5/open_hdf5.h"
 #include "io/volume/tiff/open_tiff.h"
 #include "tests/io/test_files.h"

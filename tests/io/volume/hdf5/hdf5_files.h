@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/hdf5_file.h"
 #include "tests/io/test_files.h"
 
 namespace mw::io {

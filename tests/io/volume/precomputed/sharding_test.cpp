@@ -3,7 +3,6 @@
 // Numbers and hashes of chunks are those that others have published.
 #include "io/volume/precomputed/sharding.h"
 
-#include "io/volume/precomputed/murmur_hash.h"
 #include "tests/io/volume/precomputed/precomputed_sample.h"
 
 namespace mw::io {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // PNG pictures, and folders of TIFF or PNG slices.
-#include "io/volume/slices/natural_order.h"
+#include "io/volume/slices/slice_folder.h"
 #include "tests/io/volume/damaged_files.h"
 #include "tests/io/volume/slices/png_maker.h"
 #include "tests/io/volume/tiff/tiff_maker.h"

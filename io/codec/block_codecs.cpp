@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Unpacks what comes in blocks: LZ4 in its three framings, Blosc and LZF.
+#include "io/codec/block_codecs.h"
+
+#include <blosc.h>
+#include <lz4.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include "io/codec/checksums.h"
+#include "io/codec/unpackers.h"
+#include "io/file/byte_order.h"
+
+namespace mw::io {
+namespace {
+
+/// What a packed byte unpacks to at most.
+constexpr std::size_t kMaxRatio = 255;
+
+std::size_t size_at(std::span<const std::byte> bytes, std::size_t at) {
+  return load<std::uint32_t>(bytes.data() + at, ByteOrder::kLittle);
+}
+
+// A block of lz4-java: magic, token (method in the upper half), sizes and checksum, then its bytes.
+constexpr std::string_view kMagic = "LZ4Block";
+constexpr std::size_t kTokenAt = 8, kPackedSizeAt = 9, kSizeAt = 13, kChecksumAt = 17;
+constexpr std::size_t kJavaHeaderBytes = 21;
+constexpr std::byte kMethodBits{0xf0}, kStored{0x10}, kPacked{0x20};
+constexpr std::uint32_t kSeed = 0x9747b28c;
+constexpr std::uint32_t kChecksumBits = 0x0fffffff;  // its Checksum drops the upper four
+
+struct JavaBlock {
+  std::span<const std::byte> bytes;
+  std::size_t size = 0;
+  std::uint32_t checksum = 0;
+  bool is_stored = false;
+};
+
+JavaBlock next_block(std::span<const std::byte> packed, const PackedName& name) {
+  if (packed.size() < kJavaHeaderBytes) fail_packed(name, "truncated: no whole block header");
+  if (std::memcmp(packed.data(), kMagic.data(), kMagic.size()) != 0) {
+    fail_packed(name, "damaged: a block does not begin with \"LZ4Block\"");
+  }
+  const std::byte method = packed[kTokenAt] & kMethodBits;
+  if (method != kStored && method != kPacked) fail_packed(name, "damaged: unknown block method");
+  const std::size_t length = size_at(packed, kPackedSizeAt);
+  if (length > packed.size() - kJavaHeaderBytes) fail_packed(name, "truncated inside a block");
+  return {.bytes = packed.subspan(kJavaHeaderBytes, length),
+          .size = size_at(packed, kSizeAt),
+          .checksum = load<std::uint32_t>(packed.data() + kChecksumAt, ByteOrder::kLittle),
+          .is_stored = method == kStored};
+}
+
+void append_java_block(std::vector<std::byte>& out, const JavaBlock& block,
+                       const PackedName& name) {
+  const std::size_t first = out.size();
+  if (!block.is_stored) {
+    append_lz4_block(out, block.bytes, block.size, name);
+  } else if (block.bytes.size() == block.size) {
+    out.insert(out.end(), block.bytes.begin(), block.bytes.end());
+  } else {
+    fail_packed(name, "damaged: a stored block has two sizes");
+  }
+  const std::uint32_t sum = xxhash32(std::span(out).subspan(first), kSeed) & kChecksumBits;
+  if (sum != block.checksum) fail_packed(name, "damaged: the checksum of a block is wrong");
+}
+
+}  // namespace
+
+void append_lz4_block(std::vector<std::byte>& out, std::span<const std::byte> block,
+                      std::size_t size, const PackedName& name) {
+  if (size / kMaxRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
+      block.size() > LZ4_MAX_INPUT_SIZE) {
+    fail_packed(name, "damaged or truncated: it is too short for the size that it claims");
+  }
+  const std::size_t first = out.size();
+  out.resize(first + size);
+  const int count = LZ4_decompress_safe(reinterpret_cast<const char*>(block.data()),
+                                        reinterpret_cast<char*>(out.data()) + first,
+                                        static_cast<int>(block.size()), static_cast<int>(size));
+  if (count < 0 || static_cast<std::size_t>(count) != size) {
+    fail_packed(name, "damaged or truncated");
+  }
+}
+
+std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t max,
+                                  std::string_view name) {
+  const PackedName named{"lz4", name};
+  if (packed.size() < 4) fail_packed(named, "truncated: no whole header");
+  const std::size_t size = size_at(packed, 0);
+  if (size > max) fail_too_much(named, max);
+  std::vector<std::byte> out;
+  append_lz4_block(out, packed.subspan(4), size, named);
+  return out;
+}
+
+std::vector<std::byte> unpack_lz4_java(std::span<const std::byte> packed, std::size_t max,
+                                       std::string_view name) {
+  const PackedName named{"lz4", name};
+  std::vector<std::byte> out;
+  while (true) {
+    const JavaBlock block = next_block(packed, named);
+    packed = packed.subspan(kJavaHeaderBytes + block.bytes.size());
+    if (block.size == 0) break;  // an empty block is the end mark
+    if (block.size > max - out.size()) fail_too_much(named, max);
+    append_java_block(out, block, named);
+  }
+  if (!packed.empty()) fail_packed(named, "damaged: bytes follow its end");
+  return out;
+}
+
+namespace {
+
+constexpr std::size_t kHdf5HeaderBytes = 12;
+
+void append_block(std::vector<std::byte>& out, std::span<const std::byte> block, std::size_t size,
+                  const PackedName& name) {
+  if (block.size() == size) {
+    out.insert(out.end(), block.begin(), block.end());
+    return;
+  }
+  append_lz4_block(out, block, size, name);
+}
+
+}  // namespace
+
+std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed, std::size_t max,
+                                       std::string_view name) {
+  const PackedName named{"lz4", name};
+  if (packed.size() < kHdf5HeaderBytes) fail_packed(named, "truncated: no whole header");
+  const auto size = load<std::uint64_t>(packed.data(), ByteOrder::kBig);
+  const auto block_size = load<std::uint32_t>(packed.data() + 8, ByteOrder::kBig);
+  if (size > max) fail_too_much(named, max);
+  if (size > 0 && block_size == 0) fail_packed(named, "damaged: its blocks are empty");
+  packed = packed.subspan(kHdf5HeaderBytes);
+  std::vector<std::byte> out;
+  while (out.size() < size) {
+    if (packed.size() < 4) fail_packed(named, "truncated between blocks");
+    const auto length = load<std::uint32_t>(packed.data(), ByteOrder::kBig);
+    packed = packed.subspan(4);
+    if (length > packed.size()) fail_packed(named, "truncated inside a block");
+    append_block(out, packed.first(length), std::min<std::size_t>(block_size, size - out.size()),
+                 named);
+    packed = packed.subspan(length);
+  }
+  return out;
+}
+
+namespace {
+
+/// The library's header: version, version of the codec, flags, bytes of an element, and three sizes
+/// of 32 bits: unpacked, of a block, packed.
+constexpr std::size_t kBlockSizeAt = 8;
+
+}  // namespace
+
+std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed, std::size_t max,
+                                    std::string_view name) {
+  const PackedName named{"blosc", name};
+  if (packed.size() < BLOSC_MIN_HEADER_LENGTH) fail_packed(named, "truncated: no whole header");
+  std::size_t size = 0;
+  if (blosc_cbuffer_validate(packed.data(), packed.size(), &size) < 0) {
+    fail_packed(named, "damaged or truncated: the sizes in its header are wrong");
+  }
+  if (size > max) fail_too_much(named, max);
+  // The library takes memory for its blocks before it looks at anything else.
+  const auto block = load<std::uint32_t>(packed.data() + kBlockSizeAt, ByteOrder::kLittle);
+  if (size > 0 && (block == 0 || block > size)) {
+    fail_packed(named, "damaged: the block size in its header is wrong");
+  }
+  std::vector<std::byte> out(size);
+  const int count = blosc_decompress_ctx(packed.data(), out.data(), size, /*threads=*/1);
+  if (count < 0 || static_cast<std::size_t>(count) != size) {
+    fail_packed(named, "damaged, or packed by a codec that Blosc was built without");
+  }
+  return out;
+}
+
+namespace {
+
+/// A first byte below this is the length of a run less 1; otherwise its upper 3 bits are the length
+/// of a copy less 2 (7: another byte adds to it), its lower 5 and the next byte the distance
+/// less 1.
+constexpr std::size_t kFirstCopy = 32;
+constexpr std::size_t kLongCopy = 7;
+
+class Decoder {
+ public:
+  Decoder(std::span<const std::byte> packed, std::size_t max, std::string_view name)
+      : packed_(packed), max_(max), name_{"lzf", name} {}
+
+  [[nodiscard]] std::vector<std::byte> decode() {
+    while (at_ < packed_.size()) {
+      const std::size_t first = next();
+      if (first < kFirstCopy) {
+        run(first + 1);
+      } else {
+        copy(first);
+      }
+    }
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t next() {
+    if (at_ == packed_.size()) fail_packed(name_, "truncated");
+    return std::to_integer<std::size_t>(packed_[at_++]);
+  }
+
+  void make_room(std::size_t length) {
+    if (length > max_ - out_.size()) fail_too_much(name_, max_);
+  }
+
+  void run(std::size_t length) {
+    if (length > packed_.size() - at_) fail_packed(name_, "truncated");
+    make_room(length);
+    const auto begin = packed_.begin() + static_cast<std::ptrdiff_t>(at_);
+    out_.insert(out_.end(), begin, begin + static_cast<std::ptrdiff_t>(length));
+    at_ += length;
+  }
+
+  void copy(std::size_t first) {
+    std::size_t length = first >> 5U;
+    if (length == kLongCopy) length += next();
+    length += 2;
+    const std::size_t distance = ((first & 31U) << 8U) + next() + 1;
+    if (distance > out_.size()) fail_packed(name_, "damaged: a copy begins before the data");
+    make_room(length);
+    // Byte by byte: a copy may overlap itself.
+    for (std::size_t i = 0; i < length; ++i) out_.push_back(out_[out_.size() - distance]);
+  }
+
+  std::span<const std::byte> packed_;
+  std::size_t max_;
+  PackedName name_;
+  std::size_t at_ = 0;
+  std::vector<std::byte> out_;
+};
+
+}  // namespace
+
+std::vector<std::byte> unpack_lzf(std::span<const std::byte> packed, std::size_t max,
+                                  std::string_view name) {
+  return Decoder(packed, max, name).decode();
+}
+
+}  // namespace mw::io

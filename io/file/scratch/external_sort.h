@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sorts more records than memory holds: sorted runs in a temporary file, then one merge.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <queue>
+#include <vector>
+
+#include "io/file/scratch/scratch_file.h"
+#include "kernels/core/assert.h"
+
+namespace mw::io {
+
+/// Records of N words, in lexicographic order.
+/// Memory: `memory_bytes`, and 100 bytes for each time the records have filled that.
+template <std::size_t N>
+class ExternalSort {
+ public:
+  using Record = std::array<std::uint64_t, N>;
+
+  /// Makes a temporary file in `folder` when memory is not enough.  ERRORS: see ScratchFile.
+  ExternalSort(std::filesystem::path folder, std::size_t memory_bytes)
+      : folder_(std::move(folder)), max_(std::max<std::size_t>(memory_bytes / sizeof(Record), 2)) {}
+
+  void add(const Record& record) {
+    if (records_.size() == max_) spill();
+    if (records_.size() == records_.capacity()) {
+      records_.reserve(std::min(max_, std::max(kFirstRecords, 2 * records_.size())));
+    }
+    records_.push_back(record);
+  }
+
+  /// Calls visit(record) on every record, ascending.  REQUIRES: called once, nothing added after.
+  template <class Visit>
+  void each(Visit visit) {
+    if (!file_) {
+      std::sort(records_.begin(), records_.end());
+      for (const Record& record : records_) visit(record);
+      records_ = std::vector<Record>();
+      return;
+    }
+    spill();
+    records_ = std::vector<Record>();
+    merge(visit);
+  }
+
+ private:
+  static constexpr std::size_t kFirstRecords = 1024;
+
+  /// A sorted run, read through a buffer of its own.
+  struct Run {
+    std::uint64_t next = 0;  ///< record of the file behind the buffer
+    std::uint64_t end = 0;
+    std::vector<Record> buffer;
+    std::size_t at = 0;
+  };
+
+  void spill() {
+    if (!file_) file_.emplace(folder_);
+    std::sort(records_.begin(), records_.end());
+    file_->append(std::as_bytes(std::span(records_)));
+    const std::uint64_t begin = runs_.empty() ? 0 : runs_.back().end;
+    runs_.push_back({.next = begin, .end = begin + records_.size(), .buffer = {}, .at = 0});
+    records_.clear();
+  }
+
+  /// Whether the run has another record.
+  bool refill(Run& run) {
+    run.at = 0;
+    const std::uint64_t share = std::max<std::uint64_t>(max_ / runs_.size(), 1);
+    run.buffer.resize(std::min(share, run.end - run.next));
+    file_->read_at(run.next * sizeof(Record), std::as_writable_bytes(std::span(run.buffer)));
+    run.next += run.buffer.size();
+    return !run.buffer.empty();
+  }
+
+  template <class Visit>
+  void merge(Visit visit) {
+    const auto later = [](const Run* a, const Run* b) {
+      return a->buffer[a->at] > b->buffer[b->at];
+    };
+    std::priority_queue<Run*, std::vector<Run*>, decltype(later)> queue(later);
+    for (Run& run : runs_) {
+      if (refill(run)) queue.push(&run);
+    }
+    while (!queue.empty()) {
+      Run* const run = queue.top();
+      queue.pop();
+      visit(run->buffer[run->at++]);
+      if (run->at < run->buffer.size() || refill(*run)) queue.push(run);
+    }
+    runs_ = std::vector<Run>();
+  }
+
+  std::filesystem::path folder_;
+  std::size_t max_;  ///< records in memory
+  std::vector<Record> records_;
+  std::vector<Run> runs_;
+  std::optional<ScratchFile> file_;
+};
+
+}  // namespace mw::io

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What must wait but must not wait in memory: temporary files without a name, written at their end
+// or anywhere, and read by place, also as a long list.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "io/file/file_descriptor.h"
+
+namespace mw::io {
+
+/// Where a file cannot be made without a name, its name begins so in the instant before it has
+/// none; a kill then leaves one behind.
+inline constexpr const char* kScratchPrefix = ".mwmesh-scratch-";
+
+/// Bytes by place.
+/// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
+/// the folder cannot be written.  Thread safety: different places may be used at once.
+class UnlinkedFile {
+ public:
+  /// REQUIRES: an existing folder.
+  explicit UnlinkedFile(const std::filesystem::path& folder);
+
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
+  /// REQUIRES: the bytes were written.
+  void read_at(std::uint64_t offset, std::span<std::byte> out) const;
+  /// The file itself.  REQUIRES: the object is not used afterwards.
+  [[nodiscard]] FileDescriptor release() { return std::move(file_); }
+
+ private:
+  std::string folder_;
+  FileDescriptor file_;
+};
+
+/// $TMPDIR, or /tmp when it is not set.
+[[nodiscard]] std::filesystem::path scratch_folder();
+
+/// Bytes are appended, then read by place.  The space is free again when the object goes, or the
+/// process, however it ends.
+/// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
+/// the folder cannot be written.  Thread safety: none.
+class ScratchFile {
+ public:
+  /// REQUIRES: an existing folder.
+  explicit ScratchFile(const std::filesystem::path& folder) : file_(folder) {}
+
+  void append(std::span<const std::byte> bytes);
+  void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
+  [[nodiscard]] std::uint64_t size() const { return flushed_ + buffer_.size(); }
+  /// REQUIRES: offset + out.size() <= size().
+  void read_at(std::uint64_t offset, std::span<std::byte> out);
+  /// The file itself, all bytes in it.  REQUIRES: the object is not used afterwards.
+  [[nodiscard]] FileDescriptor release();
+
+ private:
+  void flush();
+  void write(std::span<const std::byte> bytes);
+
+  UnlinkedFile file_;
+  std::vector<std::byte> buffer_;
+  std::uint64_t flushed_ = 0;
+};
+
+/// Records are appended, and looked up through a cache of pages: fast where neighbours are asked
+/// for together.  Memory: 8 MiB.  ERRORS: see ScratchFile.
+template <typename Record>
+class PagedFile {
+  static_assert(std::is_trivially_copyable_v<Record>);
+
+ public:
+  /// REQUIRES: an existing folder.
+  explicit PagedFile(const std::filesystem::path& folder)
+      : file_(folder), pages_(kPages), held_(kPages, kNone) {}
+
+  void append(const Record& record) {
+    // The page that it goes to is no longer what the cache may hold of it.
+    const std::uint64_t page = size() / kPageRecords;
+    if (held_[page % kPages] == page) held_[page % kPages] = kNone;
+    file_.append(std::as_bytes(std::span(&record, 1)));
+  }
+  [[nodiscard]] std::uint64_t size() const { return file_.size() / sizeof(Record); }
+  /// REQUIRES: at < size().
+  [[nodiscard]] Record operator[](std::uint64_t at) {
+    const std::uint64_t page = at / kPageRecords;
+    const std::size_t slot = page % kPages;
+    if (held_[slot] != page) load(page, slot);
+    return pages_[slot][at % kPageRecords];
+  }
+
+ private:
+  static constexpr std::size_t kPageRecords = 4096 / sizeof(Record);
+  static constexpr std::size_t kPages = 2048;
+  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
+
+  void load(std::uint64_t page, std::size_t slot) {
+    const std::uint64_t first = page * kPageRecords;
+    pages_[slot].resize(std::min<std::uint64_t>(kPageRecords, size() - first));
+    file_.read_at(first * sizeof(Record), std::as_writable_bytes(std::span(pages_[slot])));
+    held_[slot] = page;
+  }
+
+  ScratchFile file_;
+  std::vector<std::vector<Record>> pages_;
+  std::vector<std::uint64_t> held_;  ///< by slot: its page
+};
+
+}  // namespace mw::io

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Output files that appear under their names only when they are whole.
+#include "io/file/sink/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <string>
+
+#include "io/file/errors.h"
+#include "io/file/file_descriptor.h"
+#include "io/file/sink/partial_file.h"
+#include "kernels/core/assert.h"
+#include "kernels/core/error.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kBufferBytes = 1 << 20;
+
+/// A link is followed, so that the file it names is replaced and not the link; anything that
+/// exists and is no plain file (a folder, a device) is refused.
+std::filesystem::path resolve(const std::filesystem::path& target) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(target, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw Error(ErrorKind::kUsage,
+                target.string() +
+                    ": cannot create: exists and is not a regular file; give the "
+                    "path of a file");
+  }
+  if (!std::filesystem::is_symlink(target, ignored)) return target;
+  return std::filesystem::weakly_canonical(target, ignored);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolve(target)) {
+  if (!target_.has_filename()) {
+    throw Error(ErrorKind::kUsage, target.string() + ": cannot create: no file name in the path");
+  }
+  buffer_.reserve(kBufferBytes);  // first: what fails behind the partial file leaves it there
+  PartialOutput partial = make_partial(target_, PartialKind::kFile);
+  partial_ = std::move(partial.path);
+  file_ = std::move(partial.file);
+}
+
+AtomicFile::~AtomicFile() {
+  if (!committed_) ::unlink(partial_.c_str());
+}
+
+void AtomicFile::append(std::span<const std::byte> bytes) {
+  if (buffer_.size() + bytes.size() > kBufferBytes) flush();
+  if (bytes.size() >= kBufferBytes) {
+    write(flushed_, bytes);
+    flushed_ += bytes.size();
+  } else {
+    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  }
+}
+
+void AtomicFile::append(std::string_view text) {
+  append(std::as_bytes(std::span(text)));
+}
+
+void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  flush();
+  write(offset, bytes);
+}
+
+void AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+  MW_ASSERT(!committed_);
+  const Transfer done = write_all(file_.get(), offset, bytes);
+  if (done.error != 0) fail_output(target_.string(), "write", done.error);
+}
+
+void AtomicFile::read_at(std::uint64_t offset, std::span<std::byte> out) const {
+  const Transfer done = read_all(file_.get(), offset, out);
+  if (done.error != 0) fail_output(target_.string(), "read back", done.error);
+  const std::span<std::byte> behind = out.subspan(done.bytes);
+  std::fill(behind.begin(), behind.end(), std::byte{0});
+}
+
+void AtomicFile::resize(std::uint64_t bytes) {
+  MW_ASSERT(!committed_);
+  if (::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0) {
+    fail_output(target_.string(), "resize", errno);
+  }
+}
+
+void AtomicFile::flush() {
+  write(flushed_, buffer_);
+  flushed_ += buffer_.size();
+  buffer_.clear();
+}
+
+void AtomicFile::commit() {
+  sync();
+  give_name();
+}
+
+void AtomicFile::sync() {
+  flush();
+  if (::fsync(file_.get()) != 0) fail_output(target_.string(), "sync", errno);
+}
+
+void AtomicFile::remove_named() {
+  if (::unlink(target_.c_str()) == 0) {
+    sync_folder(folder_of(target_));
+  } else if (errno != ENOENT) {
+    fail_output(target_.string(), "replace", errno);
+  }
+}
+
+void AtomicFile::give_name() {
+  if (std::rename(partial_.c_str(), target_.c_str()) != 0) {
+    fail_output(target_.string(), "rename to", errno);
+  }
+  committed_ = true;
+  ::flock(file_.get(), LOCK_UN);  // the HDF5 library, for one, opens no file that is locked
+  sync_folder(folder_of(target_));
+}
+
+namespace {
+
+using Files = std::span<const std::reference_wrapper<AtomicFile>>;
+
+/// Down to the first, which is replaced in one step when it stands alone.
+void remove_old(Files files) {
+  for (std::size_t i = files.size(); i-- > 1;) files[i].get().remove_named();
+}
+
+/// After an error: what cannot be removed either stays, the error is told already.
+void take_back(Files files) {
+  try {
+    for (std::size_t i = files.size(); i-- > 0;) files[i].get().remove_named();
+  } catch (const Error&) {
+    return;
+  }
+}
+
+}  // namespace
+
+void commit_together(std::initializer_list<std::reference_wrapper<AtomicFile>> list) {
+  const Files files(list.begin(), list.size());
+  for (AtomicFile& file : files) file.sync();
+  remove_old(files);
+  std::size_t named = 0;
+  try {
+    for (; named < files.size(); ++named) files[named].get().give_name();
+  } catch (const Error&) {
+    take_back(files.first(named));
+    throw;
+  }
+}
+
+}  // namespace mw::io

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Names of outputs while they are written, and what killed runs have left under such names.
+#include "io/file/sink/partial_file.h"
+
+#include <fcntl.h>
+#include <linux/magic.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "io/file/checksum.h"
+#include "io/file/errors.h"
+#include "io/file/file_descriptor.h"
+
+namespace mw::io {
+
+void sync_folder(const std::filesystem::path& folder) {
+  const FileDescriptor handle(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (handle.valid()) ::fsync(handle.get());
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPartial = ".partial-";
+
+/// Locks belong to a kernel from its start on, and so does this: eight digits, seldom the same.
+std::string kernel_mark() {
+  std::string id;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> id;
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string mark;
+  for (unsigned i = 0; i < 8; ++i) {
+    mark += kDigits[checksum(std::as_bytes(std::span(id))) >> 4 * i & 15U];
+  }
+  return mark;
+}
+
+const std::string& this_kernel() {
+  static const std::string mark = kernel_mark();
+  return mark;
+}
+
+fs::path partial_name(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  return folder_of(target) / text(".", target.filename().string(), kPartial, this_kernel(), "-",
+                                  ::getpid(), "-", counter++);
+}
+
+FileDescriptor create(const fs::path& path, PartialKind kind) {
+  // Not mkostemp: its mode 0600 would survive the rename; here the user's umask holds.
+  if (kind == PartialKind::kFile) {
+    return FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  }
+  if (::mkdir(path.c_str(), 0777) != 0) return {};
+  return FileDescriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+}
+
+bool lock(const FileDescriptor& file, int how) {
+  int done = 0;
+  do {
+    done = ::flock(file.get(), LOCK_EX | how);
+  } while (done != 0 && errno == EINTR);
+  return done == 0;
+}
+
+bool is_at(const FileDescriptor& file, const fs::path& path) {
+  struct stat held {};
+  struct stat named {};
+  return ::fstat(file.get(), &held) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+}
+
+/// Whether everybody who can see the file system sees its locks: one of this machine alone.
+bool is_local(const FileDescriptor& file) {
+  constexpr std::array<unsigned long, 9> kLocal{
+      EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC,       BTRFS_SUPER_MAGIC,    F2FS_SUPER_MAGIC, TMPFS_MAGIC,
+      RAMFS_MAGIC,      OVERLAYFS_SUPER_MAGIC, 0x2FC12FC1 /* ZFS */, 0xCA451A4E /* bcachefs */};
+  struct statfs facts {};
+  if (::fstatfs(file.get(), &facts) != 0) return false;
+  const auto type = static_cast<unsigned long>(facts.f_type);
+  return std::find(kLocal.begin(), kLocal.end(), type) != kLocal.end();
+}
+
+/// The kernel's mark, when the name is that of a partial output of `target`; else nothing.
+std::string_view mark_of(std::string_view name, std::string_view target) {
+  constexpr std::size_t kMark = 8;
+  if (name.substr(0, 1) != "." || name.substr(1, target.size()) != target) return {};
+  name.remove_prefix(1 + target.size());
+  if (!name.starts_with(kPartial) || name.size() < kPartial.size() + kMark + 4) return {};
+  const std::string_view mark = name.substr(kPartial.size(), kMark);
+  const std::string_view numbers = name.substr(kPartial.size() + kMark);
+  const bool is_ours = mark.find_first_not_of("0123456789abcdef") == mark.npos &&
+                       numbers.find_first_not_of("-0123456789") == numbers.npos &&
+                       numbers[0] == '-';
+  return is_ours ? mark : std::string_view{};
+}
+
+/// Removes a partial output whose writer is gone.
+void remove_if_left(const fs::path& path, std::string_view mark) {
+  constexpr int kFlags = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+  FileDescriptor file(::open(path.c_str(), O_RDWR | kFlags));
+  if (!file.valid() && errno == EISDIR) {
+    file = FileDescriptor(::open(path.c_str(), O_RDONLY | kFlags));
+  }
+  if (!file.valid() || (mark != this_kernel() && !is_local(file))) return;
+  if (!lock(file, LOCK_NB) || !is_at(file, path)) return;
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
+
+/// Names of all partial outputs that were in the folder when it was asked for first.
+std::vector<std::string> found_in(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::map<fs::path, std::vector<std::string>> found;
+  const std::lock_guard guard(mutex);
+  std::error_code ignored;
+  const auto [position, is_new] = found.try_emplace(fs::absolute(folder, ignored));
+  if (!is_new) return position->second;
+  try {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      std::string name = entry.path().filename().string();
+      if (name.find(kPartial) != name.npos) position->second.push_back(std::move(name));
+    }
+  } catch (const fs::filesystem_error&) {
+    // A folder that cannot be listed keeps what it has; files may be made there all the same.
+  }
+  return position->second;
+}
+
+void remove_leftovers(const fs::path& target) {
+  const fs::path folder = folder_of(target);
+  for (const std::string& name : found_in(folder)) {
+    const std::string_view mark = mark_of(name, target.filename().string());
+    if (!mark.empty()) remove_if_left(folder / name, mark);
+  }
+}
+
+}  // namespace
+
+PartialOutput make_partial(const fs::path& target, PartialKind kind) {
+  remove_leftovers(target);
+  while (true) {
+    PartialOutput out{.path = partial_name(target), .file = {}};
+    out.file = create(out.path, kind);
+    if (!out.file.valid() && errno == EEXIST) continue;
+    if (!out.file.valid()) fail_output(target.string(), "create", errno);
+    // In the instant before the lock another run may have taken it for left over.
+    if (!lock(out.file, 0) || is_at(out.file, out.path)) return out;
+  }
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+JoinedPartial::JoinedPartial(const std::filesystem::path& partial)
+    : path_(partial), file_(::open(partial.c_str(), O_WRONLY | O_CLOEXEC)) {
+  if (!file_.valid()) fail_output(path_.string(), "open", errno);
+}
+
+void JoinedPartial::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  const Transfer done = write_all(file_.get(), offset, bytes);
+  if (done.error != 0) fail_output(path_.string(), "write", done.error);
+}
+
+void JoinedPartial::sync() {
+  if (::fsync(file_.get()) != 0) fail_output(path_.string(), "sync", errno);
+}
+
+}  // namespace mw::io

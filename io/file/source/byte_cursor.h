@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Bytes from the first to the last, through a bounded buffer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/file/source/byte_source.h"
+
+namespace mw::io {
+
+/// Reads characters, lines and binary numbers by turns.  Memory: 1 MiB.
+/// ERRORS: those of the source.
+class ByteCursor {
+ public:
+  /// REQUIRES: source outlives this.
+  explicit ByteCursor(const ByteSource& source) : source_(source) {}
+
+  [[nodiscard]] const ByteSource& source() const { return source_; }
+  /// The next character without taking it, or -1 at the end.
+  [[nodiscard]] int peek() { return at_ < buffer_.size() || refill() ? buffer_[at_] : -1; }
+  /// REQUIRES: peek() >= 0.
+  void take() {
+    if (buffer_[at_++] == '\n') ++line_;
+  }
+  /// Fills out; false, and nothing is taken, when fewer are left.
+  [[nodiscard]] bool read(std::span<std::byte> out);
+  /// Up to the end of the line, which is taken but not in `out` (nor is a '\r' in front of it); at
+  /// most `most` characters, the rest is for the next call.  False at the end of all.
+  [[nodiscard]] bool read_line(std::string& out, std::size_t max);
+
+  [[nodiscard]] std::uint64_t offset() const { return loaded_ - buffer_.size() + at_; }
+  /// The bytes that follow, counted up to `most`.
+  [[nodiscard]] std::uint64_t left(std::uint64_t max) const;
+  /// Counted from 1 by line ends that take() and read_line() saw.
+  [[nodiscard]] std::uint64_t line() const { return line_; }
+
+ private:
+  bool refill();
+
+  const ByteSource& source_;
+  std::vector<unsigned char> buffer_;
+  std::size_t at_ = 0;
+  std::uint64_t loaded_ = 0;  ///< what is behind the buffer
+  std::uint64_t line_ = 1;
+};
+
+}  // namespace mw::io

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Gzip data as a ByteSource that unpacks no more than is asked for, and files that may be gzipped.
+#pragma once
+
+#include <zlib.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/source/byte_source.h"
+
+namespace mw::io {
+
+enum class DeflateFraming {
+  kGzipChain,   ///< gzip members, one after the other
+  kZlibOrGzip,  ///< one stream of either kind
+};
+
+/// Where deflated bytes are.
+struct DeflatedBytes {
+  std::uint64_t offset = 0;
+  std::uint64_t end = 0;  ///< behind the last byte that may be theirs
+  DeflateFraming framing = DeflateFraming::kGzipChain;
+  std::string field = "gzip data";  ///< what errors call them
+};
+
+/// Whether so many packed bytes can hold so many: deflate cannot pack tighter than 1 to 1032.
+[[nodiscard]] bool can_inflate_to(std::uint64_t packed, std::uint64_t bytes);
+
+/// ERRORS of all: mw::Error(kInput) naming file and place when truncated or corrupt.
+/// Memory: 256 KiB and zlib's window.  Thread safety: none.
+class Inflater {
+ public:
+  /// REQUIRES: packed outlives the object; place.offset <= place.end <= packed.size().
+  Inflater(const ByteSource& packed, DeflatedBytes deflated);
+  ~Inflater() { inflateEnd(&stream_); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  /// Inflates into out; the number of bytes, less than out.size() only at the end.
+  [[nodiscard]] std::size_t read(std::span<std::byte> out);
+
+ private:
+  void step();
+  void refill();
+  void start_next_member();
+
+  const ByteSource& packed_;
+  DeflatedBytes deflated_;
+  std::uint64_t next_;
+  z_stream stream_{};
+  bool done_ = false;
+  std::vector<std::byte> buffer_;
+};
+
+/// Inflates the first `bytes` bytes into an unlinked temporary file in $TMPDIR or /tmp, so that
+/// memory stays bounded and the result can be read by region.  What follows them is not unpacked.
+/// ERRORS: mw::Error(kInput) when there are fewer; kResource when the disk is full.
+[[nodiscard]] std::unique_ptr<ByteSource> inflate_to_scratch(const ByteSource& packed,
+                                                             const DeflatedBytes& deflated,
+                                                             std::uint64_t bytes);
+
+/// Three quarters of what is free now where temporary files go: others need the disk, too.
+/// Bytes; all of them where the system does not know.
+[[nodiscard]] std::uint64_t room_to_inflate();
+
+/// The bytes wait in an unlinked temporary file in $TMPDIR or /tmp, so that memory stays bounded
+/// and they can be read by region.  What a few bytes unpack to may be much, so ask size_within()
+/// rather than size(); formats that are read from their end cannot.
+/// ERRORS (all members): mw::Error(kInput) when corrupt or truncated so far; kResource when more
+/// would be unpacked than may be, or the disk is full.  Thread safety: that of a ByteSource.
+class InflatedSource : public ByteSource {
+ public:
+  /// The gzip data that begin at offset.  most: bytes that may be unpacked of them.
+  /// ERRORS: kInput when there are none.
+  InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset,
+                 std::uint64_t max = room_to_inflate());
+
+  [[nodiscard]] std::uint64_t size() const override;
+  [[nodiscard]] std::uint64_t size_within(std::uint64_t max) const override;
+  [[nodiscard]] const std::string& name() const override { return packed_->name(); }
+  void read_at(std::uint64_t offset, std::span<std::byte> out) const override;
+
+ private:
+  void unpack_to(std::uint64_t size) const;
+
+  std::unique_ptr<ByteSource> packed_;
+  std::uint64_t max_;
+  UnlinkedFile file_;
+  mutable std::mutex mutex_;                    ///< of those that unpack
+  mutable std::unique_ptr<Inflater> inflater_;  ///< null at the end of the data
+  mutable std::atomic<std::uint64_t> unpacked_ = 0;
+  mutable bool is_too_large_ = false;
+};
+
+/// Opens path; a gzip file (by content) is inflated as far as it is read, see InflatedSource.
+/// ERRORS: mw::Error(kInput) when missing, a folder, empty, or not a sound gzip file.
+[[nodiscard]] std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path);
+
+/// Whether the bytes at offset begin a gzip member.
+[[nodiscard]] bool is_gzip(const ByteSource& source, std::uint64_t offset = 0);
+
+}  // namespace mw::io

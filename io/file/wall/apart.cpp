@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Work in a process of its own: fork, a pipe for the answer, limits.
+#include "io/file/wall/apart.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <stdexcept>
+
+#include "io/file/errors.h"
+#include "io/file/file_descriptor.h"
+
+namespace mw::io {
+namespace {
+
+/// How the child ends.  Before kThrew comes the kind of the error, one byte, and its message.
+enum ChildExit : int { kAnswered = 0, kThrew = 10, kNoMemory = 11, kOther = 12 };
+
+/// What a pipe holds while nobody reads: a message of this size never waits for that.
+constexpr std::size_t kMaxMessage = 1 << 15;
+
+struct Pipe {
+  FileDescriptor out;
+  FileDescriptor in;
+};
+
+[[noreturn]] void fail_child(const char* action) {
+  throw Error(ErrorKind::kResource, text("cannot ", action, " a process to read the file apart: ",
+                                         std::strerror(errno), "; free memory or processes"));
+}
+
+Pipe make_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_child("make a pipe to");
+  return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+}
+
+/// The address space of this process; 0 when the system does not tell.
+std::uint64_t mapped_bytes() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void set_limit(decltype(RLIMIT_AS) what, std::uint64_t soft) {
+  rlimit limit{};
+  if (::getrlimit(what, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max == RLIM_INFINITY || soft < limit.rlim_max ? soft : limit.rlim_max;
+  ::setrlimit(what, &limit);
+}
+
+/// A crash is expected here: it kills quietly, whatever this program or a tool does about signals.
+void forget_signals() {
+  for (const int signal :
+       {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGPIPE, SIGSEGV, SIGTERM, SIGXCPU}) {
+    ::signal(signal, SIG_DFL);
+  }
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+void be_quiet() {
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(nowhere, STDERR_FILENO);
+}
+
+void limit_child(const ApartLimits& limits) {
+  const std::uint64_t mapped = mapped_bytes();
+  if (mapped != 0) set_limit(RLIMIT_AS, mapped + limits.memory_bytes);
+  set_limit(RLIMIT_CORE, 0);
+  allow_cpu_seconds(limits.cpu_seconds);
+}
+
+void write_all(int fd, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::write(fd, bytes.data(), bytes.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) throw std::runtime_error("nobody reads the pipe");
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+}
+
+ChildExit throw_over(int fd, const Error& error) {
+  const std::string message =
+      static_cast<char>(error.kind()) + std::string(error.what()).substr(0, kMaxMessage - 1);
+  write_all(fd, std::as_bytes(std::span(message)));
+  return kThrew;
+}
+
+/// In the child.
+ChildExit do_work(const Pipe& data, const Pipe& errors,
+                  const std::function<void(const SendBytes&)>& work) {
+  try {
+    try {
+      work([&](std::span<const std::byte> bytes) { write_all(data.in.get(), bytes); });
+      return kAnswered;
+    } catch (const Error& error) {
+      return throw_over(errors.in.get(), error);
+    }
+  } catch (const std::bad_alloc&) {
+    return kNoMemory;
+  } catch (...) {
+    return kOther;
+  }
+}
+
+/// The child, as the parent sees it: it does not outlive this.
+class Child {
+ public:
+  explicit Child(pid_t id) : id_(id) {}
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    if (id_ < 0) return;
+    ::kill(id_, SIGKILL);
+    wait();
+  }
+
+  /// How it ended, as waitpid tells it.
+  int wait() {
+    int status = 0;
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    id_ = -1;
+    return status;
+  }
+
+ private:
+  pid_t id_;
+};
+
+std::string death_of(int status) {
+  if (WIFSIGNALED(status)) {
+    if (WTERMSIG(status) == SIGXCPU) return "it found no end";
+    return text("it crashed (signal ", WTERMSIG(status), ")");
+  }
+  if (WEXITSTATUS(status) == kNoMemory) return "it wanted too much memory";
+  return "it crashed";
+}
+
+[[noreturn]] void throw_again(const std::string& message) {
+  const auto kind = static_cast<unsigned char>(message[0]);
+  const bool known = kind <= static_cast<unsigned char>(ErrorKind::kCheckFailed);
+  throw Error(known ? static_cast<ErrorKind>(kind) : ErrorKind::kInternal, message.substr(1));
+}
+
+std::string read_message(const Pipe& errors) {
+  std::string message(kMaxMessage, '\0');
+  ApartStream stream(errors.out.get());
+  std::size_t length = 0;
+  while (length < message.size()) {
+    const std::size_t more =
+        stream.read_some(std::as_writable_bytes(std::span(message).subspan(length)));
+    if (more == 0) break;
+    length += more;
+  }
+  message.resize(length);
+  return message;
+}
+
+}  // namespace
+
+std::size_t ApartStream::read_some(std::span<std::byte> out) {
+  while (true) {
+    const ssize_t done = ::read(fd_, out.data(), out.size());
+    if (done < 0 && errno == EINTR) continue;
+    return done < 0 ? 0 : static_cast<std::size_t>(done);
+  }
+}
+
+bool ApartStream::read(std::span<std::byte> out) {
+  while (!out.empty()) {
+    const std::size_t done = read_some(out);
+    if (done == 0) return false;
+    out = out.subspan(done);
+  }
+  return true;
+}
+
+std::string stream_apart(const ApartLimits& limits,
+                         const std::function<void(const SendBytes&)>& work,
+                         const std::function<void(ApartStream&)>& consume) {
+  Pipe data = make_pipe(), errors = make_pipe();
+  const pid_t id = ::fork();
+  if (id < 0) fail_child("start");
+  if (id == 0) {
+    // A pipe is broken only when nobody could read it.
+    data.out = FileDescriptor();
+    errors.out = FileDescriptor();
+    forget_signals();
+    be_quiet();
+    limit_child(limits);
+    // No destructors and exit handlers: what they would finish belongs to the parent.
+    ::_exit(do_work(data, errors, work));
+  }
+  Child child(id);
+  data.in = FileDescriptor();
+  errors.in = FileDescriptor();
+  ApartStream stream(data.out.get());
+  consume(stream);
+  data.out = FileDescriptor();  // a child that has more to say ends by that
+  const std::string message = read_message(errors);
+  const int status = child.wait();
+  if (!WIFEXITED(status)) return death_of(status);
+  if (WEXITSTATUS(status) == kThrew && !message.empty()) throw_again(message);
+  return WEXITSTATUS(status) == kAnswered ? std::string() : death_of(status);
+}
+
+ApartAnswer run_apart(const ApartLimits& limits, const std::function<std::string()>& work) {
+  std::string all;
+  bool too_long = false;
+  const auto consume = [&](ApartStream& stream) {
+    std::array<std::byte, 1 << 16> piece{};
+    while (const std::size_t done = stream.read_some(piece)) {
+      too_long = all.size() + done > limits.answer_bytes;
+      if (too_long) return;
+      all.append(reinterpret_cast<const char*>(piece.data()), done);
+    }
+  };
+  const auto send_all = [&](const SendBytes& send) {
+    const std::string answer = work();
+    send(std::as_bytes(std::span(answer)));
+  };
+  const std::string death = stream_apart(limits, send_all, consume);
+  if (too_long) return {{}, "its answer has no end"};
+  if (!death.empty()) return {{}, death};
+  return {std::move(all), {}};
+}
+
+void allow_cpu_seconds(std::uint64_t seconds) {
+  set_limit(RLIMIT_CPU, seconds);
+}
+
+}  // namespace mw::io

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Temporary files: what was written is read, no name is left, and errors name the folder.
+#include "io/file/scratch/scratch_file.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+#include <random>
+
+#include "tests/io/test_files.h"
+
+namespace mw::io {
+namespace {
+
+std::vector<std::byte> random_bytes(std::mt19937& random, std::size_t count) {
+  std::vector<std::byte> out(count);
+  for (std::byte& b : out) b = static_cast<std::byte>(random());
+  return out;
+}
+
+/// Making a name, be it for an instant, shows in the time of the folder.
+TEST(UnlinkedFile, NeverHasANameWhereTheFileSystemCanDoWithout) {
+  const TempDir dir;
+  const FileDescriptor probe(::open(dir.path().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  if (!probe.valid()) GTEST_SKIP() << "files need names here";
+  const auto past = std::filesystem::last_write_time(dir.path()) - std::chrono::hours(1);
+  std::filesystem::last_write_time(dir.path(), past);
+  const UnlinkedFile file(dir.path());
+  EXPECT_EQ(std::filesystem::last_write_time(dir.path()), past);
+}
+
+TEST(UnlinkedFile, HoldsWhatWasWrittenAndHasNoName) {
+  const TempDir dir;
+  const UnlinkedFile file(dir.path());
+  EXPECT_EQ(dir.entries(), 0U);
+  std::mt19937 random(1051);
+  std::vector<std::byte> expected(100000);
+  file.write_at(0, expected);
+  for (int i = 0; i < 300; ++i) {
+    const std::size_t at = random() % expected.size();
+    const std::size_t size = std::min<std::size_t>(random() % 5000, expected.size() - at);
+    const std::vector<std::byte> bytes = random_bytes(random, size);
+    std::ranges::copy(bytes, expected.begin() + static_cast<std::ptrdiff_t>(at));
+    file.write_at(at, bytes);
+  }
+  for (int i = 0; i < 100; ++i) {
+    const std::size_t at = random() % expected.size();
+    std::vector<std::byte> found(std::min<std::size_t>(random() % 5000, expected.size() - at));
+    file.read_at(at, found);
+    EXPECT_TRUE(std::ranges::equal(found, std::span(expected).subspan(at, found.size())));
+  }
+}
+
+/// Appended in pieces smaller and larger than its buffer, read while it grows.
+TEST(ScratchFile, ReadsBackWhatWasAppended) {
+  const TempDir dir;
+  ScratchFile file(dir.path());
+  std::mt19937 random(1052);
+  std::vector<std::byte> expected;
+  for (int i = 0; i < 60; ++i) {
+    const std::size_t max = i % 10 == 9 ? 600000 : 3000;
+    const std::vector<std::byte> bytes = random_bytes(random, random() % max);
+    file.append(bytes);
+    expected.insert(expected.end(), bytes.begin(), bytes.end());
+    ASSERT_EQ(file.size(), expected.size());
+    if (i % 3 != 0) continue;
+    const std::size_t at = random() % (expected.size() + 1);
+    std::vector<std::byte> found(random() % (expected.size() - at + 1));
+    file.read_at(at, found);
+    ASSERT_TRUE(std::ranges::equal(found, std::span(expected).subspan(at, found.size())));
+  }
+  EXPECT_EQ(dir.entries(), 0U);
+}
+
+template <typename Action>
+void expect_error(ErrorKind kind, const std::string& folder, Action action) {
+  try {
+    action();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), kind);
+    EXPECT_NE(std::string(e.what()).find(folder), std::string::npos) << e.what();
+  }
+}
+
+TEST(UnlinkedFile, NamesTheFolderThatIsNotThere) {
+  const TempDir dir;
+  const std::filesystem::path missing = dir.path() / "missing";
+  expect_error(ErrorKind::kUsage, missing.string(), [&] { const UnlinkedFile file(missing); });
+  expect_error(ErrorKind::kUsage, missing.string(), [&] { const ScratchFile file(missing); });
+}
+
+TEST(UnlinkedFile, SaysSoWhenThereIsLessThanWasAskedFor) {
+  const TempDir dir;
+  const UnlinkedFile file(dir.path());
+  std::vector<std::byte> bytes(10);
+  file.write_at(0, bytes);
+  expect_error(ErrorKind::kResource, dir.path().string(), [&] { file.read_at(5, bytes); });
+}
+
+/// Puts TMPDIR back when it goes.
+class KeptTmpDir {
+ public:
+  KeptTmpDir() {
+    if (const char* old = std::getenv("TMPDIR")) before_ = old;
+  }
+  ~KeptTmpDir() {
+    if (before_) {
+      ::setenv("TMPDIR", before_->c_str(), 1);
+    } else {
+      ::unsetenv("TMPDIR");
+    }
+  }
+  KeptTmpDir(const KeptTmpDir&) = delete;
+  KeptTmpDir& operator=(const KeptTmpDir&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
+
+TEST(ScratchFolder, IsWhatTmpdirNames) {
+  const KeptTmpDir kept;
+  ::setenv("TMPDIR", "/somewhere", 1);
+  EXPECT_EQ(scratch_folder(), "/somewhere");
+  ::setenv("TMPDIR", "", 1);
+  EXPECT_EQ(scratch_folder(), "/tmp");
+  ::unsetenv("TMPDIR");
+  EXPECT_EQ(scratch_folder(), "/tmp");
+}
+
+}  // namespace
+}  // namespace mw::io
