@@ -3,23 +3,14 @@
 // Every target by its function; what each checks is said where it is defined.
 #pragma once
 
+#include <vector>
+
 #include "tests/fuzz/target.h"
 
 namespace mw::fuzz {
 
-// volume_files.cpp
-void fuzz_npy(Bytes bytes);
-void fuzz_nrrd(Bytes bytes);
-void fuzz_nifti(Bytes bytes);
-void fuzz_metaimage(Bytes bytes);
-void fuzz_tiff(Bytes bytes);
-void fuzz_png(Bytes bytes);
-void fuzz_raw(Bytes bytes);
-void fuzz_gzip(Bytes bytes);
-// volume_folders.cpp
-void fuzz_zarr(Bytes bytes);
-void fuzz_n5(Bytes bytes);
-void fuzz_precomputed(Bytes bytes);
+/// Those of volumes.cpp.
+[[nodiscard]] std::vector<Target> volume_targets();
 // mesh_files.cpp
 void fuzz_vtu(Bytes bytes);
 void fuzz_medit(Bytes bytes);

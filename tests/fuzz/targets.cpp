@@ -8,18 +8,8 @@
 namespace mw::fuzz {
 namespace {
 
+/// Those that are no volumes.
 constexpr std::array kTargets{
-    Target{"npy", fuzz_npy},
-    Target{"nrrd", fuzz_nrrd},
-    Target{"nifti", fuzz_nifti},
-    Target{"metaimage", fuzz_metaimage},
-    Target{"tiff", fuzz_tiff},
-    Target{"png", fuzz_png},
-    Target{"raw", fuzz_raw},
-    Target{"gzip", fuzz_gzip},
-    Target{"zarr", fuzz_zarr},
-    Target{"n5", fuzz_n5},
-    Target{"precomputed", fuzz_precomputed},
     Target{"vtu", fuzz_vtu},
     Target{"medit", fuzz_medit},
     Target{"gmsh", fuzz_gmsh},
@@ -41,7 +31,12 @@ constexpr std::array kTargets{
 }  // namespace
 
 std::span<const Target> targets() {
-  return kTargets;
+  static const std::vector<Target> all = [] {
+    std::vector<Target> targets = volume_targets();
+    targets.insert(targets.end(), kTargets.begin(), kTargets.end());
+    return targets;
+  }();
+  return all;
 }
 
 }  // namespace mw::fuzz

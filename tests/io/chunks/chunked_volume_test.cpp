@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "io/file/errors.h"
-#include "tests/io/volume/store_checks.h"
+#include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 namespace {

@@ -3,57 +3,35 @@
 // Layers against repetition voxel by voxel, in any box.
 #include "io/labels/layered_volume.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <vector>
-
-#include "kernels/core/for_each_index.h"
 #include "kernels/core/layers.h"
+#include "tests/io/labels/memory_volume.h"
 
 namespace mw::io {
 namespace {
 
-/// A volume in memory that knows how much was read of it.
-class CountingVolume : public LabelVolume {
- public:
-  CountingVolume(Index3 shape, std::mt19937& random) {
-    info_ = {.shape = shape,
-             .space = {.spacing = {0.5, 3, 1.25}, .origin = {-1, 2, 0.25}},
-             .format = "memory"};
-    for (std::int64_t i = 0; i < shape.product(); ++i) labels_.push_back(random());
-  }
+std::vector<RawLabel> random_labels(std::mt19937& random, Index3 shape) {
+  std::vector<RawLabel> labels(static_cast<std::size_t>(shape.product()));
+  for (RawLabel& label : labels) label = random();
+  return labels;
+}
 
-  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
-  void read(const Box3& box, std::span<RawLabel> out) const override {
-    std::size_t next = 0;
-    for_each_index(box, [&](Index3 v) { out[next++] = at(v); });
-    EXPECT_EQ(next, out.size());
-    voxels_read += box.voxels();
+/// A volume that knows how much was read of it.
+class CountingVolume : public MemoryVolume {
+ public:
+  CountingVolume(Index3 shape, std::mt19937& random)
+      : MemoryVolume(shape, VoxelType::kU64, random_labels(random, shape)) {
+    info().space = {.spacing = {0.5, 3, 1.25}, .origin = {-1, 2, 0.25}};
   }
-  [[nodiscard]] RawLabel at(Index3 v) const {
-    const Box3 all{{0, 0, 0}, info_.shape};
-    EXPECT_TRUE(all.contains(v)) << "read outside the volume";
-    return labels_[static_cast<std::size_t>(all.offset(v))];
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    MemoryVolume::read(box, out);
+    voxels_read += box.voxels();
   }
 
   mutable std::int64_t voxels_read = 0;
-
- private:
-  VolumeInfo info_;
-  std::vector<RawLabel> labels_;
 };
 
 std::int64_t one_to(std::mt19937& random, std::int64_t max) {
   return 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(max));
-}
-
-Box3 random_box(std::mt19937& random, Index3 shape) {
-  const Index3 size{one_to(random, shape.x), one_to(random, shape.y), one_to(random, shape.z)};
-  const Index3 lo{one_to(random, shape.x - size.x + 1) - 1,
-                  one_to(random, shape.y - size.y + 1) - 1,
-                  one_to(random, shape.z - size.z + 1) - 1};
-  return {lo, lo + size};
 }
 
 TEST(LayeredVolume, RepeatsEachVoxelInEveryBox) {

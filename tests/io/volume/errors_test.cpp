@@ -5,6 +5,7 @@
 
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/sample_files.h"
+#include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 namespace {
@@ -13,17 +14,13 @@ const std::string kEight(8, 'a');
 
 void expect_refused(const TempDir& dir, const std::string& file, const std::string& content,
                     std::vector<std::string> pieces) {
-  const auto path = dir.file(file, content);
-  pieces.push_back(path.string());
-  expect_error(ErrorKind::kInput, pieces, [&] { static_cast<void>(open_volume(path)); });
+  expect_not_opened(dir.file(file, content), pieces);
 }
 
 TEST(VolumeErrors, Files) {
   const TempDir dir;
-  expect_error(ErrorKind::kInput, {"missing.npy", "cannot open"},
-               [&] { static_cast<void>(open_volume(dir.path() / "missing.npy")); });
-  expect_error(ErrorKind::kInput, {dir.path().string(), "folder"},
-               [&] { static_cast<void>(open_volume(dir.path())); });
+  expect_not_opened(dir.path() / "missing.npy", {"missing.npy", "cannot open"});
+  expect_not_opened(dir.path(), {"folder"});
   expect_refused(dir, "empty.npy", "", {"empty"});
   expect_refused(dir, "a.xyz", "what is this", {"unknown", volume_endings(), volume_folders()});
 }
@@ -33,7 +30,7 @@ TEST(VolumeErrors, OptionsThatAFormatDoesNotHave) {
   const TempDir dir;
   const auto path = dir.file("a.npy", npy_file("|u1", false, "(2, 2, 2)", kEight));
   const auto refuse = [&](const OpenOptions& options, const std::vector<std::string>& pieces) {
-    expect_error(ErrorKind::kUsage, pieces, [&] { static_cast<void>(open_volume(path, options)); });
+    expect_misused(path, options, pieces);
   };
   refuse({.dataset = "labels"}, {"--dataset", "a.npy", "NumPy", formats_with_datasets()});
   refuse({.scale = 0}, {"--scale", "a.npy", "NumPy", formats_with_scales()});

@@ -1,11 +1,16 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // A few packed bytes may unpack to any number: no more are unpacked than the header asks for.
+#include "io/file/source/file_source.h"
+#include "io/file/source/inflated_source.h"
 #include "io/mesh/open_mesh.h"
 #include "io/names/read_names.h"
+#include "io/volume/hdf5/open_hdf5.h"
 #include "io/volume/open_volume.h"
+#include "io/volume/tiff/open_tiff.h"
 #include "tests/io/mesh/sample_mesh.h"
 #include "tests/io/volume/sample_files.h"
+#include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 namespace {
@@ -51,8 +56,7 @@ TEST_F(PackedBytes, OfARawVolumeMustBeAsManyAsItsVoxels) {
   const OpenOptions options{.raw = RawLayout{kShape, VoxelType::kU8}, .spacing = {}, .origin = {}};
   EXPECT_EQ(read_all(*open_volume(dir_.file("a.gz", gzip(voxels_)), options)), labels_);
   const auto more = dir_.file("b.gz", bomb(voxels_));
-  expect_error(ErrorKind::kInput, {"b.gz", "needs 60 bytes", "holds at least 960"},
-               [&] { static_cast<void>(open_volume(more, options)); });
+  expect_not_opened(more, {"b.gz", "needs 60 bytes", "holds at least 960"}, options);
 }
 
 TEST_F(PackedBytes, BehindAMeshAreNotUnpacked) {
@@ -74,6 +78,31 @@ TEST_F(PackedBytes, WithoutXmlAreNoXml) {
   for (const char* name : {"m.vtu", "m.feb", "m.xdmf"}) {
     const auto path = dir_.file(name, bomb(""));
     expect_error(ErrorKind::kInput, {name}, [&] { static_cast<void>(read_mesh(path)); });
+  }
+}
+
+using Open = std::unique_ptr<LabelVolume> (*)(std::unique_ptr<ByteSource>, const OpenOptions&);
+
+struct Bomb {
+  const char* name;
+  std::string head;
+  Open open;
+};
+
+/// Formats that are read from their end: each begins as its format does, and goes on with 200 MB of
+/// nothing.
+TEST(GzipBombs, AreGivenUpWhenTheyHaveFilledTheirRoom) {
+  const TempDir dir;
+  constexpr std::uint64_t kMax = 8 << 20;
+  const std::vector<Bomb> bombs{{"a.tif.gz", std::string("II*\0\x08\0\0\0", 8), open_tiff},
+                                {"a.h5.gz", "\x89HDF\r\n\x1a\n", open_hdf5}};
+  for (const Bomb& bomb : bombs) {
+    const auto path = dir.file(bomb.name, gzip(bomb.head + std::string(200'000'000, '\0')));
+    ASSERT_LE(std::filesystem::file_size(path), 1U << 20);
+    expect_error(ErrorKind::kResource, {bomb.name, "more than 8388608 bytes", "TMPDIR"}, [&] {
+      static_cast<void>(bomb.open(
+          std::make_unique<InflatedSource>(std::make_unique<FileSource>(path), 0, kMax), {}));
+    });
   }
 }
 

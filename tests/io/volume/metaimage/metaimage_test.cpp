@@ -3,7 +3,7 @@
 // MetaImage files, hand-made by the field table of MetaIO's documentation.
 #include <cmath>
 
-#include "tests/io/volume/damaged_files.h"
+#include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 namespace {
@@ -125,8 +125,7 @@ TEST(MetaImage, TwoAndFourAxes) {
   const auto one = dir.file("4.mha", four + "1\nElementDataFile = LOCAL\nabcdef");
   EXPECT_EQ(open_volume(one)->info().shape, (Index3{3, 2, 1}));
   const auto two = dir.file("5.mha", four + "2\nElementDataFile = LOCAL\nabcdefabcdef");
-  expect_error(ErrorKind::kInput, {"DimSize", "4 axes", "pick one"},
-               [&] { static_cast<void>(open_volume(two)); });
+  expect_not_opened(two, {"DimSize", "4 axes", "pick one"});
 }
 
 TEST(MetaImage, SlicesInFilesOfTheirOwn) {
@@ -149,16 +148,14 @@ TEST(MetaImage, SlicesInFilesOfTheirOwn) {
     expect_boxes(*open_volume(path), labels);
   }
   dir.file("s12.raw", "short");
-  expect_error(ErrorKind::kInput, {"s12.raw", "40 bytes", "holds 5"},
-               [&] { static_cast<void>(open_volume(list)); });
+  expect_not_opened(list, {"s12.raw", "40 bytes", "holds 5"});
 }
 
 TEST(MetaImage, WhatIsWrongIsNamed) {
   const TempDir dir;
   const auto refuse = [&](const std::string& content, std::vector<std::string> pieces) {
     pieces.push_back((dir.path() / "a.mha").string());
-    const auto path = dir.file("a.mha", content);
-    expect_error(ErrorKind::kInput, pieces, [&] { static_cast<void>(open_volume(path)); });
+    expect_not_opened(dir.file("a.mha", content), pieces);
   };
   const std::string data(60, 'a');
   const auto with = [&](const std::string& more) { return header("MET_UCHAR", more) + data; };

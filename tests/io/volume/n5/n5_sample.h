@@ -5,7 +5,7 @@
 
 #include "io/codec/checksums.h"
 #include "tests/io/codec/packers.h"
-#include "tests/io/volume/store_checks.h"
+#include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 

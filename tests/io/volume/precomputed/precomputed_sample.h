@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "tests/io/volume/store_checks.h"
+#include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 

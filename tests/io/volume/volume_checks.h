@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What every store of chunks must do: give back each region, and take damage for damage.
+// What every volume must do: give back each region, and refuse what is wrong or damaged with an
+// error that names the file.
 #pragma once
 
 #include <functional>
 #include <random>
 
+#include "io/file/errors.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/test_files.h"
 
@@ -79,10 +81,10 @@ inline void each_chunk(Index3 shape, Index3 chunk,
 
 /// The whole and random boxes are what the array has there.
 inline void expect_regions(Random& random, const LabelVolume& volume, Index3 shape,
-                           const std::vector<RawLabel>& labels) {
+                           const std::vector<RawLabel>& labels, int boxes = 8) {
   ASSERT_EQ(volume.info().shape, shape);
   ASSERT_EQ(read_all(volume), labels);
-  for (int round = 0; round < 8; ++round) {
+  for (int round = 0; round < boxes; ++round) {
     const Index3 lo{pick(random, 0, shape.x - 1), pick(random, 0, shape.y - 1),
                     pick(random, 0, shape.z - 1)};
     const Index3 hi{pick(random, lo.x + 1, shape.x), pick(random, lo.y + 1, shape.y),
@@ -94,19 +96,57 @@ inline void expect_regions(Random& random, const LabelVolume& volume, Index3 sha
   }
 }
 
-/// Opens the store and reads all of it; whether it was refused, as bad input must be.
-inline bool is_refused(const std::filesystem::path& path, const OpenOptions& options = {}) {
+/// The same of the shape that the volume says.
+inline void expect_boxes(const LabelVolume& volume, const std::vector<RawLabel>& labels,
+                         unsigned seed = 1, int boxes = 50) {
+  Random random(seed);
+  expect_regions(random, volume, volume.info().shape, labels, boxes);
+}
+
+/// Reads a volume that may claim any size: all of it when that is little, else its last voxels.
+inline void read_some(const LabelVolume& volume) {
+  const Index3 shape = volume.info().shape;
+  constexpr std::int64_t kMaxVoxels = 1 << 20;
+  Box3 box{{0, 0, 0}, shape};
+  if (shape.product() > kMaxVoxels) box.lo = shape - Index3{1, 1, 1};
+  std::vector<RawLabel> labels(static_cast<std::size_t>(box.voxels()));
+  volume.read(box, labels);
+}
+
+/// Opening it is an error about the input that names the path, or a file in that folder, and has
+/// every piece.
+inline void expect_not_opened(const std::filesystem::path& path, std::vector<std::string> pieces,
+                              const OpenOptions& options = {}, ErrorKind kind = ErrorKind::kInput) {
+  pieces.push_back(path.string());
+  expect_error(kind, pieces, [&] { static_cast<void>(open_volume(path, options)); });
+}
+/// The same of options that do not fit it.
+inline void expect_misused(const std::filesystem::path& path, const OpenOptions& options,
+                           const std::vector<std::string>& pieces) {
+  expect_not_opened(path, pieces, options, ErrorKind::kUsage);
+}
+/// The same of opening it or of reading it.
+inline void expect_not_read(const std::filesystem::path& path, std::vector<std::string> pieces) {
+  pieces.push_back(path.string());
+  expect_error(ErrorKind::kInput, pieces, [&] { read_some(*open_volume(path)); });
+}
+
+/// Opens and reads it; whether it was refused.  Anything but success and an error about the input
+/// that names its folder fails the test.
+inline bool is_refused(const std::filesystem::path& path, const OpenOptions& options = {},
+                       const std::string& what = "") {
   try {
-    const auto volume = open_volume(path, options);
-    // A damaged size may be huge: only what a small store could have had is read.
-    if (volume->info().shape.product() < 1 << 20) static_cast<void>(read_all(*volume));
+    read_some(*open_volume(path, options));
     return false;
   } catch (const Error& error) {
     EXPECT_TRUE(error.kind() == ErrorKind::kInput || error.kind() == ErrorKind::kUsage)
-        << error.what();
-    EXPECT_GT(std::string(error.what()).size(), 10U);
-    return true;
+        << what << ": " << error.what();
+    EXPECT_NE(std::string(error.what()).find(path.parent_path().string()), std::string::npos)
+        << what << ": names no file: " << error.what();
+  } catch (const std::exception& other) {
+    ADD_FAILURE() << what << ": " << other.what();
   }
+  return true;
 }
 
 /// Damages the file in every way that is tried here: cut at every length, every bit flipped (in
@@ -130,6 +170,27 @@ inline int refused_when_damaged(const std::filesystem::path& store,
   write_file(file, whole);
   EXPECT_FALSE(is_refused(store, options));
   return refused;
+}
+
+/// Cuts the file at `cuts` lengths (all when it is shorter) and changes each of its first `flips`
+/// bytes in four ways; each time it is read or refused.
+inline void damage_everywhere(const TempDir& dir, const std::string& name,
+                              const std::string& content, std::size_t flips = 4096,
+                              std::size_t cuts = 1000) {
+  const auto path = dir.path() / name;
+  const std::size_t step = content.size() / cuts + 1;
+  for (std::size_t length = 0; length < content.size(); length += step) {
+    write_file(path, content.substr(0, length));
+    is_refused(path, {}, text("cut at ", length));
+  }
+  for (std::size_t at = 0; at < std::min(flips, content.size()); ++at) {
+    for (const int bits : {0x01, 0x10, 0x80, 0xff}) {
+      std::string bad = content;
+      bad[at] = static_cast<char>(bad[at] ^ bits);
+      write_file(path, bad);
+      is_refused(path, {}, text("byte ", at, " xor ", bits));
+    }
+  }
 }
 
 }  // namespace mw::io

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Volumes in one file.
+// Volumes: files of each format, and metadata and chunks of stores.
 #include "io/file/source/inflated_source.h"
 #include "io/volume/metaimage/open_metaimage.h"
+#include "io/volume/n5/open_n5.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/open_npy.h"
 #include "io/volume/nrrd/open_nrrd.h"
 #include "io/volume/png/open_png.h"
+#include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw/open_raw.h"
 #include "io/volume/tiff/open_tiff.h"
+#include "io/volume/zarr/open_zarr.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/byte_file.h"
 #include "tests/fuzz/choices.h"
@@ -18,36 +21,23 @@
 namespace mw::fuzz {
 namespace {
 
-using OpenSource = std::unique_ptr<io::LabelVolume> (*)(std::unique_ptr<io::ByteSource> source,
-                                                        const io::OpenOptions& options);
-void open_and_look(OpenSource open, Bytes bytes, const io::OpenOptions& options = {}) {
-  ends_well([&] { look_at(*open(std::make_unique<ByteFile>(bytes), options)); });
+using Opened = std::unique_ptr<io::LabelVolume>;
+using OpenFile = Opened (*)(std::unique_ptr<io::ByteSource>, const io::OpenOptions&);
+using OpenFolder = Opened (*)(const std::filesystem::path&, const io::OpenOptions&);
+
+template <OpenFile open>
+void file(Bytes bytes) {
+  ends_well([&] { look_at(*open(std::make_unique<ByteFile>(bytes), {})); });
 }
 
-}  // namespace
-
-void fuzz_npy(Bytes bytes) {
-  open_and_look(io::open_npy, bytes);
-}
-
-void fuzz_nrrd(Bytes bytes) {
-  open_and_look(io::open_nrrd, bytes);
-}
-
-void fuzz_nifti(Bytes bytes) {
-  open_and_look(io::open_nifti, bytes);
-}
-
-void fuzz_metaimage(Bytes bytes) {
-  open_and_look(io::open_metaimage, bytes);
-}
-
-void fuzz_tiff(Bytes bytes) {
-  open_and_look(io::open_tiff, bytes);
+template <OpenFolder open>
+void folder(Bytes bytes) {
+  const FileTree files(bytes);
+  ends_well([&] { look_at(*open(files.path(), {.cache_bytes = 1 << 20})); });
 }
 
 /// The reader opens files itself.
-void fuzz_png(Bytes bytes) {
+void png(Bytes bytes) {
   const test::TempFolder folder;
   const std::filesystem::path path = folder.path() / "slice.png";
   std::ofstream(path, std::ios::binary) << text_of(bytes);
@@ -55,7 +45,7 @@ void fuzz_png(Bytes bytes) {
 }
 
 /// The first bytes are what the caller says of the file.
-void fuzz_raw(Bytes bytes) {
+void raw(Bytes bytes) {
   Choices choices(bytes);
   io::RawLayout layout;
   const auto edge = [&] { return static_cast<std::int64_t>(choices.below(20)) - 1; };
@@ -64,11 +54,12 @@ void fuzz_raw(Bytes bytes) {
   layout.shape.z = edge();
   layout.type = static_cast<io::VoxelType>(choices.below(10));
   layout.order = choices.below(2) == 0 ? io::ByteOrder::kLittle : io::ByteOrder::kBig;
-  open_and_look(io::open_raw, choices.rest(), {.raw = layout});
+  const Bytes voxels = choices.rest();
+  ends_well([&] { look_at(*io::open_raw(std::make_unique<ByteFile>(voxels), {.raw = layout})); });
 }
 
 /// What comes out has a size that deflate can reach, and can be read.
-void fuzz_gzip(Bytes bytes) {
+void gzip(Bytes bytes) {
   ends_well([&] {
     auto packed = std::make_unique<ByteFile>(bytes);
     if (!io::is_gzip(*packed)) return;
@@ -76,6 +67,22 @@ void fuzz_gzip(Bytes bytes) {
     static_cast<void>(io::read_prefix(plain, 64));
     require(plain.size() <= 1032 * bytes.size(), "deflate packs no tighter than 1 to 1032");
   });
+}
+
+}  // namespace
+
+std::vector<Target> volume_targets() {
+  return {{"npy", file<io::open_npy>},
+          {"nrrd", file<io::open_nrrd>},
+          {"nifti", file<io::open_nifti>},
+          {"metaimage", file<io::open_metaimage>},
+          {"tiff", file<io::open_tiff>},
+          {"png", png},
+          {"raw", raw},
+          {"gzip", gzip},
+          {"zarr", folder<io::open_zarr>},
+          {"n5", folder<io::open_n5>},
+          {"precomputed", folder<io::open_precomputed>}};
 }
 
 }  // namespace mw::fuzz
