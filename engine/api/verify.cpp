@@ -14,14 +14,6 @@ namespace {
 
 namespace engine = mw::engine;
 
-/// Interfaces are counted in meshes of all labels only.
-mw::report::Bounds bounds_of(const Options& options, const mw::io::MeshRecord& record) {
-  mw::report::Bounds bounds{record.promises.value_or(mw::report::kOtherPromises),
-                            record.promises.has_value()};
-  if (!options.labels.empty() || options.background) bounds.promises.interfaces = false;
-  return bounds;
-}
-
 Verdict library_verdict(const mw::report::Verdict& verdict) {
   Verdict out{.passed = verdict.audit.passed(), .checks = {}, .report = {}};
   for (const mw::audit::Check& check : verdict.audit.checks) {
@@ -36,15 +28,13 @@ Verdict library_verdict(const mw::report::Verdict& verdict) {
 Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, const Hooks& hooks) {
   return mw::api::guarded([&] {
     const std::function<void()> stop = mw::api::stop_function(hooks);
-    const engine::VerifyJob job{
-        .volume = VolumeAccess::labels(volume),
-        .steps = mw::api::input_steps(options),
-        .choice = mw::api::label_choice(options),
-        .bounds = [&](const mw::io::MeshRecord& record) { return bounds_of(options, record); },
-        .threads = options.threads,
-        .memory = mw::api::memory_of(options),
-        .folder = mw::io::scratch_folder(),
-        .between = stop};
+    const engine::VerifyJob job{.volume = VolumeAccess::labels(volume),
+                                .steps = mw::api::input_steps(options),
+                                .choice = mw::api::label_choice(options),
+                                .threads = options.threads,
+                                .memory = mw::api::memory_of(options),
+                                .folder = mw::io::scratch_folder(),
+                                .between = stop};
     return library_verdict(
         engine::verify(job, [&](mw::io::MeshSink& sink) { mw::api::deliver(mesh, sink); }));
   });

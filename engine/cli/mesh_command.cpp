@@ -18,6 +18,7 @@
 #include "engine/report/mesh_facts.h"
 #include "engine/report/run_report.h"
 #include "engine/report/speck_facts.h"
+#include "engine/settings/promises.h"
 #include "engine/system/crew.h"
 #include "engine/system/resident_memory.h"
 #include "io/mesh/digest.h"
@@ -139,9 +140,10 @@ void print_space(const io::VolumeSpace& space) {
 }
 
 void print_certificate(const report::FinishedRun& run) {
-  std::cout << "certificate "
-            << (run.certificate ? "topology, partition, radius ratio and distance hold"
-                                : "none: " + run.why_no_certificate)
+  const std::string checked =
+      std::string("topology, partition, radius ratio") +
+      (run.why_no_volumes.empty() ? ", distance and volumes hold" : " and distance hold");
+  std::cout << "certificate " << (run.certificate ? checked : "none: " + run.why_no_certificate)
             << "\n";
 }
 
@@ -216,6 +218,8 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   if (runs_are_divided()) watch_save_requests();
   // Refused before any file is opened.
   const bool is_certified = engine::plan_certificate(request.job).why_not.empty();
+  const std::string why = engine::why_no_volumes(engine::promises_of(request.job.settings));
+  if (!why.empty()) spdlog::warn("{}: the volumes of labels are not promised (P8)", why);
   const report::ResourceMeter meter;
   MeshFiles files(request, open_shared_output(request, is_certified));
   spdlog::info("reading {}", request.volume.path.string());

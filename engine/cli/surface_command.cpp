@@ -99,16 +99,24 @@ class SurfaceJob {
   }
 
   void write_each() {
-    bool written = false;
-    for (const Label rank : ranks()) {
-      const io::ShellPlan plan = plans_.of_label(rank);
-      const RawLabel label = labels_->table.raw(rank);
-      if (!request_.labels.empty()) require_facets(plan, "label " + text_of(label));
-      if (plan.parts.empty()) continue;
-      write({plan}, *output_.sink(label, format_label(label, labels_->table.is_signed())));
-      written = true;
+    std::string written;
+    try {
+      for (const Label rank : ranks()) write_one(rank, written);
+    } catch (const Error& error) {
+      if (written.empty()) throw;
+      throw Error(error.kind(), error.what() + ("; written before are those of " + written));
     }
-    if (!written) require_facets({}, "the mesh");
+    if (written.empty()) require_facets({}, "the mesh");
+  }
+
+  /// Adds the label to those that are written, unless it has no surface.
+  void write_one(Label rank, std::string& written) {
+    const io::ShellPlan plan = plans_.of_label(rank);
+    const RawLabel label = labels_->table.raw(rank);
+    if (!request_.labels.empty()) require_facets(plan, "label " + text_of(label));
+    if (plan.parts.empty()) return;
+    write({plan}, *output_.sink(label, format_label(label, labels_->table.is_signed())));
+    written += (written.empty() ? "label " : ", ") + text_of(label);
   }
 
   const SurfaceRequest& request_;

@@ -21,15 +21,13 @@ struct VerifyCommand {
 
 report::Verdict judge(const VerifyRequest& request) {
   const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
-  const engine::VerifyJob job{
-      .volume = *opened,
-      .steps = request.volume.steps,
-      .choice = request.choice,
-      .bounds = [&](const io::MeshRecord& record) { return bounds_of(request, record); },
-      .checks = request.checks,
-      .threads = request.threads,
-      .memory = *request.memory,
-      .folder = io::scratch_folder()};
+  const engine::VerifyJob job{.volume = *opened,
+                              .steps = request.volume.steps,
+                              .choice = request.choice,
+                              .asked = request.asked,
+                              .threads = request.threads,
+                              .memory = *request.memory,
+                              .folder = io::scratch_folder()};
   return engine::verify(job, [&](io::MeshSink& sink) { io::copy_mesh(request.mesh, sink); });
 }
 

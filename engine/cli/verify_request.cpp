@@ -40,14 +40,15 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
        .help = "what P1 looks at: labels, or interfaces and meetings of labels as well [what the "
                "run kept, else labels]",
        .choices = {"labels", kInterfaces},
-       .assign = [&](const std::string& text) { request.count_junctions = text == kInterfaces; }});
-  options.add(
-      {.name = "quality-floor",
-       .value = "R",
-       .help = "P3 fails for a tet below this radius ratio [the run's, else " +
-               format_number(kOtherPromises.quality_floor) + "]",
-       .kind = ValueKind::kNumber,
-       .assign = [&](const std::string& text) { request.quality_floor = parse_number(text); }});
+       .assign = [&](const std::string& text) { request.asked.interfaces = text == kInterfaces; }});
+  options.add({.name = "quality-floor",
+               .value = "R",
+               .help = "P3 fails for a tet below this radius ratio [the run's, else " +
+                       format_number(kOtherPromises.quality_floor) + "]",
+               .kind = ValueKind::kNumber,
+               .assign = [&](const std::string& text) {
+                 request.asked.quality_floor = parse_number(text);
+               }});
   options.add(
       {.name = "max-distance",
        .value = "D",
@@ -55,22 +56,22 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
                "[the run's, else " +
                format_number(*kOtherPromises.max_distance) + "]",
        .kind = ValueKind::kNumberOrNone,
-       .assign = [&](const std::string& text) { request.max_distance = parse_bound(text); }});
+       .assign = [&](const std::string& text) { request.asked.max_distance = parse_bound(text); }});
   options.add({.name = "surface",
                .help = "how the mesh was made, hence what distances count in: smooth, voxels of "
                        "the lattice where thick slices are cut into layers; voxel, the input's "
                        "[the run's, else smooth]",
                .choices = {"smooth", kVoxel},
-               .assign = [&](const std::string& text) { request.in_layers = text != kVoxel; }});
+               .assign = [&](const std::string& text) { request.asked.smooth = text != kVoxel; }});
   options.add({.name = "max-volume-error",
                .value = "E",
                .help =
                    "P8 fails when a label of 1000 voxels or more is off by a larger share of its "
-                   "volume, or none",
+                   "volume (of one with more than 0.4 faces a voxel, 2.5 times that share for "
+                   "each face), or none [none where the mesh's run did not promise it, else 0.05]",
                .kind = ValueKind::kNumberOrNone,
-               .fallback = format_number(*audit::AuditOptions{}.max_volume_error),
                .assign = [&](const std::string& text) {
-                 request.checks.max_volume_error = parse_bound(text);
+                 request.asked.max_volume_error = parse_bound(text);
                }});
   add_resource_options(options, request.threads, request.memory,
                        "what lists and buffers may take together, beside a tile a thread");
@@ -83,7 +84,7 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
 void check_verify_request(VerifyRequest& request) {
   require_path(request.mesh, "MESH");
   engine::check_choice(request.choice);
-  if (request.count_junctions.value_or(false) &&
+  if (request.asked.interfaces.value_or(false) &&
       (request.choice.labels || request.choice.background)) {
     throw Error(ErrorKind::kUsage,
                 "--topology interfaces: is for meshes of all labels, without --labels and "
@@ -91,17 +92,6 @@ void check_verify_request(VerifyRequest& request) {
   }
   if (!request.memory) request.memory = engine::default_memory_budget();
   request.volume.cache_bytes = cache_bytes(*request.memory);
-}
-
-Bounds bounds_of(const VerifyRequest& request, const io::MeshRecord& record) {
-  Bounds bounds{record.promises.value_or(kOtherPromises), record.promises.has_value()};
-  io::MeshPromises& asked = bounds.promises;
-  if (request.max_distance) asked.max_distance = *request.max_distance;
-  asked.quality_floor = request.quality_floor.value_or(asked.quality_floor);
-  asked.smooth = request.in_layers.value_or(asked.smooth);
-  const bool all_labels = !request.choice.labels && !request.choice.background;
-  asked.interfaces = request.count_junctions.value_or(asked.interfaces && all_labels);
-  return bounds;
 }
 
 }  // namespace mw::cli

@@ -6,6 +6,7 @@
 #include "engine/job/verify_job.h"
 #include "engine/march/march.h"
 #include "engine/report/figures.h"
+#include "engine/settings/promises.h"
 #include "engine/verify/verify_mesh.h"
 #include "kernels/core/error.h"
 
@@ -69,7 +70,7 @@ void Certifier::certify(const CertificatePlan& plan) {
                   .memory_bytes = kShared / 2,
                   .folder = folder_,
                   .between = stop_};
-  task.options.max_volume_error.reset();
+  if (!why_no_volumes(promises).empty()) task.options.max_volume_error.reset();
   task.options.kept = kept_;
   task.options.count_junctions = task.options.count_junctions && kept_.empty();
   report_ = verify_mesh(volume_, tiles_, task);

@@ -13,7 +13,7 @@
 
 namespace mw::engine {
 
-/// Checks a mesh on its way into a sink: P1 to P4, as the run promises them.
+/// Checks a mesh on its way into a sink: P1 to P4 and P8, as the run promises them.
 class Certifier {
  public:
   /// volume and sink outlive it; stop is called between tiles and may throw.

@@ -8,6 +8,7 @@
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/voxel_lattice.h"
+#include "engine/settings/promises.h"
 #include "engine/system/resident_memory.h"
 #include "engine/version.h"
 #include "kernels/core/error.h"
@@ -90,6 +91,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
     throw;
   }
   run.why_no_certificate = plan.why_not;
+  run.why_no_volumes = why_no_volumes(promises_of(job.settings));
   if (certifier) run.certificate = certifier->report();
   run.resources = meter.read();
   return run;

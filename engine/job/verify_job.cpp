@@ -7,10 +7,105 @@
 
 #include "engine/labels/label_scan.h"
 #include "engine/march/march.h"
+#include "engine/report/figures.h"
+#include "engine/settings/promises.h"
 #include "engine/verify/verify_mesh.h"
+#include "kernels/core/error.h"
 #include "kernels/core/layers.h"
 
 namespace mw::engine {
+namespace {
+
+/// The labels that a mesh is to hold, and who says so where nobody was asked.
+struct KeptLabels {
+  audit::KeptLabels labels;
+  std::string told;
+};
+
+audit::KeptLabels empty_if_all(audit::KeptLabels kept) {
+  const bool leaves_out = std::find(kept.begin(), kept.end(), false) != kept.end();
+  return leaves_out ? std::move(kept) : audit::KeptLabels{};
+}
+
+/// "2, 3, 4 and 95 more".
+std::string list_of(const std::vector<RawLabel>& labels, bool is_signed) {
+  constexpr std::size_t kMostNamed = 8;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(labels.size(), kMostNamed); ++i) {
+    out += (i == 0 ? "" : ", ") + report::format_label(labels[i], is_signed);
+  }
+  if (labels.size() <= kMostNamed) return out;
+  return out + " and " + std::to_string(labels.size() - kMostNamed) + " more";
+}
+
+/// What a run has left out, its record tells.
+KeptLabels recorded_labels(const io::MeshRecord& record, const io::LabelTable& table) {
+  const bool are_left_out = record.only_labels.empty();
+  const auto& named = are_left_out ? record.without_labels : record.only_labels;
+  if (named.empty()) return {};
+  const io::LabelTable found(named, table.is_signed());
+  audit::KeptLabels kept;
+  for (Label l = 0; l < table.size(); ++l) {
+    kept.push_back(found.contains(table.raw(l)) != are_left_out);
+  }
+  return {empty_if_all(std::move(kept)),
+          (are_left_out ? "without label " : "only label ") + list_of(named, table.is_signed())};
+}
+
+/// A file that tells of no run holds the labels that it holds.
+KeptLabels found_labels(const audit::KeptLabels& in_mesh, const io::LabelTable& table) {
+  std::vector<RawLabel> missing;
+  for (Label l = 0; l < table.size(); ++l) {
+    if (!in_mesh[l]) missing.push_back(table.raw(l));
+  }
+  if (missing.empty()) return {};
+  return {in_mesh, "without label " + list_of(missing, table.is_signed()) +
+                       ", which the file does not have"};
+}
+
+KeptLabels kept_labels(const LabelChoice& choice, const io::MeshRecord& record,
+                       const MeshTiles& mesh, const io::LabelTable& table) {
+  if (choice.labels || choice.background) return {kept_labels(choice, table), ""};
+  if (record.promises) return recorded_labels(record, table);
+  return found_labels(mesh.labels(), table);
+}
+
+report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
+                         const KeptLabels& kept) {
+  report::Bounds out{.promises = record.promises.value_or(report::kOtherPromises),
+                     .of_run = record.promises.has_value()};
+  io::MeshPromises& bounds = out.promises;
+  if (out.of_run) check_promises(bounds);
+  if (asked.interfaces.value_or(false) && !kept.labels.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "--topology interfaces: is for meshes of all labels, and this one is " +
+                    (kept.told.empty() ? "of some" : kept.told));
+  }
+  if (asked.max_distance) bounds.max_distance = *asked.max_distance;
+  bounds.quality_floor = asked.quality_floor.value_or(bounds.quality_floor);
+  bounds.smooth = asked.smooth.value_or(bounds.smooth);
+  bounds.interfaces = asked.interfaces.value_or(bounds.interfaces && kept.labels.empty());
+  if (!out.of_run) {
+    out.told = kept.told;
+    return out;
+  }
+  // What was asked for is no promise that the file weakens.
+  io::MeshPromises recorded = bounds;
+  const io::MeshPromises usual = promises_of({});
+  if (asked.max_distance) recorded.max_distance = usual.max_distance;
+  if (asked.quality_floor) recorded.quality_floor = usual.quality_floor;
+  if (asked.smooth) recorded.smooth = usual.smooth;
+  out.told = less_than_default(recorded);
+  const auto add = [&out](const std::string& words) {
+    out.told += (out.told.empty() || words.empty() ? "" : ", ") + words;
+  };
+  const bool has_volumes = why_no_volumes(*record.promises).empty();
+  if (!has_volumes && !asked.max_volume_error) add("no volumes");
+  add(kept.told);
+  return out;
+}
+
+}  // namespace
 
 report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSink&)>& deliver) {
   const io::PreparedInput input(job.volume, job.steps, io::SpeckLimits::of_budget(job.memory));
@@ -20,13 +115,20 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
       .specks = input.specks(), .table = collect_labels(volume, job.threads), .names = info.names};
   MeshTiles mesh(info, verdict.table, {job.folder, job.memory / 8});
   deliver(mesh);
-  verdict.bounds = job.bounds(mesh.header().record);
-  VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space, job.checks),
+  const io::MeshRecord& record = mesh.header().record;
+  const KeptLabels kept = kept_labels(job.choice, record, mesh, verdict.table);
+  verdict.bounds = bounds_of(job.asked, record, kept);
+  VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space),
                   .threads = thread_count(job.threads),
                   .memory_bytes = job.memory / 2,
                   .folder = job.folder,
                   .between = job.between};
-  task.options.kept = kept_labels(job.choice, verdict.table);
+  if (record.promises && !why_no_volumes(*record.promises).empty()) {
+    task.options.max_volume_error.reset();
+  }
+  if (job.asked.max_volume_error) task.options.max_volume_error = *job.asked.max_volume_error;
+  verdict.bounds.max_volume_error = task.options.max_volume_error;
+  task.options.kept = kept.labels;
   verdict.layers = task.options.layers;
   verdict.audit = verify_mesh(io::DenseVolume(volume, verdict.table), mesh, task);
   return verdict;
@@ -38,13 +140,11 @@ audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& t
   for (Label label = 0; wanted && label < table.size(); ++label) {
     kept.push_back(wanted(table.raw(label)));
   }
-  const bool leaves_out = std::find(kept.begin(), kept.end(), false) != kept.end();
-  return leaves_out ? kept : audit::KeptLabels{};
+  return empty_if_all(std::move(kept));
 }
 
-audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::VolumeSpace& space,
-                                  const audit::AuditOptions& others) {
-  audit::AuditOptions options = others;
+audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::VolumeSpace& space) {
+  audit::AuditOptions options;
   options.radius_ratio_floor = promises.quality_floor;
   options.count_junctions = promises.interfaces;
   options.max_distance = promises.max_distance;

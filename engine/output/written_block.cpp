@@ -26,6 +26,20 @@ io::MeshBox box_of(const io::VolumeInfo& info) {
   return box;
 }
 
+/// The shorter of the two lists.
+void tell_choice(const LabelSelection& selection, const io::LabelTable& table,
+                 io::MeshRecord& record) {
+  std::vector<RawLabel> only, without;
+  for (Label l = 0; l < table.size(); ++l) {
+    (selection.keeps(l) ? only : without).push_back(table.raw(l));
+  }
+  if (without.size() <= only.size()) {
+    record.without_labels = std::move(without);
+  } else {
+    record.only_labels = std::move(only);
+  }
+}
+
 }  // namespace
 
 std::vector<io::Position> positions_of(const BlockMesh& block, const io::VolumeInfo& info,
@@ -65,10 +79,12 @@ void give_rows(std::vector<io::TetRows>& tets, std::span<const std::uint64_t> ro
 
 io::MeshHeader header_of(const io::DenseVolume& volume, const LabelSelection& selection,
                          std::uint64_t tets, const std::optional<io::MeshPromises>& promises) {
-  return {.tets = tets,
-          .labels_signed = volume.table().is_signed(),
-          .names = written_names(volume, selection),
-          .record = {.box = box_of(volume.info()), .promises = promises}};
+  io::MeshHeader out{.tets = tets,
+                     .labels_signed = volume.table().is_signed(),
+                     .names = written_names(volume, selection),
+                     .record = {.box = box_of(volume.info()), .promises = promises}};
+  tell_choice(selection, volume.table(), out.record);
+  return out;
 }
 
 }  // namespace mw::engine

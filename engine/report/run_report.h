@@ -30,6 +30,7 @@ struct FinishedRun {
   std::string fingerprint;    ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty: none was made
   std::string why_no_certificate;
+  std::string why_no_volumes;  ///< empty: the run promises volumes of labels (P8)
 };
 
 /// Vertices of a mesh per corner of the volume's voxels.

@@ -48,12 +48,18 @@ std::string changed_text(Label label, const Verdict& verdict) {
   return label_text(verdict.table.raw(label), verdict.table.is_signed(), verdict.names);
 }
 
+/// Whose word it is, and what it leaves out.
+std::string told_text(const Bounds& bounds) {
+  return (bounds.of_run ? "recorded promise: " : "no recorded promise: ") + bounds.told;
+}
+
 void print_bounds(const Bounds& bounds) {
   const io::MeshPromises& asked = bounds.promises;
   std::cout << "asked         distance "
             << (asked.max_distance ? engine::format_number(*asked.max_distance) : kNone)
             << ", radius ratio " << engine::format_number(asked.quality_floor) << ", topology "
-            << (asked.interfaces ? kInterfaces : "labels")
+            << (asked.interfaces ? kInterfaces : "labels") << ", volumes "
+            << (bounds.max_volume_error ? engine::format_number(*bounds.max_volume_error) : kNone)
             << (bounds.of_run ? " (what is not given is what the run promised)\n" : "\n");
 }
 
@@ -103,13 +109,16 @@ Json asked_json(const Bounds& bounds) {
           {"quality_floor", asked.quality_floor},
           {"topology", asked.interfaces ? kInterfaces : "labels"},
           {"surface", asked.smooth ? "smooth" : kVoxel},
-          {"of_run", bounds.of_run}};
+          {"max_volume_error", bounds.max_volume_error ? Json(*bounds.max_volume_error) : Json()},
+          {"of_run", bounds.of_run},
+          {"less_than_default", bounds.told}};
 }
 
 }  // namespace
 
 void print_verdict(const Verdict& verdict) {
   const auto& checks = verdict.audit.checks;
+  if (!verdict.bounds.told.empty()) std::cout << told_text(verdict.bounds) << "\n";
   print_specks(verdict.specks);
   print_bounds(verdict.bounds);
   for (const audit::Check& check : checks) {
@@ -135,7 +144,8 @@ void print_verdict(const Verdict& verdict) {
   }
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const audit::Check& check) { return !check.passed; });
-  std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail") << "\n";
+  std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail")
+            << (verdict.bounds.told.empty() ? "" : "; " + told_text(verdict.bounds)) << "\n";
 }
 
 Json checks_json(const audit::AuditReport& audit) {

@@ -15,6 +15,9 @@ namespace mw::report {
 struct Bounds {
   io::MeshPromises promises;
   bool of_run = false;  ///< the mesh's file told what its run promised
+  /// What the file says that makes this less than what is asked by default; empty: nothing.
+  std::string told = {};
+  std::optional<double> max_volume_error = {};
 };
 
 /// What is asked of a mesh whose file tells of no run.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/settings/promises.h"
 #include "engine/store/run_identity.h"
 #include "engine/window/window_memory.h"
 
@@ -15,13 +16,6 @@ const MeshSettings& checked(const io::DenseVolume& volume, const MeshSettings& s
   check(volume.info(), settings);
   check(volume.table(), settings);
   return settings;
-}
-
-io::MeshPromises promises_of(const MeshSettings& settings) {
-  return {.max_distance = settings.max_distance,
-          .quality_floor = settings.quality_floor,
-          .interfaces = settings.topology == KeptTopology::kInterfaces,
-          .smooth = settings.surface == Surface::kSmooth};
 }
 
 RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {

@@ -34,6 +34,7 @@ struct TileFindings {
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
+  audit::PlaceTally places;
   std::vector<audit::InterfaceTriangle> triangles;
   std::vector<audit::LineCrossing> crossings;
 };
@@ -66,6 +67,7 @@ class MeshStage {
     found_.validity.in_mesh.resize(label_count + 1);
     found_.volumes = {std::vector<Int128>(label_count),
                       std::vector<audit::CompensatedSum>(label_count)};
+    found_.places = audit::PlaceTally(label_count);
   }
 
   MeshFindings run() {
@@ -105,6 +107,7 @@ class MeshStage {
     out.quality = audit::tally_quality(view);
     out.shape = audit::measure_shape(stars);
     out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
+    out.places = audit::places_of_mesh(view, loaded.names.size(), validity_.frame, validity_.shape);
     if (pieces_ != nullptr) take_triangles(stars, out);
     if (junctions_ != nullptr) {
       out.junctions = audit::mesh_junctions(stars, loaded.names.size());
@@ -144,6 +147,7 @@ class MeshStage {
     found_.quality.add(found.quality);
     found_.shape.add(found.shape);
     found_.volumes.add(found.volumes, found.names.whole());
+    found_.places.add(found.places, found.names.whole());
     const std::uint32_t first = parts_.add(std::move(found.parts));
     for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
     regions_.add(found.regions);

@@ -19,6 +19,7 @@ struct MeshFindings {
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
+  audit::PlaceTally places;
 };
 
 /// Where interfaces go, if they are asked for.

@@ -25,6 +25,7 @@ MeshTiles::MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table,
       grid_(volume.shape, layers_, junction.edge),
       memory_bytes_(junction.memory_bytes),
       positions_(junction.folder),
+      labels_(table.size()),
       tets_(junction.folder, grid_.size(), junction.memory_bytes) {}
 
 audit::Frame MeshTiles::frame() const {
@@ -85,7 +86,9 @@ void MeshTiles::add(const io::TetRows& tet, RawLabel label) {
   const auto end = std::unique(tiles.begin(), tiles.end());
   Tet record{.id = tet_count_, .vertices = tet};
   if (is_mirrored_) std::swap(record.vertices[2], record.vertices[3]);
-  record.label = table_.contains(label) ? table_.dense(label) : audit::kUnknown;
+  const Label dense = table_.find(label);
+  record.label = dense == kExterior ? audit::kUnknown : dense;
+  if (dense != kExterior) labels_[dense] = true;
   record.is_shared = end - tiles.begin() > 1 ? 1 : 0;
   for (auto tile = tiles.begin(); tile != end; ++tile) tets_.add(*tile, record);
 }

@@ -61,6 +61,8 @@ class MeshTiles : public io::MeshSink {
   [[nodiscard]] audit::Check input_check() const;
   /// Vertices in no tet.
   [[nodiscard]] const audit::Offenders& unused() const { return unused_; }
+  /// Which labels of the volume it has, by dense label.
+  [[nodiscard]] const audit::KeptLabels& labels() const { return labels_; }
   /// Whether the mesh lies in other axes than the array's, and whether in a mirror.
   [[nodiscard]] bool is_turned() const { return !is_upright_; }
   [[nodiscard]] bool is_mirrored() const { return is_mirrored_; }
@@ -97,6 +99,7 @@ class MeshTiles : public io::MeshSink {
   mutable io::ScratchFile positions_;
   std::vector<std::uint32_t> tile_of_vertex_;
   std::vector<bool> is_used_;
+  audit::KeptLabels labels_;
   TileBuckets<Tet> tets_;
   std::uint64_t tet_count_ = 0;
   std::string range_error_;

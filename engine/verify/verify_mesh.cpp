@@ -48,6 +48,7 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
   findings.voxels = std::move(voxels.betti);
   findings.mesh = std::move(found.betti);
   if (junctions) findings.junctions = junctions->compare();
+  findings.place = audit::judge_places(voxels.places, found.places, volume.info().shape);
   findings.quality = found.quality.report();
   findings.distance = std::move(voxels.distance);
   findings.volumes =

@@ -28,7 +28,9 @@ struct TileFindings {
   audit::PartsPiece parts;
   std::vector<audit::SharedRun> shared;
   audit::JunctionsPiece junctions;
-  std::vector<std::pair<Label, std::uint64_t>> voxels;
+  std::vector<Label> labels;  ///< of the tile; what follows is by their ranks
+  std::vector<audit::VoxelCount> voxels;
+  audit::PlaceTally places;
   TileDistances distances;
 };
 
@@ -73,6 +75,7 @@ class VolumeStage {
         links_(task.folder, task.memory_bytes / 8),
         rows_(label_count_ + 2) {
     found_.voxels.resize(label_count_);
+    found_.places = audit::PlaceTally(label_count_);
   }
 
   VolumeFindings run() {
@@ -143,10 +146,12 @@ class VolumeStage {
     names.to_whole(out.junctions);
   }
 
-  static void count_voxels(const Box3& box, const LoadedVoxels& voxels, const TileLabels& names,
-                           TileFindings& out) {
-    for (const Label label : names.whole()) out.voxels.emplace_back(label, 0);
-    for (const Label label : voxels.part(box).labels) ++out.voxels[label].second;
+  void count_voxels(const Box3& box, const LoadedVoxels& voxels, const TileLabels& names,
+                    TileFindings& out) const {
+    out.labels = names.whole();
+    out.voxels = audit::count_voxels({voxels.box.shape(), voxels.labels}, voxels.box, box,
+                                     names.size(), layers_);
+    out.places = audit::places_of_voxels(box, voxels.part(box).labels, names.size(), grid_.shape());
   }
 
   /// Consumes what was loaded.
@@ -221,7 +226,12 @@ class VolumeStage {
     for (const audit::SharedRun& run : found.shared) {
       links_.add(run.first, run.count, first + run.part);
     }
-    for (const auto& [label, count] : found.voxels) found_.voxels[label] += count;
+    for (std::size_t i = 0; i < found.labels.size(); ++i) {
+      audit::VoxelCount& all = found_.voxels[found.labels[i]];
+      all.voxels += found.voxels[i].voxels;
+      all.faces += found.voxels[i].faces;
+    }
+    found_.places.add(found.places, found.labels);
     if (junctions_ != nullptr) junctions_->add(JunctionLedger::Side::kVolume, found.junctions);
     if (has_far(found.distances)) {
       far_.push_back(tile);

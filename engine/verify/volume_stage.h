@@ -13,7 +13,8 @@ namespace mw::engine {
 /// What the volume's tiles told.
 struct VolumeFindings {
   std::vector<audit::RegionBetti> betti;
-  std::vector<std::uint64_t> voxels;  ///< by dense label
+  std::vector<audit::VoxelCount> voxels;  ///< by dense label
+  audit::PlaceTally places;
   std::optional<audit::DistanceReport> distance;
 };
 

@@ -13,6 +13,7 @@ struct MeshPromises {
   double quality_floor = 0;            ///< radius ratio
   bool interfaces = false;             ///< --topology interfaces
   bool smooth = true;                  ///< --surface smooth: thick slices were cut into layers
+  bool optimised = true;               ///< not --optimizer none
 
   friend bool operator==(const MeshPromises&, const MeshPromises&) = default;
 };

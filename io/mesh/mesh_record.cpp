@@ -3,6 +3,7 @@
 // What a mesh file tells of the run that made it, as a line of JSON.
 #include "io/mesh/mesh_record.h"
 
+#include "io/file/errors.h"
 #include "io/json/json.h"
 #include "io/json/json_fields.h"
 
@@ -10,7 +11,12 @@ namespace mw::io {
 namespace {
 
 constexpr const char* kInterfaces = "interfaces";
+constexpr const char* kLabels = "labels";
 constexpr const char* kSmooth = "smooth";
+constexpr const char* kVoxel = "voxel";
+constexpr const char* kNone = "none";
+constexpr const char* kOnly = "only_labels";
+constexpr const char* kWithout = "without_labels";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 Json box_json(const MeshBox& box) {
@@ -21,10 +27,12 @@ Json box_json(const MeshBox& box) {
 }
 
 Json promises_json(const MeshPromises& promises) {
-  return {{"max_distance", promises.max_distance ? Json(*promises.max_distance) : Json()},
-          {"quality_floor", promises.quality_floor},
-          {"topology", promises.interfaces ? kInterfaces : "labels"},
-          {"surface", promises.smooth ? kSmooth : "voxel"}};
+  Json out{{"max_distance", promises.max_distance ? Json(*promises.max_distance) : Json()},
+           {"quality_floor", promises.quality_floor},
+           {"topology", promises.interfaces ? kInterfaces : kLabels},
+           {"surface", promises.smooth ? kSmooth : kVoxel}};
+  if (!promises.optimised) out["optimizer"] = kNone;
+  return out;
 }
 
 MeshBox box_in(const JsonFields& fields) {
@@ -44,13 +52,34 @@ double number_in(const JsonFields& fields, const char* key) {
   return number;
 }
 
+/// Whether it is the first word; no others but these two are allowed.
+bool word_in(const JsonFields& fields, const char* key, std::string_view first,
+             std::string_view second) {
+  const std::string word = fields.text(key);
+  if (word != first && word != second) fields.fail(key, text("is \"", word, "\""));
+  return word == first;
+}
+
 MeshPromises promises_in(const JsonFields& fields) {
   MeshPromises out;
   if (fields.has("max_distance")) out.max_distance = number_in(fields, "max_distance");
   out.quality_floor = number_in(fields, "quality_floor");
-  out.interfaces = fields.text("topology") == kInterfaces;
-  out.smooth = fields.text("surface") == kSmooth;
+  out.interfaces = word_in(fields, "topology", kInterfaces, kLabels);
+  out.smooth = word_in(fields, "surface", kSmooth, kVoxel);
+  out.optimised = !fields.has("optimizer") || !word_in(fields, "optimizer", kNone, kNone);
   return out;
+}
+
+void add_labels(const std::vector<RawLabel>& labels, const char* key, Json& out) {
+  if (labels.empty()) return;
+  out[key] = Json::array();
+  for (const RawLabel label : labels) out[key].push_back(static_cast<std::int64_t>(label));
+}
+
+std::vector<RawLabel> labels_in(const JsonFields& fields, const char* key) {
+  if (!fields.has(key)) return {};
+  const std::vector<std::int64_t> numbers = fields.integers(key);
+  return {numbers.begin(), numbers.end()};
 }
 
 }  // namespace
@@ -59,6 +88,8 @@ std::string record_text(const MeshRecord& record) {
   Json out = Json::object();
   if (record.box) out["box"] = box_json(*record.box);
   if (record.promises) out["promises"] = promises_json(*record.promises);
+  add_labels(record.only_labels, kOnly, out);
+  add_labels(record.without_labels, kWithout, out);
   return out.empty() ? std::string() : out.dump();
 }
 
@@ -69,6 +100,11 @@ MeshRecord parse_record(std::string_view text, std::string_view file) {
   const JsonFields fields(value, std::string(file), kRecordName);
   if (fields.has("box")) record.box = box_in(fields.object("box"));
   if (fields.has("promises")) record.promises = promises_in(fields.object("promises"));
+  record.only_labels = labels_in(fields, kOnly);
+  record.without_labels = labels_in(fields, kWithout);
+  if (!record.only_labels.empty() && !record.without_labels.empty()) {
+    fields.fail(kWithout, "contradicts only_labels");
+  }
   return record;
 }
 

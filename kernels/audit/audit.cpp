@@ -4,6 +4,7 @@
 #include "kernels/audit/audit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace mw::audit {
@@ -128,17 +129,25 @@ Check judge_distance(const DistanceReport& distance, const std::optional<double>
   return {"P4 distance", passed, detail};
 }
 
-Check judge_volumes(const VolumeSummary& volumes, double bound) {
-  if (!volumes.worst) {
+/// Tells of the label that uses most of what it may be off.
+Check judge_volumes(const VolumeReport& volumes, double bound) {
+  const auto share = [&](const VolumeRow& row) {
+    return row.voxels < kMinJudgedVoxels ? -1 : std::abs(row.error) / volume_bound(row, bound);
+  };
+  const auto worst =
+      std::max_element(volumes.per_label.begin(), volumes.per_label.end(),
+                       [&](const VolumeRow& a, const VolumeRow& b) { return share(a) < share(b); });
+  if (worst == volumes.per_label.end() || share(*worst) < 0) {
     return {"P8 volumes", true,
             "no label of " + std::to_string(kMinJudgedVoxels) + " voxels or more"};
   }
-  const VolumeRow& worst = *volumes.worst;
-  return {"P8 volumes", volumes.error_max_abs <= bound,
-          "error " + number(volumes.error_max_abs) + " at most (" + label_text(worst.label) + ": " +
-              std::to_string(worst.voxels) + " voxels, " + number(worst.volume_voxels) +
-              " in the mesh), mean " + number(volumes.error_mean_abs) + " of " +
-              std::to_string(volumes.labels_measured) + " labels, bound " + number(bound)};
+  const double allowed = volume_bound(*worst, bound);
+  return {"P8 volumes", std::abs(worst->error) <= allowed,
+          "error " + number(std::abs(worst->error)) + " of " + label_text(worst->label) + " (" +
+              std::to_string(worst->voxels) + " voxels, " + number(worst->volume_voxels) +
+              " in the mesh), bound " + number(allowed) + "; mean " +
+              number(volumes.summary.error_mean_abs) + " of " +
+              std::to_string(volumes.summary.labels_measured) + " labels"};
 }
 
 /// Fails every check that needs a mesh.
@@ -146,6 +155,7 @@ void refuse_all(const AuditOptions& options, std::vector<Check>& checks) {
   const auto refuse = [&](const char* name) {
     checks.push_back({name, false, "not looked at: the input is no mesh"});
   };
+  refuse("P4 place");
   refuse("P1 topology");
   if (options.count_junctions) {
     refuse("P1 interfaces");
@@ -176,6 +186,7 @@ AuditReport judge(AuditFindings findings, const AuditOptions& options) {
   const auto kept = std::count(options.kept.begin(), options.kept.end(), true);
   const std::size_t looked_at =
       options.kept.empty() ? report.voxels.size() : static_cast<std::size_t>(kept);
+  report.checks.push_back(std::move(findings.place));
   report.checks.push_back(compare_topology(report, looked_at));
   report.junctions = std::move(findings.junctions);
   judge_junctions(report);
@@ -187,7 +198,7 @@ AuditReport judge(AuditFindings findings, const AuditOptions& options) {
   }
   report.volumes = only_kept(std::move(findings.volumes), options.kept);
   if (options.max_volume_error) {
-    report.checks.push_back(judge_volumes(report.volumes.summary, *options.max_volume_error));
+    report.checks.push_back(judge_volumes(report.volumes, *options.max_volume_error));
   }
   report.shape = findings.shape;
   return report;

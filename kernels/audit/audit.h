@@ -12,6 +12,7 @@
 #include "kernels/audit/check.h"
 #include "kernels/audit/distance.h"
 #include "kernels/audit/junctions.h"
+#include "kernels/audit/placement.h"
 #include "kernels/audit/quality.h"
 #include "kernels/audit/shape.h"
 #include "kernels/audit/subject.h"
@@ -29,13 +30,14 @@ struct AuditOptions {
   /// The labels that the mesh is to hold; empty: all.  With some left out P1, P4 and P8 are about
   /// the others, P2 as check_validity() says.  Then REQUIRES: !count_junctions.
   KeptLabels kept = {};
-  /// P8 fails above this share, for labels of at least kMinJudgedVoxels; empty: no check.
+  /// P8 fails above this share (volume_bound()), for labels of at least kMinJudgedVoxels; empty: no
+  /// check.
   std::optional<double> max_volume_error = 0.05;
 };
 
 /// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
 struct AuditReport {
-  /// Those of validity, then "P1 topology", as AuditOptions ask "P1 interfaces" and
+  /// Those of validity, then "P4 place" and "P1 topology", as AuditOptions ask "P1 interfaces" and
   /// "P1 meetings", "P3 radius ratio", "P4 distance" and "P8 volumes"; "P4 distance" only with
   /// a bound, or when a label has an interface on one side only, which fails without a bound too.
   std::vector<Check> checks;
@@ -63,6 +65,7 @@ struct AuditFindings {
   std::vector<RegionBetti> mesh;  ///< with gaps, without the exterior
   ValidityReport validity;
   std::optional<JunctionReport> junctions;
+  Check place;  ///< see judge_places()
   QualityReport quality;
   std::optional<DistanceReport> distance;
   VolumeReport volumes;

@@ -3,10 +3,12 @@
 // Volumes in whole numbers where vertices are on the lattice, in double elsewhere.
 #include "kernels/audit/volumes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "kernels/audit/layered_labels.h"
+#include "kernels/core/for_each_index.h"
 #include "kernels/core/lattice.h"
 
 namespace mw::audit {
@@ -71,13 +73,33 @@ std::vector<Position> in_voxels(const AuditMesh& mesh, const Frame& frame) {
   return out;
 }
 
-std::vector<std::uint64_t> voxels_of(const VoxelLabels& volume, std::size_t label_count) {
-  std::vector<std::uint64_t> out(label_count);
-  for (const Label label : volume.labels) ++out[label];
-  return out;
+}  // namespace
+
+double volume_bound(const VolumeRow& row, double bound) {
+  constexpr double kRoughness = 2.5;
+  return bound * std::max(1.0, kRoughness * row.faces_a_voxel);
 }
 
-}  // namespace
+std::vector<VoxelCount> count_voxels(const VoxelLabels& voxels, const Box3& loaded, const Box3& box,
+                                     std::size_t label_count, Index3 layers) {
+  std::vector<VoxelCount> out(label_count);
+  const Index3 steps[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::int64_t faces[] = {layers.y * layers.z, layers.x * layers.z, layers.x * layers.y};
+  const auto at = [&](Index3 v) {
+    return voxels.labels[static_cast<std::size_t>(loaded.offset(v))];
+  };
+  for_each_index(box, [&](Index3 v) {
+    const Label label = at(v);
+    ++out[label].voxels;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Index3 before = v - steps[axis];
+      if (!loaded.contains(before) || at(before) == label) continue;
+      out[label].faces += static_cast<std::uint64_t>(faces[axis]);
+      out[at(before)].faces += static_cast<std::uint64_t>(faces[axis]);
+    }
+  });
+  return out;
+}
 
 VolumeRow volume_row(Label label, std::uint64_t voxels, Int128 volume6, std::int64_t parts) {
   const Int128 of_voxel = Int128{kVoxelVolume6} * parts;
@@ -129,18 +151,20 @@ VolumeTally tally_volumes(const MeshTile& tile, std::size_t label_count, const F
   return out;
 }
 
-VolumeReport compare_volumes(std::span<const std::uint64_t> voxels, const VolumeTally& mesh,
+VolumeReport compare_volumes(std::span<const VoxelCount> counts, const VolumeTally& mesh,
                              std::int64_t parts) {
   VolumeReport report{.summary = {}, .per_label = {}, .exact = mesh.is_exact};
   VolumeMeter meter;
-  for (Label l = 0; l < voxels.size(); ++l) {
-    if (voxels[l] == 0) continue;
-    const auto input = static_cast<double>(voxels[l]);
+  for (Label l = 0; l < counts.size(); ++l) {
+    const auto [voxels, faces] = counts[l];
+    if (voxels == 0) continue;
+    const auto input = static_cast<double>(voxels);
     const double found = mesh.rounded[l].value() / static_cast<double>(parts);
-    report.per_label.push_back(mesh.is_exact
-                                   ? volume_row(l, voxels[l], mesh.exact[l], parts)
-                                   : VolumeRow{l, voxels[l], found, (found - input) / input});
-    meter.add(report.per_label.back());
+    VolumeRow row = mesh.is_exact ? volume_row(l, voxels, mesh.exact[l], parts)
+                                  : VolumeRow{l, voxels, found, (found - input) / input};
+    row.faces_a_voxel = static_cast<double>(faces) / (input * static_cast<double>(parts));
+    report.per_label.push_back(row);
+    meter.add(row);
   }
   report.summary = meter.summary();
   return report;
@@ -148,7 +172,8 @@ VolumeReport compare_volumes(std::span<const std::uint64_t> voxels, const Volume
 
 VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,
                              const AuditMesh& mesh, const Frame& frame, Index3 layers) {
-  return compare_volumes(voxels_of(volume, label_count),
+  const Box3 all{{0, 0, 0}, volume.shape};
+  return compare_volumes(count_voxels(volume, all, all, label_count, layers),
                          tally_volumes({.mesh = mesh}, label_count, layered_frame(frame, layers)),
                          layers.product());
 }

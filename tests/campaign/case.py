@@ -145,7 +145,7 @@ class Case:
             raise Failed("the report has another digest than the file")
 
     def verify(self):
-        arguments = settings_of.verify_arguments(self.random, self.settings, self.volume.kind)
+        arguments = settings_of.verify_arguments(self.random, self.settings)
         self.run(["verify", self.volume.file, *self.volume.arguments, *arguments,
                   "a/" + self.settings.output])
 

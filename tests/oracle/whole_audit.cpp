@@ -37,6 +37,10 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
     found.junctions = compare_junctions(junctions_of_volume(volume, label_count),
                                         junctions_of_mesh(mesh, label_count));
   }
+  const Box3 all{{0, 0, 0}, volume.shape};
+  found.place =
+      judge_places(places_of_voxels(all, volume.labels, label_count, volume.shape),
+                   places_of_mesh({.mesh = mesh}, label_count, frame, volume.shape), volume.shape);
   found.quality = measure_quality(mesh);
   if (options.measure_distance || options.max_distance) {
     found.distance = measure_in_lattice(volume, label_count, mesh, frame, options);

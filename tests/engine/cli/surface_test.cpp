@@ -83,5 +83,17 @@ TEST_F(SurfaceCommand, NothingIsLeftWhenTheDiskIsFull) {
   }
 }
 
+/// Of one file a label those that are finished stay; the error names them.
+TEST_F(SurfaceCommand, SaysWhichLabelsAreWritten) {
+  make_mesh();
+  std::filesystem::create_directory(folder() / "s4.ply");
+  const ProgramRun result = run("surface v.vtu -o 's{label}.ply' --each");
+  EXPECT_NE(result.code, 0);
+  EXPECT_NE(result.err.find("written before are those of label 1, 2, 3\n"), std::string::npos)
+      << result.err;
+  for (const char* name : {"s1.ply", "s2.ply", "s3.ply"}) EXPECT_TRUE(files().contains(name));
+  EXPECT_FALSE(files().contains("s5.ply"));
+}
+
 }  // namespace
 }  // namespace mw::cli

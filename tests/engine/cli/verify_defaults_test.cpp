@@ -44,14 +44,20 @@ TEST_F(VerifyDefaultsTest, AsksWhatTheRunPromised) {
                {"quality_floor", 0.15},
                {"topology", "labels"},
                {"surface", "voxel"},
-               {"of_run", true}};
+               {"max_volume_error", nullptr},
+               {"of_run", true},
+               {"less_than_default",
+                "distance 2.5, radius ratio 0.15, distances in the voxels of the input, "
+                "no volumes"}};
   EXPECT_EQ(asked("a.vtu"), a);
   EXPECT_EQ(asked("a.vtkhdf"), a);
   const json b{{"max_distance", nullptr},
                {"quality_floor", 0.2},
                {"topology", "interfaces"},
                {"surface", "smooth"},
-               {"of_run", true}};
+               {"max_volume_error", nullptr},
+               {"of_run", true},
+               {"less_than_default", "no distance bound, no volumes"}};
   EXPECT_EQ(asked("b.mesh"), b);
   EXPECT_EQ(asked("b.mesh", " --max-distance 1 --topology labels")["max_distance"], 1.0);
   EXPECT_EQ(asked("b.mesh", " --topology labels")["topology"], "labels");
@@ -65,6 +71,42 @@ TEST_F(VerifyDefaultsTest, AsksForABoundWhereTheFileTellsOfNoRun) {
   const json found = asked("b.vtu");
   EXPECT_EQ(found["max_distance"], 1.5);
   EXPECT_EQ(found["of_run"], false);
+}
+
+/// Nobody has to say again which labels were left out.
+TEST_F(VerifyDefaultsTest, KnowsWhichLabelsTheFileHolds) {
+  for (const std::string chosen :
+       {"--background 1", "--labels 2", "--labels 2,3", "--labels 1,3"}) {
+    for (const std::string mesh : {"m.vtu", "m.vtkhdf", "m.mesh", "m.msh"}) {
+      SCOPED_TRACE(chosen + " " + mesh);
+      expect_done("mesh v.npy -o " + mesh + " " + chosen);
+      const ProgramRun result = run("verify v.npy " + mesh);
+      EXPECT_EQ(result.code, 0) << result.out << result.err;
+      const bool is_recorded = mesh == "m.vtu" || mesh == "m.vtkhdf" || mesh == "m.mesh";
+      EXPECT_EQ(result.out.starts_with("recorded promise: "), is_recorded) << result.out;
+      EXPECT_EQ(result.out.starts_with("no recorded promise: without label"), !is_recorded);
+      expect_done("verify v.npy " + mesh + " " + chosen);
+      EXPECT_EQ(run("verify v.npy " + mesh + " --labels 1,2,3").code, 5);
+    }
+  }
+}
+
+TEST_F(VerifyDefaultsTest, SaysFirstAndLastWhatIsPromisedLessThanByDefault) {
+  expect_done("mesh v.npy -o v.vtu");
+  const std::string usual = run("verify v.npy v.vtu").out;
+  EXPECT_TRUE(usual.starts_with("asked ")) << usual;
+  EXPECT_TRUE(usual.ends_with("all checks hold\n")) << usual;
+  const ProgramRun made = run("mesh v.npy -o v.vtu --max-distance none --quality-floor 0");
+  EXPECT_NE(made.err.find("--max-distance none: the volumes of labels are not promised (P8)"),
+            std::string::npos)
+      << made.err;
+  const ProgramRun result = run("verify v.npy v.vtu");
+  const std::string told = "recorded promise: no distance bound, no floor, no volumes\n";
+  EXPECT_EQ(result.code, 0) << result.out;
+  EXPECT_TRUE(result.out.starts_with(told)) << result.out;
+  EXPECT_TRUE(result.out.ends_with("all checks hold; " + told)) << result.out;
+  const std::string asked = run("verify v.npy v.vtu --max-distance 99 --quality-floor 1e-9").out;
+  EXPECT_TRUE(asked.starts_with("recorded promise: no volumes\n")) << asked;
 }
 
 TEST_F(VerifyDefaultsTest, FailsWhatIsWrong) {

@@ -39,8 +39,9 @@ std::string said(const audit::test::SmallVolume& before, const audit::test::Smal
   const MemoryVolume second(after, {});
   const auto voxels = static_cast<double>(before.shape.product());
   const ChangingVolume volume(first, second, static_cast<std::int64_t>(readings * voxels));
-  const MeshJob job{
-      .steps = steps, .threads = 2, .memory = std::uint64_t{1} << 30U, .folder = folder.path()};
+  MeshJob job{.steps = steps, .folder = folder.path()};
+  job.run.threads = 2;
+  job.run.store.memory = std::uint64_t{1} << 30U;
   MemorySink sink;
   try {
     static_cast<void>(mesh(volume, job, sink));

@@ -28,10 +28,14 @@ MeshRecord random_record(unsigned seed) {
       for (double& x : edge) x = number();
     }
   }
+  const std::vector<RawLabel> labels{random(), random() % 9, ~RawLabel{0} - random() % 9};
+  if (seed % 5 == 1) record.only_labels = labels;
+  if (seed % 5 == 2) record.without_labels = labels;
   if (seed % 3 == 0) return record;
   record.promises = MeshPromises{.quality_floor = std::abs(number()),
                                  .interfaces = random() % 2 == 0,
-                                 .smooth = random() % 2 == 0};
+                                 .smooth = random() % 2 == 0,
+                                 .optimised = random() % 2 == 0};
   if (random() % 2 == 0) record.promises->max_distance = std::abs(number());
   return record;
 }
@@ -68,7 +72,13 @@ TEST(MeshRecord, DamageIsTold) {
         R"({"box": {"origin": [0, 0, 0], "x": [0, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}})",
         R"({"promises": {"quality_floor": -1}})", R"({"promises": {"quality_floor": "x"}})",
         R"({"promises": {"max_distance": -1, "quality_floor": 0.1}})",
-        R"({"promises": {"quality_floor": 0.1, "topology": 5}})"}) {
+        R"({"promises": {"quality_floor": 0.1, "topology": 5}})",
+        R"({"promises": {"quality_floor": 0.1, "topology": "all", "surface": "voxel"}})",
+        R"({"promises": {"quality_floor": 0.1, "topology": "labels", "surface": "none"}})",
+        R"({"promises": {"quality_floor": 0.1, "topology": "labels", "surface": "voxel",
+                         "optimizer": "local"}})",
+        R"({"without_labels": [0.5]})", R"({"only_labels": 0})",
+        R"({"only_labels": [1], "without_labels": [2]})"}) {
     expect_error(ErrorKind::kInput, {"m.vtu"},
                  [&] { static_cast<void>(parse_record(text, "m.vtu")); });
   }

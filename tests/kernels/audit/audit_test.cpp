@@ -289,7 +289,8 @@ TEST_F(BrokenMesh, MissingHalf) {
 TEST_F(BrokenMesh, RowOutOfRangeStopsTheAudit) {
   mesh_.tets[5][1] = mesh_.vertices.size();
   const AuditReport report = run();
-  EXPECT_EQ(failures(report), (Names{"P2 input", "P1 topology", "P3 radius ratio", "P8 volumes"}));
+  EXPECT_EQ(failures(report),
+            (Names{"P2 input", "P4 place", "P1 topology", "P3 radius ratio", "P8 volumes"}));
   EXPECT_NE(check(report, "P2 input").detail.find("tet 5"), std::string::npos);
 }
 

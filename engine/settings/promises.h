@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a run promises of its mesh, by its settings.
+#pragma once
+
+#include <string>
+
+#include "engine/settings/settings.h"
+#include "io/mesh/mesh_promises.h"
+
+namespace mw::engine {
+
+[[nodiscard]] io::MeshPromises promises_of(const MeshSettings& settings);
+
+/// Why the volumes of labels are not promised (P8); empty when they are.
+[[nodiscard]] std::string why_no_volumes(const io::MeshPromises& promises);
+
+/// What of distances and shapes is promised less than by default, in a few words each; empty when
+/// nothing is.
+[[nodiscard]] std::string less_than_default(const io::MeshPromises& promises);
+
+/// ERRORS: mw::Error(kInput) when no run can have promised this, by the ranges of its settings.
+void check_promises(const io::MeshPromises& promises);
+
+}  // namespace mw::engine
