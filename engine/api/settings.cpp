@@ -26,11 +26,27 @@ const engine::Setting& find(std::string_view name) {
   throw Error(ErrorKind::kUsage, std::string(name) + ": no such setting; there are " + all);
 }
 
+constexpr const char* kPreset = "preset";
+
+const engine::Preset& find_preset(const std::string& name) {
+  if (const engine::Preset* preset = engine::find_preset(name)) return *preset;
+  throw Error(ErrorKind::kUsage, name + ": no such preset; there are draft, default and fine");
+}
+
 }  // namespace
 
 engine::MeshSettings mesh_settings(const mwmesh::Settings& settings) {
   engine::MeshSettings out;
-  for (const auto& [name, text] : settings.changed()) engine::set(find(name), out, text);
+  const auto& changed = settings.changed();
+  const auto preset = changed.find(kPreset);
+  if (preset != changed.end()) {
+    for (const auto& [name, text] : find_preset(preset->second).values) {
+      engine::set(find(library_name(name)), out, text);
+    }
+  }
+  for (const auto& [name, text] : changed) {
+    if (name != kPreset) engine::set(find(name), out, text);
+  }
   engine::check(out);
   return out;
 }
@@ -41,6 +57,10 @@ namespace mwmesh {
 
 Settings& Settings::set(std::string_view name, std::string_view text) {
   mw::api::guarded([&] {
+    if (name == mw::api::kPreset) {
+      changed_[std::string(name)] = mw::api::find_preset(std::string(text)).name;
+      return;
+    }
     mw::engine::MeshSettings tried;
     const mw::engine::Setting& setting = mw::api::find(name);
     mw::engine::set(setting, tried, std::string(text));
@@ -50,11 +70,21 @@ Settings& Settings::set(std::string_view name, std::string_view text) {
 }
 
 std::string Settings::get(std::string_view name) const {
+  if (name == mw::api::kPreset) {
+    const auto set = changed_.find(mw::api::kPreset);
+    return set == changed_.end() ? mw::engine::kDefaultPreset : set->second;
+  }
   return mw::api::guarded([&] { return mw::api::find(name).text(mw::api::mesh_settings(*this)); });
 }
 
 std::vector<SettingInfo> Settings::all() {
-  std::vector<SettingInfo> out;
+  std::vector<SettingInfo> out{{.name = mw::api::kPreset,
+                                .help = mw::engine::kPresetHelp,
+                                .fallback = mw::engine::kDefaultPreset,
+                                .choices = {}}};
+  for (const mw::engine::Preset& preset : mw::engine::presets()) {
+    out.front().choices.push_back(preset.name);
+  }
   for (const mw::engine::Setting& setting : mw::engine::setting_table()) {
     out.push_back({.name = mw::api::library_name(setting.name),
                    .help = mw::api::library_words(setting.help),

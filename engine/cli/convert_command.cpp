@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh convert: a mesh from one format to another.
-#include <CLI/CLI.hpp>
-
-#include "engine/cli/commands.h"
+#include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/values.h"
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
 
@@ -13,10 +12,10 @@ namespace mw::cli {
 namespace {
 
 struct ConvertJob {
-  std::string from;
-  std::string to;
+  std::filesystem::path from;
+  std::filesystem::path to;
   bool ascii = false;
-  std::string element = "tet4";
+  io::Element element = io::Element::kTet4;
   std::uint64_t pieces = 0;  ///< 0: not asked for
 };
 
@@ -31,17 +30,18 @@ void require_other_files(const ConvertJob& job) {
 }
 
 std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
-  const io::Element element = parse_element(job.element);
-  const bool in_pieces = std::filesystem::path(job.to).extension() == io::kPiecesExtension;
+  const bool in_pieces = job.to.extension() == io::kPiecesExtension;
   if (!in_pieces && job.pieces == 0) {
     const io::Encoding encoding = job.ascii ? io::Encoding::kText : io::Encoding::kUsual;
-    return io::open_mesh_sink(job.to, element, encoding);
+    return io::open_mesh_sink(job.to, job.element, encoding);
   }
   if (in_pieces && job.pieces == 0) {
-    throw Error(ErrorKind::kUsage, job.to + ": a mesh in pieces; say how many with --pieces N");
+    throw Error(ErrorKind::kUsage,
+                job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
-  if (job.ascii || element != io::Element::kTet4) {
-    throw Error(ErrorKind::kUsage, job.to + ": pieces are written with tet4 only, and in one way");
+  if (job.ascii || job.element != io::Element::kTet4) {
+    throw Error(ErrorKind::kUsage,
+                job.to.string() + ": pieces are written with tet4 only, and in one way");
   }
   return io::open_mesh_pieces(job.to, job.pieces);
 }
@@ -53,27 +53,52 @@ int run_convert(const ConvertJob& job) {
   return kExitDone;
 }
 
+std::uint64_t parse_pieces(const std::string& text) {
+  constexpr std::int64_t kMaxPieces = 1 << 20;
+  const std::int64_t pieces = parse_integer(text);
+  if (pieces >= 1 && pieces <= kMaxPieces) return static_cast<std::uint64_t>(pieces);
+  throw Error(ErrorKind::kUsage, "expected pieces from 1 to " + std::to_string(kMaxPieces));
+}
+
+void add_output_options(OptionSet& options, ConvertJob& job) {
+  options.add({.name = "out",
+               .value = "OUT",
+               .help = "mesh to write; its extension says the format",
+               .group = kOutputGroup,
+               .flags = "OUT,--out",
+               .required = true,
+               .assign = into(job.to)});
+  options.add({.name = "element",
+               .help = "nodes of a tet; tet10: with the middles of edges",
+               .group = kOutputGroup,
+               .fallback = "tet4",
+               .choices = {"tet4", "tet10"},
+               .assign = into(job.element, parse_element)});
+  options.add({.name = "ascii",
+               .help = "a .msh as text instead of binary",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .assign = into(job.ascii)});
+  options.add({.name = "pieces",
+               .value = "N",
+               .help = "a .pvtu and so many .vtu beside it; vertices have GlobalNodeIds",
+               .group = kOutputGroup,
+               .kind = ValueKind::kInteger,
+               .assign = into(job.pieces, parse_pieces)});
+}
+
 }  // namespace
 
-void add_convert_command(CLI::App& program, Action& chosen) {
-  CLI::App* command = program.add_subcommand("convert", "writes a mesh in another format");
+Command convert_command() {
   const auto job = std::make_shared<ConvertJob>();
-  command->add_option("MESH", job->from, "mesh to read: " + io::read_mesh_extensions())->required();
-  command->add_option("OUT", job->to, "mesh to write: " + io::mesh_extensions())->required();
-  command->add_flag("--ascii", job->ascii, "a .msh as text instead of binary");
-  command
-      ->add_option("--element", job->element,
-                   "nodes of a tet in OUT: tet4; tet10, with the middles of its edges")
-      ->type_name("ELEMENT")
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--pieces", job->pieces,
-          "writes OUT, a .pvtu, and so many .vtu files in a folder beside it, for programs "
-          "on many processes; vertices of several pieces have one of GlobalNodeIds")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 20));
-  command->callback([job, &chosen] { chosen = [job] { return run_convert(*job); }; });
+  Command command{.name = "convert",
+                  .about = "writes a mesh in another format",
+                  .options = {},
+                  .run = [job](const OptionSet&) { return run_convert(*job); },
+                  .note = mesh_note() + "OUT: " + io::mesh_extensions() + ".\n"};
+  add_mesh_option(command.options, job->from, "mesh to read");
+  add_output_options(command.options, *job);
+  return command;
 }
 
 }  // namespace mw::cli

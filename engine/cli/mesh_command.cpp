@@ -3,22 +3,22 @@
 // mwmesh mesh: a labelled volume to a mesh.
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "engine/cli/commands.h"
+#include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh_request.h"
+#include "engine/cli/options/values.h"
 #include "engine/cli/page/run_page.h"
 #include "engine/cli/run_processes.h"
 #include "engine/cli/trace_file.h"
-#include "engine/cli/values.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/report/run_report.h"
 #include "engine/report/speck_facts.h"
 #include "engine/settings/promises.h"
+#include "engine/settings/size_text.h"
 #include "engine/system/crew.h"
 #include "engine/system/resident_memory.h"
 #include "io/mesh/digest.h"
@@ -28,13 +28,6 @@
 
 namespace mw::cli {
 namespace {
-
-struct MeshCommand {
-  OptionSet options;
-  MeshRequest request;
-  std::string config;
-  bool print_config = false;
-};
 
 /// What the digest may sort in: a small part of the budget.
 std::size_t digest_memory(std::uint64_t budget) {
@@ -245,37 +238,30 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   return kExitDone;
 }
 
-int run_mesh(MeshCommand& job) {
-  std::optional<std::filesystem::path> config;
-  if (!job.config.empty()) config = job.config;
-  job.options.resolve(config);
-  const bool speaks = run_processes().speaks();
-  if (job.print_config) {
-    if (speaks) std::cout << job.options.toml();
-    return kExitDone;
+int run_mesh(MeshRequest& request, const OptionSet& options) {
+  for (std::string& file : engine::size_tables(options.text("size"))) {
+    request.size_tables.push_back(std::move(file));
   }
-  check_mesh_request(job.request);
-  start_log(speaks ? job.request.log_level : "off");
-  take_part(job.request);
-  int& threads = job.request.job.run.threads;
+  check_mesh_request(request);
+  start_log(run_processes().speaks() ? request.log_level : "off");
+  take_part(request);
+  int& threads = request.job.run.threads;
   threads = threads_at_hand(threads);
-  return mesh(job.request, job.options);
+  return mesh(request, options);
 }
 
 }  // namespace
 
-void add_mesh_command(CLI::App& program, Action& chosen) {
-  CLI::App* command = program.add_subcommand("mesh", "meshes a labelled volume");
-  const auto job = std::make_shared<MeshCommand>();
-  add_mesh_options(job->options, job->request);
-  job->options.add_flags(*command);
-  command->add_option("--config", job->config, "TOML file with a key for each option, '-' as '_'")
-      ->type_name("FILE.toml");
-  command->add_flag("--print-config", job->print_config, "prints the effective config and exits");
-  command->footer(
-      "Every option may also come from the config file or from the environment as MW_NAME;\n"
-      "defaults < config < environment < flags.");
-  command->callback([job, &chosen] { chosen = [job] { return run_mesh(*job); }; });
+Command mesh_command() {
+  const auto request = std::make_shared<MeshRequest>();
+  Command command{
+      .name = "mesh",
+      .about = "meshes a labelled volume",
+      .options = {},
+      .run = [request](const OptionSet& options) { return run_mesh(*request, options); },
+      .note = volume_note() + "OUTPUT: " + io::mesh_extensions() + ".\n"};
+  add_mesh_options(command.options, *request);
+  return command;
 }
 
 }  // namespace mw::cli

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Which names of a run collide.
-#include "engine/cli/mesh_paths.h"
+#include "engine/cli/mesh_request.h"
 
 #include <algorithm>
 #include <utility>
@@ -28,14 +28,14 @@ void require_output_apart(const MeshRequest& request) {
     if (is_same_file(request.volume.path, output)) refuse("-o", output, "this is the input");
     if (is_same_file(request.volume.names, output)) refuse("-o", output, "this is --names");
   }
-  if (is_same_file(request.size_file, request.output)) {
-    refuse("-o", request.output, "this is --size-file");
+  for (const std::string& table : request.size_tables) {
+    if (is_same_file(table, request.output)) refuse("-o", request.output, "this is --size");
   }
 }
 
 void require_names_used_once(const MeshRequest& request) {
-  std::vector<fs::path> taken{request.volume.path, request.volume.names, request.size_file,
-                              request.output};
+  std::vector<fs::path> taken{request.volume.path, request.volume.names, request.output};
+  taken.insert(taken.end(), request.size_tables.begin(), request.size_tables.end());
   const std::pair<const char*, fs::path> written[] = {
       {"--report", request.report}, {"--trace", request.trace}, {"--html", request.html}};
   for (const auto& output : written) {
@@ -66,9 +66,12 @@ bool is_at_or_in(const fs::path& path, const fs::path& folder) {
 using Named = std::pair<std::string, fs::path>;
 
 std::vector<Named> files_of(const MeshRequest& request) {
-  std::vector<Named> out{{"the input", request.volume.path}, {"--names", request.volume.names},
-                         {"--size-file", request.size_file}, {"--report", request.report},
-                         {"--html", request.html},           {"--trace", request.trace}};
+  std::vector<Named> out{{"the input", request.volume.path},
+                         {"--names", request.volume.names},
+                         {"--report", request.report},
+                         {"--html", request.html},
+                         {"--trace", request.trace}};
+  for (const std::string& table : request.size_tables) out.emplace_back("--size", table);
   for (const fs::path& file : io::mesh_files(request.output)) out.emplace_back("the output", file);
   std::erase_if(out, [](const Named& file) { return file.second.empty(); });
   return out;

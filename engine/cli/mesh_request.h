@@ -3,9 +3,8 @@
 // What `mwmesh mesh` is asked to do.
 #pragma once
 
-#include "engine/cli/label_choice.h"
+#include "engine/cli/options/volume_options.h"
 #include "engine/cli/progress.h"
-#include "engine/cli/volume_options.h"
 #include "engine/job/mesh_job.h"
 #include "engine/settings/settings.h"
 #include "io/mesh/element.h"
@@ -18,12 +17,12 @@ struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
-  bool ascii = false;                   ///< the output as text
-  std::filesystem::path report;         ///< empty: none
-  std::filesystem::path html;           ///< empty: none
-  std::filesystem::path trace;          ///< empty: none
-  std::filesystem::path size_file;      ///< empty: none
-  std::optional<std::uint64_t> memory;  ///< bytes, as asked for
+  bool ascii = false;                    ///< the output as text
+  std::filesystem::path report;          ///< empty: none
+  std::filesystem::path html;            ///< empty: none
+  std::filesystem::path trace;           ///< empty: none
+  std::vector<std::string> size_tables;  ///< files that sizes come from
+  std::optional<std::uint64_t> memory;   ///< bytes, as asked for
   /// What the engine is asked to do; complete after check_mesh_request().
   engine::MeshJob job;
   ProgressKind progress = ProgressKind::kNone;
@@ -35,8 +34,13 @@ struct MeshRequest {
 void add_mesh_options(OptionSet& options, MeshRequest& request);
 
 /// Fills in what follows from other values.
-/// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other;
-///         those of add_sizes_of_file().
+/// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other.
 void check_mesh_request(MeshRequest& request);
+
+/// Told before any work: what is written is not what is read, no name is written twice, and the
+/// work folder neither is one of these files, nor lies in one, nor has one in it.
+/// REQUIRES: the work folder of the request is settled.
+/// ERRORS: mw::Error(kUsage) naming flag and path.
+void require_paths_apart(const MeshRequest& request);
 
 }  // namespace mw::cli

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh picture: a mesh as a PNG picture.
-#include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "engine/cli/commands.h"
+#include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
 #include "engine/cli/picture/picture_request.h"
 #include "engine/cli/report_names.h"
-#include "engine/cli/values.h"
-#include "engine/cli/volume_options.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
@@ -18,14 +17,7 @@
 namespace mw::cli {
 namespace {
 
-struct PictureJob {
-  OptionSet options;
-  PictureRequest request;
-};
-
 void check(const PictureRequest& request) {
-  require_path(request.mesh, "MESH");
-  require_path(request.output, "-o P.png");
   if (request.output.extension() != ".png") {
     throw Error(ErrorKind::kUsage,
                 "-o " + request.output.string() + ": pictures are written as .png");
@@ -37,7 +29,7 @@ std::vector<bool> asked_labels(const io::LabelTable& table, const std::vector<Ra
   std::vector<bool> shown(table.size());
   for (const RawLabel label : labels) {
     if (!table.contains(label)) {
-      throw Error(ErrorKind::kUsage, "--label: the mesh has no label " +
+      throw Error(ErrorKind::kUsage, "--labels: the mesh has no label " +
                                          format_label(label, table.is_signed()) +
                                          "; mwmesh info lists its labels");
     }
@@ -53,7 +45,7 @@ std::vector<bool> inner_labels(io::GroupedMesh& mesh, const io::LabelNames& name
   if (const std::optional<Label> around = surrounding_label(mesh)) {
     shown[*around] = false;
     std::cout << "left out    label " << label_text(table.raw(*around), table.is_signed(), names)
-              << ", which is around the others; --label draws it\n";
+              << ", which is around the others; --labels draws it\n";
   }
   return shown;
 }
@@ -79,17 +71,15 @@ std::uint64_t draw_mesh(const PictureRequest& request, const io::TakeBytes& take
   const picture::View view = request.view.value_or(default_view(request.cut));
   if (request.cut) scene.cut(cut_plane(mesh.box(), *request.cut, view));
   return draw(scene,
-              {.width = request.width,
-               .height = request.height,
+              {.width = request.pixels[0],
+               .height = request.pixels[1],
                .view = view,
                .lines = request.lines,
                .transparent = request.transparent},
               take);
 }
 
-int run_picture(PictureJob& job) {
-  job.options.resolve();
-  const PictureRequest& request = job.request;
+int run_picture(const PictureRequest& request) {
   check(request);
   io::AtomicFile file(request.output);
   try {
@@ -106,12 +96,15 @@ int run_picture(PictureJob& job) {
 
 }  // namespace
 
-void add_picture_command(CLI::App& program, Action& chosen) {
-  CLI::App* command = program.add_subcommand("picture", "draws a mesh, or a cut through it");
-  const auto job = std::make_shared<PictureJob>();
-  add_picture_options(job->options, job->request);
-  job->options.add_flags(*command);
-  command->callback([job, &chosen] { chosen = [job] { return run_picture(*job); }; });
+Command picture_command() {
+  const auto request = std::make_shared<PictureRequest>();
+  Command command{.name = "picture",
+                  .about = "draws a mesh, or a cut through it",
+                  .options = {},
+                  .run = [request](const OptionSet&) { return run_picture(*request); },
+                  .note = mesh_note()};
+  add_picture_options(command.options, *request);
+  return command;
 }
 
 }  // namespace mw::cli

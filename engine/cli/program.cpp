@@ -1,64 +1,64 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The whole command line: subcommands, messages, exit codes.
+// The whole command line: commands, messages, exit codes.
 #include "engine/cli/program.h"
 #include "engine/version.h"
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <iostream>
 
-#include "engine/cli/commands.h"
-#include "engine/cli/environment.h"
+#include "engine/cli/command_line.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/run_processes.h"
-#include "engine/cli/unknown_word.h"
 
 namespace mw::cli {
 namespace {
 
-constexpr const char* kAbout =
-    "From a labelled voxel volume to a verified tetrahedral mesh.\n"
-    "Exit codes: 0 done, 1 internal error, 2 usage or config, 3 bad input, 4 out of a resource,\n"
-    "5 a check failed, 75 interrupted and --resume can go on, 130 interrupted.";
-
-void add_commands(CLI::App& app, Action& chosen) {
-  app.option_defaults()->configurable(false);  // OptionSet says otherwise of its own
-  add_mesh_command(app, chosen);
-  add_verify_command(app, chosen);
-  add_digest_command(app, chosen);
-  add_info_command(app, chosen);
-  add_stats_command(app, chosen);
-  add_convert_command(app, chosen);
-  add_surface_command(app, chosen);
-  add_synth_command(app, chosen);
-  add_picture_command(app, chosen);
-  add_generate_command(app, chosen);
-  app.require_subcommand(0, 1);
-  app.set_version_flag("--version", std::string("mwmesh ") + engine::version());
-  for (CLI::App* command : app.get_subcommands({})) {
-    command->set_version_flag("--version", std::string("mwmesh ") + engine::version());
+std::vector<Command> all_commands() {
+  std::vector<Command> out;
+  for (const auto make : {mesh_command, verify_command, info_command, surface_command,
+                          picture_command, convert_command, digest_command, synth_command}) {
+    out.push_back(make());
   }
+  return out;
 }
 
-int parse_and_run(int argc, char** argv) {
-  CLI::App app(kAbout, "mwmesh");
-  Action chosen;
-  add_commands(app, chosen);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return run_processes().speaks() ? app.exit(success) : kExitDone;  // --help and --version
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::kUsage, explain(app, error));
+std::string answer(const CommandLine& line, const std::vector<Command>& commands) {
+  if (line.asked == Asked::kVersion) return std::string("mwmesh ") + engine::version() + "\n";
+  if (line.command == nullptr) return help_of_program(commands);
+  return help_of_command(*line.command, line.asked == Asked::kHelpAll);
+}
+
+int run_command(const CommandLine& line, const std::vector<Command>& commands) {
+  if (line.command == nullptr) {
+    throw Error(ErrorKind::kUsage, "a command is needed; see mwmesh --help");
   }
-  if (!chosen) throw Error(ErrorKind::kUsage, "a subcommand is needed; see mwmesh --help");
-  if (runs_are_divided() && !app.got_subcommand("mesh")) {
+  if (runs_are_divided() && line.command->name != "mesh") {
     throw Error(ErrorKind::kUsage,
                 "mwmesh-mpi shares out mesh; for everything else there is mwmesh");
   }
-  if (!app.got_subcommand("generate")) refuse_unknown_variables(app);
-  const int code = chosen();
+  std::vector<const OptionSet*> all;
+  for (const Command& command : commands) all.push_back(&command.options);
+  refuse_unknown_variables(all);
+  OptionSet options = line.command->options;
+  options.resolve(line.flags);
+  if (line.flags.contains("print-config")) {
+    if (run_processes().speaks()) std::cout << options.toml();
+    return kExitDone;
+  }
+  options.require_all();
+  return line.command->run(options);
+}
+
+int parse_and_run(int argc, char** argv) {
+  const std::vector<Command> commands = all_commands();
+  const CommandLine line = parse_command_line(commands, {argv + 1, argv + argc});
+  int code = kExitDone;
+  if (line.asked == Asked::kRun) {
+    code = run_command(line, commands);
+  } else if (run_processes().speaks()) {
+    std::cout << answer(line, commands);
+  }
   if (!std::cout.flush()) throw Error(ErrorKind::kResource, "cannot write to standard output");
   return code;
 }

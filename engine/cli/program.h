@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The whole command line: subcommands, messages, exit codes.
+// The whole command line: commands, messages, exit codes.
 #pragma once
 
 #include "engine/run/processes.h"
 
 namespace mw::cli {
 
-/// Runs the subcommand that the arguments name.  Returns the exit code; never throws.
+/// Runs the command that the arguments name.  Returns the exit code; never throws.
 int run_program(int argc, char** argv) noexcept;
 
 /// The same, divided among processes that are given the same arguments.  One of them speaks, for

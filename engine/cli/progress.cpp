@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-#include "engine/cli/values.h"
+#include "engine/cli/options/values.h"
 
 namespace mw::cli {
 namespace {

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh surface: where labels of a mesh meet, as triangles.
-#include <CLI/CLI.hpp>
-
-#include "engine/cli/commands.h"
+#include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/options/values.h"
 #include "engine/cli/report_names.h"
 #include "engine/cli/surface_output.h"
-#include "engine/cli/values.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/surface/open_surface.h"
@@ -90,7 +88,7 @@ class SurfaceJob {
   void require_facets(const io::ShellPlan& plan, const std::string& what) const {
     if (!plan.parts.empty()) return;
     throw Error(ErrorKind::kUsage, request_.mesh + ": " + what +
-                                       " has no interfaces, as no other label is there; --label "
+                                       " has no interfaces, as no other label is there; --labels "
                                        "without --open gives a surface that closes at the box");
   }
 
@@ -137,35 +135,15 @@ int run_surface(const SurfaceFlags& flags) {
 
 }  // namespace
 
-void add_surface_command(CLI::App& program, Action& chosen) {
-  CLI::App* command =
-      program.add_subcommand("surface", "writes surfaces of labels, or where two of them meet");
+Command surface_command() {
   const auto flags = std::make_shared<SurfaceFlags>();
-  command->add_option("MESH", flags->mesh, "mesh: " + io::read_mesh_extensions())->required();
-  command
-      ->add_option("-o,--output", flags->output,
-                   "file to write: " + io::surface_extensions() +
-                       "; or a folder, for precomputed meshes of neuroglancer, one a label")
-      ->required();
-  command->add_option("--label", flags->label,
-                      "surface of this label, with what lies on the box; of a list, 1,2,5, the "
-                      "surface of each");
-  command->add_option("--pair", flags->pair, "A,B: the interface of these two");
-  command->add_flag(
-      "--each", flags->each,
-      "each label in a file of its own: -o 'parts/{label}.stl', which says as much by "
-      "itself, or --format stl -o parts");
-  command->add_flag("--manifold", flags->manifold,
-                    "vertices are doubled where a surface touches itself, so every surface is a "
-                    "manifold; of interfaces each gets its own vertices");
-  command->add_flag("--open", flags->open, "without what lies on the sides of the box");
-  command->add_option(
-      "--format", flags->format,
-      "stl, ply, precomputed or draco (multi-resolution precomputed meshes); by the "
-      "extension unless given");
-  command->add_option("--unit", flags->unit,
-                      "of the mesh, for precomputed meshes: nm (unless given), um, mm or m");
-  command->callback([flags, &chosen] { chosen = [flags] { return run_surface(*flags); }; });
+  Command command{.name = "surface",
+                  .about = "writes surfaces of labels, or where two of them meet",
+                  .options = {},
+                  .run = [flags](const OptionSet&) { return run_surface(*flags); },
+                  .note = mesh_note()};
+  add_surface_options(command.options, *flags);
+  return command;
 }
 
 }  // namespace mw::cli

@@ -7,26 +7,19 @@
 #include <filesystem>
 #include <map>
 
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
 #include "engine/cli/surface_output.h"
-#include "engine/cli/values.h"
 #include "io/surface/open_surface.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
 
+constexpr const char* kSurfaceGroup = "Which surfaces";
+
 [[noreturn]] void fail(const std::string& message) {
   throw Error(ErrorKind::kUsage, message);
-}
-
-/// Runs parse(text); its errors name the option.
-template <class Parse>
-auto parsed(const char* option, const std::string& text, Parse parse) {
-  try {
-    return parse(text);
-  } catch (const Error& error) {
-    fail(std::string(option) + " " + text + ": " + error.what());
-  }
 }
 
 double nm_of(const std::string& unit) {
@@ -38,17 +31,15 @@ double nm_of(const std::string& unit) {
 
 std::vector<RawLabel> parse_label_list(const std::string& text) {
   std::vector<RawLabel> labels;
-  for (const RawLabel label : parsed("--label", text, parse_labels)) {
+  for (const RawLabel label : parse_labels(text)) {
     if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
   }
   return labels;
 }
 
 std::array<RawLabel, 2> parse_pair(const std::string& text) {
-  const std::vector<RawLabel> labels = parsed("--pair", text, parse_labels);
-  if (labels.size() != 2 || labels[0] == labels[1]) {
-    fail("--pair " + text + ": expected two labels, as --pair 1,2");
-  }
+  const std::vector<RawLabel> labels = parse_labels(text);
+  if (labels.size() != 2 || labels[0] == labels[1]) fail("expected two labels, as --pair 1,2");
   return {labels[0], labels[1]};
 }
 
@@ -110,21 +101,72 @@ void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
   }
 }
 
+void add_output_options(OptionSet& options, SurfaceFlags& flags) {
+  options.add({.name = "output",
+               .value = "OUTPUT",
+               .help = "file: " + io::surface_extensions() + "; or a folder of precomputed meshes",
+               .group = kOutputGroup,
+               .flags = "-o,--output",
+               .required = true,
+               .assign = into(flags.output)});
+  options.add({.name = "each",
+               .help = "a file for each label, as -o 'parts/{label}.stl' says by itself",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .assign = into(flags.each)});
+  options.add({.name = "format",
+               .value = "FORMAT",
+               .help = "stl, ply, precomputed or draco [by the extension]",
+               .group = kOutputGroup,
+               .assign = into(flags.format)});
+  options.add({.name = "unit",
+               .value = "UNIT",
+               .help = "nm, um, mm or m: of the mesh, for precomputed meshes [nm]",
+               .group = kOutputGroup,
+               .assign = into(flags.unit)});
+}
+
 }  // namespace
 
+void add_surface_options(OptionSet& options, SurfaceFlags& flags) {
+  add_mesh_option(options, flags.mesh, "mesh to read");
+  options.add({.name = "labels",
+               .value = "LIST",
+               .help = "the surface of each of these, with what lies on the box",
+               .group = kSurfaceGroup,
+               .kind = ValueKind::kLabels,
+               .flags = "--labels,--label",
+               .assign = into(flags.labels, parse_label_list)});
+  options.add({.name = "pair",
+               .value = "A,B",
+               .help = "the interface of these two",
+               .group = kSurfaceGroup,
+               .kind = ValueKind::kLabels,
+               .assign = into(flags.pair, parse_pair)});
+  options.add({.name = "open",
+               .help = "without what lies on the sides of the box",
+               .group = kSurfaceGroup,
+               .kind = ValueKind::kSwitch,
+               .assign = into(flags.open)});
+  options.add({.name = "manifold",
+               .help = "doubles vertices where a surface touches itself or another one",
+               .group = kSurfaceGroup,
+               .kind = ValueKind::kSwitch,
+               .assign = into(flags.manifold)});
+  add_output_options(options, flags);
+}
+
 SurfaceRequest parse_surface_request(const SurfaceFlags& flags) {
-  SurfaceRequest request{.mesh = flags.mesh,
+  SurfaceRequest request{.mesh = flags.mesh.string(),
                          .output = flags.output,
                          .folder = {},
-                         .labels = {},
-                         .pair = {},
+                         .labels = flags.labels,
+                         .pair = flags.pair,
                          .manifold = flags.manifold,
                          .closed = !flags.open};
-  if (!flags.pair.empty() && (!flags.label.empty() || names_each(flags))) {
-    fail(std::string("--pair: not together with --label, --each or ") + kLabelPlaceholder);
+  if (flags.pair && (!flags.labels.empty() || names_each(flags))) {
+    fail(std::string("--pair: not together with --labels, --each or ") + kLabelPlaceholder);
   }
-  if (!flags.label.empty()) request.labels = parse_label_list(flags.label);
-  if (!flags.pair.empty()) request.pair = parse_pair(flags.pair);
   set_target(flags, request);
   return request;
 }

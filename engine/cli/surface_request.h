@@ -7,17 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "engine/cli/options/option_set.h"
 #include "io/surface/precomputed/mesh_folder.h"
 #include "kernels/core/label.h"
 
 namespace mw::cli {
 
-/// The command line as it was typed; empty: not given.
+/// What was asked for; empty: not given.
 struct SurfaceFlags {
-  std::string mesh;
+  std::filesystem::path mesh;
   std::string output;
-  std::string label;
-  std::string pair;
+  std::vector<RawLabel> labels;
+  std::optional<std::array<RawLabel, 2>> pair;
   std::string format;
   std::string unit;
   bool each = false;
@@ -42,7 +43,11 @@ struct SurfaceRequest {
   bool closed = true;
 };
 
-/// ERRORS: mw::Error(kUsage) for values that are none, contradict each other or are not written.
+/// REQUIRES: flags outlives options.
+void add_surface_options(OptionSet& options, SurfaceFlags& flags);
+
+/// ERRORS: mw::Error(kUsage) for values that contradict each other or are not
+/// written.
 [[nodiscard]] SurfaceRequest parse_surface_request(const SurfaceFlags& flags);
 
 }  // namespace mw::cli

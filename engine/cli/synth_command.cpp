@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh synth: synthetic labelled volumes of any size, written in bounded memory.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "engine/cli/commands.h"
+#include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/values.h"
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
 #include "io/volume/decode.h"
 #include "io/volume/npy_writer.h"
 #include "kernels/core/error.h"
@@ -18,22 +18,10 @@ namespace {
 constexpr std::int64_t kSlabVoxels = 1 << 20;
 
 struct SynthJob {
-  std::string kind;
-  std::string shape;
-  std::string type;
-  std::string output;
-  std::uint64_t labels = 0;
-  std::uint64_t seed = 0;
+  SynthSpec spec;
+  std::optional<io::VoxelType> type;  ///< empty: the narrowest that fits
+  std::filesystem::path output;
 };
-
-SynthSpec spec_of(const SynthJob& job) {
-  const std::optional<SynthKind> kind = parse_synth_kind(job.kind);
-  if (!kind) throw Error(ErrorKind::kUsage, "KIND " + job.kind + " is not known; see --help");
-  const SynthSpec spec{
-      .kind = *kind, .shape = parse_shape(job.shape), .labels = job.labels, .seed = job.seed};
-  check_synth_spec(spec);
-  return spec;
-}
 
 /// The narrowest type that holds the label N.
 io::VoxelType type_for(std::uint64_t labels) {
@@ -42,23 +30,28 @@ io::VoxelType type_for(std::uint64_t labels) {
   return labels <= 0xffffffff ? io::VoxelType::kU32 : io::VoxelType::kU64;
 }
 
-io::VoxelType type_of(const SynthJob& job) {
-  if (job.type.empty()) return type_for(job.labels);
-  const std::optional<io::VoxelType> type = io::parse_voxel_type(job.type);
-  if (!type || io::is_float(*type)) {
-    throw Error(ErrorKind::kUsage, "--dtype " + job.type + ": expected u8 to u64");
-  }
+io::VoxelType parse_dtype(const std::string& text) {
+  const std::optional<io::VoxelType> type = io::parse_voxel_type(text);
+  if (!type || io::is_float(*type)) throw Error(ErrorKind::kUsage, "expected u8 to u64");
   return *type;
 }
 
+/// Labels and seeds: all of 64 bits.
+std::uint64_t parse_count(const std::string& text) {
+  std::uint64_t value = 0;
+  if (!engine::read_all(text, value)) engine::fail_expected("a number from 0 on", text);
+  return value;
+}
+
 int run_synth(const SynthJob& job) {
-  const SynthSpec spec = spec_of(job);
-  if (std::filesystem::path(job.output).extension() != ".npy") {
-    throw Error(ErrorKind::kUsage, "-o " + job.output + ": volumes are written as .npy");
+  const SynthSpec& spec = job.spec;
+  check_synth_spec(spec);
+  if (job.output.extension() != ".npy") {
+    throw Error(ErrorKind::kUsage, "-o " + job.output.string() + ": volumes are written as .npy");
   }
   io::VolumeInfo info;
   info.shape = spec.shape;
-  info.type = type_of(job);
+  info.type = job.type.value_or(type_for(spec.labels));
   io::NpyWriter writer(job.output, info);
   const std::int64_t plane = spec.shape.x * spec.shape.y;
   const std::int64_t planes = std::max<std::int64_t>(1, kSlabVoxels / plane);
@@ -73,20 +66,56 @@ int run_synth(const SynthJob& job) {
   return kExitDone;
 }
 
+void add_options(OptionSet& options, SynthJob& job) {
+  options.add({.name = "kind",
+               .value = "KIND",
+               .help = "voronoi, tubes, spheres, noise or checkerboard",
+               .choices = {"voronoi", "tubes", "spheres", "noise", "checkerboard"},
+               .flags = "KIND,--kind",
+               .required = true,
+               .assign = into(job.spec.kind, [](const std::string& text) {
+                 return parse_synth_kind(text).value();
+               })});
+  options.add({.name = "shape",
+               .value = "X,Y,Z",
+               .help = "voxels along each axis",
+               .kind = ValueKind::kShape,
+               .required = true,
+               .assign = into(job.spec.shape, parse_shape)});
+  options.add({.name = "count",
+               .value = "N",
+               .help = "number of labels",
+               .flags = "--count,--labels",
+               .required = true,
+               .assign = into(job.spec.labels, parse_count)});
+  options.add({.name = "seed",
+               .value = "S",
+               .help = "another seed, another volume",
+               .required = true,
+               .assign = into(job.spec.seed, parse_count)});
+  options.add({.name = "output",
+               .value = "OUTPUT",
+               .help = "file to write: .npy",
+               .flags = "-o,--output",
+               .required = true,
+               .assign = into(job.output)});
+  options.add({.name = "dtype",
+               .value = "TYPE",
+               .help = "u8 to u64 [the narrowest that fits]",
+               .assign = into(job.type, parse_dtype)});
+}
+
 }  // namespace
 
-void add_synth_command(CLI::App& program, Action& chosen) {
-  CLI::App* command = program.add_subcommand("synth", "writes a synthetic labelled volume");
+Command synth_command() {
   const auto job = std::make_shared<SynthJob>();
-  command->add_option("KIND", job->kind, "what it looks like")
-      ->type_name("voronoi|tubes|spheres|noise|checkerboard")
-      ->required();
-  command->add_option("--shape", job->shape, "voxels X,Y,Z")->required();
-  command->add_option("--labels", job->labels, "number of labels")->required();
-  command->add_option("--seed", job->seed, "another seed, another volume")->required();
-  command->add_option("--dtype", job->type, "u8 to u64; the narrowest that fits unless given");
-  command->add_option("-o,--output", job->output, "file to write: .npy")->required();
-  command->callback([job, &chosen] { chosen = [job] { return run_synth(*job); }; });
+  Command command{.name = "synth",
+                  .about = "writes a synthetic labelled volume",
+                  .options = {},
+                  .run = [job](const OptionSet&) { return run_synth(*job); },
+                  .note = ""};
+  add_options(command.options, *job);
+  return command;
 }
 
 }  // namespace mw::cli

@@ -3,7 +3,7 @@
 // Lines of a trace.
 #include "engine/cli/trace_file.h"
 
-#include "engine/cli/values.h"
+#include "engine/cli/options/values.h"
 
 namespace mw::cli {
 namespace {

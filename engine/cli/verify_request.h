@@ -5,15 +5,15 @@
 
 #include <optional>
 
-#include "engine/cli/label_choice.h"
-#include "engine/cli/volume_options.h"
+#include "engine/cli/options/volume_options.h"
 #include "engine/job/verify_job.h"
+#include "engine/output/label_choice.h"
 
 namespace mw::cli {
 
 struct VerifyRequest {
   VolumeRequest volume;
-  LabelChoice choice;
+  engine::LabelChoice choice;
   std::filesystem::path mesh;
   std::filesystem::path report;
   engine::AskedBounds asked;
@@ -27,7 +27,7 @@ using report::kOtherPromises;
 void add_verify_options(OptionSet& options, VerifyRequest& request);
 
 /// Fills in what follows from other values.
-/// ERRORS: mw::Error(kUsage) when something is missing, or values contradict each other.
+/// ERRORS: mw::Error(kUsage) when values contradict each other.
 void check_verify_request(VerifyRequest& request);
 
 }  // namespace mw::cli

@@ -104,8 +104,9 @@ std::vector<Setting> march_settings() {
   return {
       {.name = "window",
        .value = "N",
-       .help = "window edge in voxels of the lattice (see --surface), even",
+       .help = "edge of windows in voxels of the lattice, even",
        .kind = SettingKind::kInteger,
+       .expert = true,
        .allowed = "an even number from 4 to " + std::to_string(kMaxWindow),
        .text = [](const Settings& s) { return std::to_string(s.window); },
        .read = [](Settings& s, const Text& t) { s.window = parse_int(t); },
@@ -117,21 +118,23 @@ std::vector<Setting> march_settings() {
        .value = "N",
        .help = "marches over the volume, each with windows twice as large",
        .kind = SettingKind::kInteger,
+       .expert = true,
        .allowed = range_text(1, kMaxMarches),
        .text = [](const Settings& s) { return std::to_string(s.marches); },
        .read = [](Settings& s, const Text& t) { s.marches = parse_int(t); },
        .is_allowed = [](const Settings& s) { return is_within(s.marches, 1, kMaxMarches); }},
       {.name = "order",
-       .help = "march order: raster, the paper's; colour, far wider on small volumes",
+       .help = "colour: another mesh, with far wider marches on small volumes",
        .kind = SettingKind::kChoice,
        .choices = words(kOrders),
+       .expert = true,
        .text = [](const Settings& s) { return name_of(kOrders, s.order); },
        .read = [](Settings& s, const Text& t) { s.order = value_of(kOrders, t); }},
       {.name = "start",
-       .help = "start mesh: coarse (labels coarsened first, larger cells inside them), octree "
-               "(larger cells only), dense (the paper's)",
+       .help = "labels coarsened first; larger cells inside them only; the paper's",
        .kind = SettingKind::kChoice,
        .choices = words(kStarts),
+       .expert = true,
        .text = [](const Settings& s) { return name_of(kStarts, s.start); },
        .read = [](Settings& s, const Text& t) { s.start = value_of(kStarts, t); }},
   };
@@ -143,14 +146,14 @@ std::vector<Setting> bound_settings() {
        .value = "T|none",
        .help = "bound on the variance of edge lengths, Eq (3)",
        .kind = SettingKind::kNumberOrNone,
+       .expert = true,
        .allowed = "positive, or none",
        .text = [](const Settings& s) { return bound_text(s.edge_variance); },
        .read = [](Settings& s, const Text& t) { s.edge_variance = parse_bound(t); },
        .is_allowed = [](const Settings& s) { return !s.edge_variance || *s.edge_variance > 0.0; }},
       {.name = "quality-floor",
        .value = "R",
-       .help = "no tet below this radius ratio, refused where spacing does not allow it; 0: no "
-               "demand on shapes, as in the paper",
+       .help = "no tet below this radius ratio; 0: nothing is asked of shapes",
        .kind = SettingKind::kNumber,
        .allowed = range_text(0, kMaxQualityFloor),
        .text = [](const Settings& s) { return format_number(s.quality_floor); },
@@ -159,11 +162,9 @@ std::vector<Setting> bound_settings() {
            [](const Settings& s) { return is_within(s.quality_floor, 0, kMaxQualityFloor); }},
       {.name = "inner-quality",
        .value = "R|auto",
-       .help =
-           "contractions inside labels leave no tet below this radius ratio, if it is above the "
-           "quality floor: less is fewer tets, of lower quality; auto: 0.465, where most of "
-           "the volume is far from any interface 0.38",
+       .help = "the same for contractions inside labels; less is fewer tets",
        .kind = SettingKind::kNumberOrAuto,
+       .expert = true,
        .allowed = range_text(0, kMaxInnerQuality) + ", or auto",
        .text = [](const Settings& s) { return bound_text(s.inner_quality, kAuto); },
        .read = [](Settings& s, const Text& t) { s.inner_quality = parse_bound(t, kAuto); },
@@ -173,9 +174,7 @@ std::vector<Setting> bound_settings() {
            }},
       {.name = "max-distance",
        .value = "D|none",
-       .help =
-           "bound in voxels of the lattice, two-sided, between input and output interfaces; none: "
-           "without one, but labels are coarsened within 1.5",
+       .help = "voxels at most between interfaces of input and mesh",
        .kind = SettingKind::kNumberOrNone,
        .allowed =
            range_text(0.71, kMaxDistance) + " voxels, or none (the samples are 0.71 voxels apart)",
@@ -188,8 +187,9 @@ std::vector<Setting> bound_settings() {
            }},
       {.name = "target-reduction",
        .value = "F|none",
-       .help = "each window stops collapsing at this fraction of the lattice's voxel corners",
+       .help = "windows stop at this fraction of the lattice's corners",
        .kind = SettingKind::kNumberOrNone,
+       .expert = true,
        .allowed = "between 0 and 1, or none",
        .text = [](const Settings& s) { return bound_text(s.target_reduction); },
        .read = [](Settings& s, const Text& t) { s.target_reduction = parse_bound(t); },
@@ -203,31 +203,30 @@ std::vector<Setting> bound_settings() {
 std::vector<Setting> method_settings() {
   return {
       {.name = "topology",
-       .help = "what is kept: labels, or interfaces as well",
+       .help = "what is kept: topology of labels, or of interfaces, too",
        .kind = SettingKind::kChoice,
        .choices = words(kTopologies),
        .text = [](const Settings& s) { return name_of(kTopologies, s.topology); },
        .read = [](Settings& s, const Text& t) { s.topology = value_of(kTopologies, t); }},
       {.name = "surface",
-       .help =
-           "what interfaces are: smooth, with the labels' volumes kept, on a lattice where slices "
-           "much thicker than the smallest spacing are cut into layers; voxel, as the paper's "
-           "quadrics leave them, on the voxels as they are",
+       .help = "smooth ones that keep volumes, or the paper's",
        .kind = SettingKind::kChoice,
        .choices = words(kSurfaces),
+       .expert = true,
        .text = [](const Settings& s) { return name_of(kSurfaces, s.surface); },
        .read = [](Settings& s, const Text& t) { s.surface = value_of(kSurfaces, t); }},
       {.name = "optimizer",
-       .help = "what improves tets after collapse: local, none, or tetgen (local, and the paper's "
-               "constrained ODT in the last march)",
+       .help = "what improves tets; tetgen: the paper's, at the end",
        .kind = SettingKind::kChoice,
        .choices = words(kOptimizers),
+       .expert = true,
        .text = [](const Settings& s) { return name_of(kOptimizers, s.optimizer); },
        .read = [](Settings& s, const Text& t) { s.optimizer = value_of(kOptimizers, t); }},
       {.name = "odt-iterations",
        .value = "N",
        .help = "iterations of --optimizer tetgen in a window, at most",
        .kind = SettingKind::kInteger,
+       .expert = true,
        .allowed = range_text(1, kMaxOdtIterations),
        .text = [](const Settings& s) { return std::to_string(s.odt_iterations); },
        .read = [](Settings& s, const Text& t) { s.odt_iterations = parse_int(t); },
@@ -239,9 +238,8 @@ std::vector<Setting> method_settings() {
 std::vector<Setting> size_settings() {
   return {
       {.name = "size",
-       .value = "LABEL=H,..",
-       .help = "edges of these labels' tets are no longer than H, physical units; not below the "
-               "diagonal of a voxel of the lattice",
+       .value = "L=H,..|@FILE",
+       .help = "no edge of these labels longer than H; of a table label,size: @FILE",
        .kind = SettingKind::kSizes,
        .allowed = "positive, and given once for a label",
        .text = [](const Settings& s) { return format_sizes(s.sizes.labels); },
@@ -249,24 +247,39 @@ std::vector<Setting> size_settings() {
        .is_allowed = [](const Settings& s) { return are_sizes(s.sizes.labels); }},
       {.name = "gradation",
        .value = "G",
-       .help = "limits on edges grow by G times the distance to those labels, 0 to 10; 0: the "
-               "least holds everywhere",
+       .help = "limits of --size grow by G times the distance, 0 to 10",
        .kind = SettingKind::kNumber,
+       .expert = true,
        .allowed = range_text(0, kMaxGradation),
        .text = [](const Settings& s) { return format_number(s.sizes.gradation); },
        .read = [](Settings& s, const Text& t) { s.sizes.gradation = parse_number(t); },
        .is_allowed =
            [](const Settings& s) { return is_within(s.sizes.gradation, 0, kMaxGradation); }},
       {.name = "inner-vertices",
-       .help = "gives tets with all corners on interfaces a vertex inside their label, where the "
-               "quality floor allows it; those of the labels of --size, else all",
+       .help = "vertices in tets without one inside their label (see --size)",
        .kind = SettingKind::kSwitch,
+       .expert = true,
        .text = [](const Settings& s) -> Text { return s.sizes.inner_vertices ? "true" : "false"; },
        .read = [](Settings& s, const Text& t) { s.sizes.inner_vertices = parse_switch(t); }},
   };
 }
 
 }  // namespace
+
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all{
+      {.name = "draft", .values = {{"surface", "voxel"}, {"max-distance", kNone}}},
+      {.name = kDefaultPreset, .values = {}},
+      {.name = "fine", .values = {{"max-distance", "1"}}}};
+  return all;
+}
+
+const Preset* find_preset(const std::string& name) {
+  for (const Preset& preset : presets()) {
+    if (preset.name == name) return &preset;
+  }
+  return nullptr;
+}
 
 const std::vector<Setting>& setting_table() {
   static const std::vector<Setting> table = [] {

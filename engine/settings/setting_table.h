@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/settings/settings.h"
@@ -26,9 +27,10 @@ enum class SettingKind {
 struct Setting {
   std::string name;   ///< of the flag without dashes, and in the identity
   std::string value;  ///< what help calls the value; nothing for choices and switches
-  std::string help;
+  std::string help;   ///< one line
   SettingKind kind = SettingKind::kInteger;
   std::vector<std::string> choices;  ///< of kChoice
+  bool expert = false;               ///< only --help-all lists it
   std::string allowed;               ///< after "must be"
   /// ENSURES: read() makes the same value of it, and different values have different texts; empty
   /// only for kSizes without any.
@@ -47,5 +49,21 @@ void check(const Setting& setting, const MeshSettings& settings);
 
 /// Takes the value over.  ERRORS: those of Setting::read and check(); settings is then spoilt.
 void set(const Setting& setting, MeshSettings& settings, const std::string& text);
+
+/// A row of values of the table under one name (--preset).
+struct Preset {
+  std::string name;
+  /// Settings that are other than their defaults.
+  std::vector<std::pair<std::string, std::string>> values;
+};
+
+inline constexpr const char* kPresetHelp = "draft: fast, without P4 and P8; fine: within 1 voxel";
+inline constexpr const char* kDefaultPreset = "default";
+
+/// Thread-safe.
+[[nodiscard]] const std::vector<Preset>& presets();
+
+/// Null where there is none of that name.
+[[nodiscard]] const Preset* find_preset(const std::string& name);
 
 }  // namespace mw::engine

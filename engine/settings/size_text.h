@@ -11,17 +11,20 @@
 
 namespace mw::engine {
 
-/// "7" and "2.5".  ERRORS: mw::Error(kUsage) saying what was expected.
-[[nodiscard]] LabelSize parse_label_size(std::string_view label, std::string_view size);
-
-/// "7=4,1=2.5", ascending by label; nothing of an empty text.
-/// ERRORS: mw::Error(kUsage) saying what was expected; those of sort_sizes().
+/// "7=4,1=2.5", ascending by label; nothing of an empty text.  "@FILE", alone or between those, is
+/// a table of such sizes.
+/// ERRORS: mw::Error(kUsage) saying what was expected, and for a label that has two sizes; those of
+///         reading the file, and of parse_size_table().
 [[nodiscard]] std::vector<LabelSize> parse_sizes(std::string_view text);
 
-/// ENSURES: ascending by label.  ERRORS: mw::Error(kUsage) for a label that has two sizes.
-void sort_sizes(std::vector<LabelSize>& sizes);
+/// The files that are named in it.
+[[nodiscard]] std::vector<std::string> size_tables(std::string_view text);
 
-/// What parse_sizes() reads back as the same.
+/// Lines "label,size" of a table (CsvRecords); the first may be a header.
+/// ERRORS: mw::Error(kInput) naming file and line.
+[[nodiscard]] std::vector<LabelSize> parse_size_table(std::string_view text, std::string_view file);
+
+/// What parse_sizes() reads back as the same, without any file.
 [[nodiscard]] std::string format_sizes(const std::vector<LabelSize>& sizes);
 
 }  // namespace mw::engine

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "engine/cli/options/values.h"
 #include "engine/cli/page/html_text.h"
-#include "engine/cli/values.h"
 
 namespace mw::cli {
 namespace {

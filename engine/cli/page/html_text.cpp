@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "engine/cli/values.h"
+#include "engine/cli/options/values.h"
 
 namespace mw::cli {
 

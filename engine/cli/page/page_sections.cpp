@@ -7,9 +7,9 @@
 #include <array>
 #include <filesystem>
 
+#include "engine/cli/options/values.h"
 #include "engine/cli/page/charts.h"
 #include "engine/cli/page/html_text.h"
-#include "engine/cli/values.h"
 
 namespace mw::cli {
 namespace {

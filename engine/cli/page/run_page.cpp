@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/cli/options/values.h"
 #include "engine/cli/page/assets.h"
 #include "engine/cli/page/charts.h"
 #include "engine/cli/page/page_sections.h"
 #include "engine/cli/page/view_data.h"
 #include "engine/cli/picture/picture_request.h"
-#include "engine/cli/values.h"
 
 namespace mw::cli {
 namespace {

@@ -3,29 +3,30 @@
 // The options of `mwmesh picture`.
 #include "engine/cli/picture/picture_request.h"
 
-#include "engine/cli/values.h"
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
 
 constexpr int kMaxSide = 8192;  // pixels
+constexpr const char* kShownGroup = "What to show";
 
 [[noreturn]] void fail_expected(const std::string& what) {
   throw Error(ErrorKind::kUsage, "expected " + what);
 }
 
-void parse_size(std::string_view text, PictureRequest& request) {
+std::array<int, 2> parse_pixels(const std::string& text) {
   const std::string expected = "pixels from 16x16 to 8192x8192, e.g. 1200x900";
   const std::size_t cross = text.find('x');
-  if (cross == std::string_view::npos) fail_expected(expected);
-  const auto side = [&](std::string_view digits) {
+  if (cross == std::string::npos) fail_expected(expected);
+  const auto side = [&](const std::string& digits) {
     const std::int64_t pixels = parse_integer(digits);
     if (pixels < 16 || pixels > kMaxSide) fail_expected(expected);
     return static_cast<int>(pixels);
   };
-  request.width = side(text.substr(0, cross));
-  request.height = side(text.substr(cross + 1));
+  return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
 }
 
 Lines parse_lines(const std::string& text) {
@@ -33,72 +34,64 @@ Lines parse_lines(const std::string& text) {
   return text == "on" ? Lines::kAll : Lines::kNone;
 }
 
-void add_paths(OptionSet& options, PictureRequest& request) {
-  options.add({.name = "mesh",
-               .value = "MESH",
-               .help = "mesh to draw",
-               .flags = "MESH,--mesh",
-               .assign = [&](const std::string& text) { request.mesh = text; }});
-  options.add({.name = "output",
-               .value = "P.png",
-               .help = "picture to write",
-               .flags = "-o,--output",
-               .assign = [&](const std::string& text) { request.output = text; }});
-  options.add({.name = "names",
-               .value = "FILE",
-               .help = "colours of labels [those in the mesh]",
-               .assign = [&](const std::string& text) { request.names = text; }});
-}
-
 void add_subject(OptionSet& options, PictureRequest& request) {
-  options.add({.name = "label",
+  options.add({.name = "labels",
                .value = "LIST",
-               .help = "labels to draw, e.g. 1,2 [all but the one around them]",
+               .help = "labels to draw, as 1,2 [all but the one around them]",
+               .group = kShownGroup,
                .kind = ValueKind::kLabels,
-               .assign = [&](const std::string& text) {
-                 if (!text.empty()) request.labels = parse_labels(text);
-               }});
+               .flags = "--labels,--label",
+               .assign = into(request.labels, parse_labels)});
   options.add({.name = "cut",
                .value = "x=SHARE",
-               .help = "takes away what is on the viewer's side of a plane across x, y or z of the "
-                       "array, at that share of the box, e.g. x=0.5; tets that it goes through are "
-                       "drawn as they are cut",
-               .assign = [&](const std::string& text) {
-                 if (!text.empty()) request.cut = parse_cut(text);
-               }});
+               .help = "what is before a plane across x, y or z is taken away, as x=0.5",
+               .group = kShownGroup,
+               .assign = into(request.cut, parse_cut)});
   options.add({.name = "view",
                .value = "VIEW",
-               .help = "iso, or x, y or z (from the far end of that axis of the world), or "
-                       "AZIMUTH,ELEVATION in degrees [iso, or what suits the cut]",
-               .assign = [&](const std::string& text) {
-                 if (!text.empty()) request.view = parse_view(text);
-               }});
+               .help = "iso, x, y, z, or AZIMUTH,ELEVATION in degrees [what suits the cut]",
+               .group = kShownGroup,
+               .assign = into(request.view, parse_view)});
 }
 
 void add_style(OptionSet& options, PictureRequest& request) {
-  options.add({.name = "size",
+  options.add({.name = "output",
+               .value = "P.png",
+               .help = "picture to write",
+               .group = kOutputGroup,
+               .flags = "-o,--output",
+               .required = true,
+               .assign = into(request.output)});
+  options.add({.name = "pixels",
                .value = "WxH",
-               .help = "pixels",
+               .help = "width and height",
+               .group = kOutputGroup,
                .fallback = "1200x900",
-               .assign = [&](const std::string& text) { parse_size(text, request); }});
+               .flags = "--pixels,--size",
+               .assign = into(request.pixels, parse_pixels)});
   options.add({.name = "edges",
-               .value = "WHICH",
-               .help = "edges of triangles: on, off, or auto, fainter where triangles are small",
+               .help = "edges of triangles; auto: fainter where they are small",
+               .group = kOutputGroup,
                .fallback = "auto",
                .choices = {"auto", "on", "off"},
-               .assign = [&](const std::string& text) { request.lines = parse_lines(text); }});
-  options.add(
-      {.name = "transparent",
-       .help = "a transparent instead of a white background",
-       .kind = ValueKind::kSwitch,
-       .fallback = "false",
-       .assign = [&](const std::string& text) { request.transparent = parse_switch(text); }});
+               .assign = into(request.lines, parse_lines)});
+  options.add({.name = "transparent",
+               .help = "a transparent instead of a white background",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .assign = into(request.transparent)});
 }
 
 }  // namespace
 
 void add_picture_options(OptionSet& options, PictureRequest& request) {
-  add_paths(options, request);
+  add_mesh_option(options, request.mesh, "mesh to draw");
+  options.add({.name = "names",
+               .value = "FILE",
+               .help = "names and colours of labels [those in the mesh]",
+               .group = kInputGroup,
+               .assign = into(request.names)});
   add_subject(options, request);
   add_style(options, request);
 }

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "engine/cli/option_set.h"
+#include "engine/cli/options/option_set.h"
 #include "engine/cli/picture/draw.h"
 
 namespace mw::cli {
@@ -17,8 +17,7 @@ struct PictureRequest {
   std::optional<CutPosition> cut;
   std::optional<std::vector<RawLabel>> labels;  ///< empty: all but the surrounding one
   std::optional<picture::View> view;            ///< empty: as suits the cut
-  int width = 1200;
-  int height = 900;
+  std::array<int, 2> pixels{1200, 900};         ///< width and height
   Lines lines = Lines::kAuto;
   bool transparent = false;
 };

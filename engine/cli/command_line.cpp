@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What is on the command line; this alone knows the library that reads it.
+#include "engine/cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <deque>
+
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, const Command* command) {
+  const std::string see = command == nullptr ? "mwmesh" : "mwmesh " + command->name;
+  throw Error(ErrorKind::kUsage, what + "; see " + see + " --help");
+}
+
+const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
+  const auto found = std::find_if(commands.begin(), commands.end(),
+                                  [&](const Command& command) { return command.name == name; });
+  if (found == commands.end()) refuse(name + ": unknown command", nullptr);
+  return *found;
+}
+
+/// The flags of one command, and where the library leaves their values.
+class Reader {
+ public:
+  explicit Reader(const Command* command) : command_(command), app_("", "mwmesh") {
+    app_.set_help_flag("-h,--help");
+    app_.set_help_all_flag("--help-all");
+    app_.set_version_flag("-v,--version");
+    if (command == nullptr) return;
+    for (const OptionSet::Entry& entry : command->options.entries()) add(entry.option);
+  }
+
+  CommandLine read(std::vector<std::string> arguments) {
+    CommandLine line{.command = command_};
+    std::reverse(arguments.begin(), arguments.end());  // the library takes them from the end
+    try {
+      app_.parse(arguments);
+    } catch (const CLI::CallForHelp&) {
+      line.asked = Asked::kHelp;
+    } catch (const CLI::CallForAllHelp&) {
+      line.asked = Asked::kHelpAll;
+    } catch (const CLI::CallForVersion&) {
+      line.asked = Asked::kVersion;
+    } catch (const CLI::ParseError& error) {
+      refuse(explain(error), command_);
+    }
+    for (const Flag& flag : flags_) {
+      if (flag.parsed->count() == 0) continue;
+      line.flags[flag.option->name] =
+          flag.is_switch() ? (flag.is_on ? "true" : "false") : flag.text;
+    }
+    return line;
+  }
+
+ private:
+  struct Flag {
+    const Option* option = nullptr;
+    CLI::Option* parsed = nullptr;
+    std::string text;
+    bool is_on = false;
+
+    [[nodiscard]] bool is_switch() const { return option->kind == ValueKind::kSwitch; }
+  };
+
+  void add(const Option& option) {
+    Flag& flag = flags_.emplace_back();
+    flag.option = &option;
+    const std::string names = option.flags.empty() ? "--" + option.name : option.flags;
+    flag.parsed =
+        flag.is_switch() ? app_.add_flag(names, flag.is_on) : app_.add_option(names, flag.text);
+  }
+
+  [[nodiscard]] std::string explain(const CLI::ParseError& error) const {
+    const std::vector<std::string> unknown = app_.remaining();
+    const auto flag = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
+      return word.size() > 1 && word.starts_with("-");
+    });
+    if (flag != unknown.end()) return flag->substr(0, flag->find('=')) + ": unknown flag";
+    if (!unknown.empty()) return unknown.front() + ": one argument too many";
+    return error.what();
+  }
+
+  const Command* command_;
+  CLI::App app_;
+  std::deque<Flag> flags_;  ///< the library points at them
+};
+
+}  // namespace
+
+CommandLine parse_command_line(const std::vector<Command>& commands,
+                               std::vector<std::string> arguments) {
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  if (arguments.empty() || arguments.front().starts_with("-")) {
+    return Reader(nullptr).read(arguments);
+  }
+  const Command& command = find_command(commands, arguments.front());
+  arguments.erase(arguments.begin());
+  return Reader(&command).read(arguments);
+}
+
+}  // namespace mw::cli

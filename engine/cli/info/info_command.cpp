@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// mwmesh info: facts of a volume or a mesh.
+#include <iostream>
+
+#include "engine/cli/command.h"
+#include "engine/cli/exit_code.h"
+#include "engine/cli/info/fact_text.h"
+#include "engine/cli/info/mesh_tables.h"
+#include "engine/cli/info/shape_sink.h"
+#include "engine/cli/info/volume_facts.h"
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
+#include "io/mesh/digest.h"
+#include "io/mesh/grouped/grouped_sink.h"
+#include "io/mesh/open_mesh.h"
+#include "io/mesh/tee_sink.h"
+#include "io/names/read_names.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+struct InfoJob {
+  std::filesystem::path file;
+  VolumeRequest volume;  ///< of a mesh: --volume; else the file
+  bool betti = false;
+  bool contacts = false;
+  bool json = false;
+  bool csv = false;
+};
+
+MeshInfo look_at_mesh(const InfoJob& job) {
+  std::optional<VolumeSide> volume;
+  io::LabelNames more_names;
+  if (!job.volume.path.empty()) {
+    volume = look_at_volume(job.volume, job.contacts);
+    more_names = volume->names;
+  } else if (!job.volume.names.empty()) {
+    more_names = io::read_names(job.volume.names);
+  }
+  io::GroupedSink sink(io::scratch_folder(), nullptr);
+  io::DigestSink digest(io::scratch_folder());
+  ShapeSink shape(io::scratch_folder());
+  io::TeeSink measured(sink, shape);
+  io::TeeSink all(measured, digest);
+  io::copy_mesh(job.file, all);
+  io::GroupedMesh& mesh = sink.mesh();
+  return {.file = job.file.string(),
+          .vertices = mesh.vertex_count(),
+          .tets = mesh.tet_count(),
+          .table = mesh.table(),
+          .names = mesh.names().merged_with(more_names),
+          .mesh = measure_mesh(mesh, job.betti),
+          .volume = std::move(volume),
+          .shape = shape.shape(),
+          .digest = digest.digest()};
+}
+
+void print_json(const io::Json& facts) {
+  std::cout << facts.dump_indented() << "\n";
+}
+
+void print_mesh(const MeshInfo& facts, bool contacts) {
+  io::Json told = mesh_json(facts, false);
+  told["volume"].erase("per_label");
+  print_facts(told);
+  for (const LabelColumns columns : {LabelColumns::kSizes, LabelColumns::kPlaces}) {
+    std::cout << '\n';
+    print_columns(label_table(facts, Digits::kSix, columns), std::cout);
+  }
+  if (!contacts) return;
+  std::cout << '\n';
+  print_columns(contact_table(facts, Digits::kSix), std::cout);
+}
+
+void tell_of_mesh(const InfoJob& job) {
+  const MeshInfo facts = look_at_mesh(job);
+  if (job.json) {
+    print_json(mesh_json(facts, job.contacts));
+  } else if (job.csv) {
+    print_csv(job.contacts ? contact_table(facts, Digits::kAll)
+                           : label_table(facts, Digits::kAll, LabelColumns::kBoth),
+              std::cout);
+  } else {
+    print_mesh(facts, job.contacts);
+  }
+}
+
+int run_info(InfoJob& job) {
+  if (job.json && job.csv) throw Error(ErrorKind::kUsage, "--json and --csv: only one of them");
+  const bool has_volume = !job.volume.path.empty();
+  // --shape says that a file is raw; without a volume there is no other file.
+  if (io::is_mesh_path(job.file) && (has_volume || !job.volume.shape)) {
+    tell_of_mesh(job);
+    return kExitDone;
+  }
+  if (has_volume) throw Error(ErrorKind::kUsage, "--volume: FILE must be a mesh then");
+  if (job.betti || job.contacts || job.csv) {
+    throw Error(ErrorKind::kUsage, "--betti, --contacts and --csv: FILE must be a mesh then");
+  }
+  job.volume.path = job.file;
+  const VolumeFacts facts(job.volume);
+  job.json ? print_volume_json(facts) : print_volume(facts);
+  return kExitDone;
+}
+
+void add_files(OptionSet& options, InfoJob& job) {
+  options.add({.name = "file",
+               .value = "FILE",
+               .help = "volume or mesh to look at",
+               .group = kInputGroup,
+               .flags = "FILE,--file",
+               .required = true,
+               .assign = into(job.file)});
+  options.add({.name = "volume",
+               .value = "VOLUME",
+               .help = "what the mesh was made from, for its voxels and errors",
+               .group = kInputGroup,
+               .flags = "VOLUME,--volume",
+               .assign = into(job.volume.path)});
+}
+
+void add_switch(OptionSet& options, const char* name, const char* help, bool& target) {
+  options.add({.name = name,
+               .help = help,
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .only_flag = true,
+               .assign = into(target)});
+}
+
+}  // namespace
+
+Command info_command() {
+  const auto job = std::make_shared<InfoJob>();
+  Command command{.name = "info",
+                  .about = "tells facts of a volume or mesh, and of each label",
+                  .options = {},
+                  .run = [job](const OptionSet&) { return run_info(*job); },
+                  .note = volume_note() + mesh_note()};
+  add_files(command.options, *job);
+  add_volume_options(command.options, job->volume);
+  add_step_options(command.options, job->volume);
+  add_switch(command.options, "betti",
+             "of a mesh: components and Betti numbers, with the mesh in memory", job->betti);
+  add_switch(command.options, "contacts", "of a mesh: which labels touch, and on what area",
+             job->contacts);
+  add_switch(command.options, "json", "as JSON, with all digits", job->json);
+  add_switch(command.options, "csv",
+             "labels of a mesh (with --contacts those) as CSV, with all digits", job->csv);
+  return command;
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh info` tells of a mesh, and of the volume that it was made from.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "engine/cli/info/mesh_stats.h"
+#include "engine/cli/options/volume_options.h"
+#include "io/labels/label_table.h"
+#include "io/names/label_names.h"
+#include "kernels/audit/shape.h"
+#include "kernels/audit/volumes.h"
+
+namespace mw::cli {
+
+/// What the volume says of what the mesh has.
+struct VolumeSide {
+  std::unordered_map<RawLabel, std::uint64_t> voxels;
+  double voxel_volume = 1;  ///< cubic physical units
+  io::LabelNames names;
+  /// Of faces of voxels, by contact, the smaller label first; square physical units.
+  std::map<std::pair<RawLabel, RawLabel>, double> areas;
+};
+
+/// Opens the volume, does its steps and reads it; twice for the areas.
+/// ERRORS: those of open() and of reading.
+[[nodiscard]] VolumeSide look_at_volume(const VolumeRequest& request, bool with_areas);
+
+/// Everything that is told.
+struct MeshInfo {
+  std::string file;
+  std::uint64_t vertices = 0;
+  std::uint64_t tets = 0;
+  io::LabelTable table;
+  io::LabelNames names;
+  MeshStats mesh;  ///< by rank of label
+  std::optional<VolumeSide> volume;
+  audit::ShapeReport shape;
+  std::string digest;
+};
+
+/// A contact of the mesh, the volume, or both.
+struct Contact {
+  RawLabel first = 0;
+  RawLabel second = 0;
+  std::uint64_t triangles = 0;
+  double area = 0;                   ///< square physical units
+  std::optional<double> voxel_area;  ///< empty without a volume
+};
+
+/// Those of the mesh, then those that only the voxels have between labels of the mesh.
+[[nodiscard]] std::vector<Contact> contacts_of(const MeshInfo& facts);
+
+/// The label in the volume; empty without a volume, and for a label that it does not have.
+[[nodiscard]] std::optional<audit::VolumeRow> voxels_of(const MeshInfo& facts, Label rank);
+
+/// "kind", "file", "vertices", ... as a JSON object.  contacts: those as well.
+[[nodiscard]] io::Json mesh_json(const MeshInfo& facts, bool contacts);
+
+}  // namespace mw::cli

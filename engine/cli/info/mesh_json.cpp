@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// `mwmesh info --json` of a mesh.
+#include "engine/cli/info/mesh_info.h"
+
+#include <algorithm>
+
+#include "engine/cli/report_names.h"
+
+namespace mw::cli {
+namespace {
+
+using io::Json;
+
+Json betti_json(const audit::Betti& betti) {
+  return {betti.b0, betti.b1, betti.b2};
+}
+
+Json label_row(const MeshInfo& facts, Label rank, double total) {
+  const LabelStats& label = facts.mesh.labels[rank];
+  const RawLabel raw = facts.table.raw(rank);
+  Json row = named_row_json(raw, facts.table.is_signed(), facts.names);
+  row["volume"] = label.volume;
+  row["share"] = label.volume / total;
+  if (const auto voxels = voxels_of(facts, rank)) {
+    row.update(volume_row_json(*voxels, facts.table, facts.names));
+  } else if (facts.volume) {
+    row["voxels"] = 0;
+  }
+  row["area"] = label.area;
+  row["area_on_box"] = label.area_on_box;
+  row["tets"] = label.tets;
+  if (label.betti) {
+    row["components"] = label.betti->open.b0;
+    row["betti_closed"] = betti_json(label.betti->closed);
+    row["betti_open"] = betti_json(label.betti->open);
+  }
+  row["radius_ratio_min"] = label.radius_ratio_min;
+  row["radius_ratio_mean"] = label.radius_ratio_mean;
+  row["lo"] = label.lo;
+  row["hi"] = label.hi;
+  row["centroid"] = label.centroid;
+  add_colour(row, raw, facts.names);
+  return row;
+}
+
+Json contact_json(const MeshInfo& facts, const Contact& contact) {
+  const bool is_signed = facts.table.is_signed();
+  Json row{
+      {"labels", {label_json(contact.first, is_signed), label_json(contact.second, is_signed)}},
+      {"triangles", contact.triangles},
+      {"area", contact.area}};
+  if (contact.voxel_area) row["voxel_area"] = *contact.voxel_area;
+  return row;
+}
+
+Json labels_json(const io::LabelTable& table) {
+  if (table.size() == 0) return {{"count", 0}, {"min", nullptr}, {"max", nullptr}};
+  const auto last = static_cast<Label>(table.size() - 1);
+  return {{"count", table.size()},
+          {"min", label_json(table.raw(0), table.is_signed())},
+          {"max", label_json(table.raw(last), table.is_signed())}};
+}
+
+Json box_json(const MeshStats& mesh) {
+  if (mesh.labels.empty()) return nullptr;
+  io::Position lo = mesh.labels.front().lo, hi = mesh.labels.front().hi;
+  for (const LabelStats& label : mesh.labels) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], label.lo[k]);
+      hi[k] = std::max(hi[k], label.hi[k]);
+    }
+  }
+  return {{"lo", lo}, {"hi", hi}};
+}
+
+/// Volumes of labels, and their errors when there is a volume to hold them against.
+Json volumes_json(const MeshInfo& facts) {
+  audit::CompensatedSum total;
+  audit::VolumeMeter errors;
+  for (Label rank = 0; rank < facts.table.size(); ++rank) {
+    total.add(facts.mesh.labels[rank].volume);
+    if (const auto voxels = voxels_of(facts, rank)) errors.add(*voxels);
+  }
+  Json out{{"total", total.value()}};
+  if (facts.volume) out.update(volume_summary_json(errors.summary(), facts.table));
+  Json rows = Json::array();
+  for (Label rank = 0; rank < facts.table.size(); ++rank) {
+    rows.push_back(label_row(facts, rank, total.value()));
+  }
+  out["per_label"] = std::move(rows);
+  return out;
+}
+
+}  // namespace
+
+Json mesh_json(const MeshInfo& facts, bool contacts) {
+  Json out{{"kind", "mesh"},
+           {"file", facts.file},
+           {"vertices", facts.vertices},
+           {"tets", facts.tets},
+           {"labels", labels_json(facts.table)},
+           {"box", box_json(facts.mesh)},
+           {"shape", interfaces_json(facts.shape)},
+           {"volume", volumes_json(facts)}};
+  if (contacts) {
+    Json rows = Json::array();
+    for (const Contact& c : contacts_of(facts)) rows.push_back(contact_json(facts, c));
+    out["contacts"] = std::move(rows);
+  }
+  out["digest"] = facts.digest;
+  return out;
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh info` says of a volume.
+#include "engine/cli/info/volume_facts.h"
+
+#include "engine/cli/report_names.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "engine/cli/info/fact_text.h"
+
+namespace mw::cli {
+namespace {
+
+using io::Json;
+
+constexpr std::size_t kMaxPrinted = 1000;
+
+/// Rows of the matrix that takes corners of voxels, (i, j, k, 1), to the world.
+Json affine_json(const io::VolumeSpace& space) {
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < 3; ++k) {
+    rows.push_back({space.axes[0][k] * space.spacing[0], space.axes[1][k] * space.spacing[1],
+                    space.axes[2][k] * space.spacing[2], space.origin[k]});
+  }
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return rows;
+}
+
+Json labels_json(const std::vector<engine::LabelRegion>& regions, bool is_signed) {
+  return {{"count", regions.size()},
+          {"min", label_json(regions.front().label, is_signed)},
+          {"max", label_json(regions.back().label, is_signed)},
+          {"per_label", kRows}};
+}
+
+Json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
+              const std::vector<engine::LabelRegion>& regions) {
+  const io::VolumeSpace& space = info.space;
+  return {{"kind", "volume"},
+          {"file", request.path.string()},
+          {"format", info.format},
+          {"type", io::name(info.type)},
+          {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
+          {"spacing_xyz", space.spacing},
+          {"origin_xyz", space.origin},
+          {"unit", space.unit.empty() ? Json() : Json(space.unit)},
+          {"frame", io::name(space.frame)},
+          {"affine", affine_json(space)},
+          {"voxels", info.shape.product()},
+          {"labels", labels_json(regions, has_signed_labels(info))}};
+}
+
+}  // namespace
+
+VolumeFacts::VolumeFacts(const VolumeRequest& request) {
+  const std::unique_ptr<io::LabelVolume> opened = open(request);
+  const io::PreparedInput input(*opened, request.steps);
+  info_ = input.volume().info();
+  regions_ = engine::label_regions(input.volume());
+  facts_ = facts_of(request, info_, regions_);
+  if (input.specks()) facts_["specks"] = specks_json(input.specks());
+}
+
+Json VolumeFacts::label_row(std::size_t i) const {
+  const engine::LabelRegion& region = regions_[i];
+  const Index3 lo = region.box.lo, hi = region.box.hi;
+  Json row = named_row_json(region.label, has_signed_labels(info_), info_.names);
+  row["voxels"] = region.voxels;
+  row["lo"] = {lo.x, lo.y, lo.z};
+  row["hi"] = {hi.x, hi.y, hi.z};
+  add_colour(row, region.label, info_.names);
+  return row;
+}
+
+void print_volume(const VolumeFacts& volume) {
+  Json facts = volume.json();
+  facts["labels"].erase("per_label");
+  print_facts(facts);
+  const std::size_t shown = std::min(volume.labels(), kMaxPrinted);
+  for (std::size_t i = 0; i < shown; ++i) print_row("labels.per_label", volume.label_row(i));
+  if (shown == volume.labels()) return;
+  std::cout << volume.labels() - shown << " more labels; --json lists all\n";
+}
+
+void print_volume_json(const VolumeFacts& volume) {
+  const auto for_each_row = [&](const TakeRow& take) {
+    for (std::size_t i = 0; i < volume.labels(); ++i) take(volume.label_row(i));
+  };
+  append_with_rows(volume.json(), for_each_row, [](std::string_view text) { std::cout << text; });
+}
+
+}  // namespace mw::cli

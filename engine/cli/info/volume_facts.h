@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh info` says of a volume.
+#pragma once
+
+#include <vector>
+
+#include "engine/cli/options/volume_options.h"
+#include "engine/labels/label_regions.h"
+#include "io/json/json.h"
+
+namespace mw::cli {
+
+/// A volume and its labels, read once.
+class VolumeFacts {
+ public:
+  /// ERRORS: those of open() and of reading the volume.
+  explicit VolumeFacts(const VolumeRequest& request);
+
+  /// Everything but a row for each label.
+  [[nodiscard]] const io::Json& json() const { return facts_; }
+  [[nodiscard]] std::size_t labels() const { return regions_.size(); }
+  /// Label, name, voxels, box (hi is one behind the last voxel) and colour.  i < labels(),
+  /// ascending.
+  [[nodiscard]] io::Json label_row(std::size_t i) const;
+
+ private:
+  io::VolumeInfo info_;
+  std::vector<engine::LabelRegion> regions_;
+  io::Json facts_;
+};
+
+/// The same as text on stdout: a line each, for the first 1,000 labels.
+void print_volume(const VolumeFacts& volume);
+/// All of it as JSON on stdout, the rows as labels.per_label.  Memory: of one row at a time.
+void print_volume_json(const VolumeFacts& volume);
+
+}  // namespace mw::cli

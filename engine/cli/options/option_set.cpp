@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// One list of options: flags, config keys, environment variables, defaults and help from one entry.
+#include "engine/cli/options/option_set.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <set>
+
+#include "engine/cli/options/option_text.h"
+#include "engine/codt/worker_pool.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+constexpr const char* kPrefix = "MW_";
+
+[[noreturn]] void refuse(const std::string& where, const std::string& reason) {
+  throw Error(ErrorKind::kUsage, where + reason);
+}
+
+std::string key_of(const Option& option) {
+  std::string key = option.name;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path, ignored)) {
+    refuse(path.string(), ": cannot read this config file");
+  }
+  constexpr std::size_t kMaxBytes = 1 << 20;
+  std::string content(kMaxBytes + 1, '\0');
+  file.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(file.gcount()));
+  if (content.size() <= kMaxBytes) return content;
+  refuse(path.string(), ": is no config file: it has more than 1 MiB");
+}
+
+std::string line_of(const std::string& file, const toml::source_region& source) {
+  return file + ":" + std::to_string(source.begin.line) + ": ";
+}
+
+toml::table parse_config(const std::filesystem::path& path) {
+  try {
+    return toml::parse(content_of(path), path.string());
+  } catch (const toml::parse_error& error) {
+    refuse(line_of(path.string(), error.source()), std::string(error.description()));
+  }
+}
+
+/// Names of the variables with our prefix that are not empty.
+std::set<std::string> set_variables() {
+  std::set<std::string> out;
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    const std::size_t equals = std::min(text.find('='), text.size());
+    if (text.starts_with(kPrefix) && equals + 1 < text.size()) out.insert(text.substr(0, equals));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
+  return out;
+}
+
+void OptionSet::add(Option option) {
+  entries_.push_back({.option = std::move(option), .text = "", .where = ""});
+}
+
+const OptionSet::Entry& OptionSet::find(const std::string& name) const {
+  return *std::find_if(entries_.begin(), entries_.end(),
+                       [&](const Entry& entry) { return entry.option.name == name; });
+}
+
+OptionSet::Entry& OptionSet::find(const std::string& name) {
+  return const_cast<Entry&>(std::as_const(*this).find(name));
+}
+
+void OptionSet::resolve(const std::map<std::string, std::string>& flags) {
+  for (Entry& entry : entries_) {
+    entry.text = entry.option.fallback;
+    entry.where = entry.option.name;
+    entry.is_given = false;
+  }
+  const auto config = flags.find("config");
+  if (config != flags.end()) read_config(config->second);
+  read_environment();
+  read_flags(flags);
+  read_implied();
+  for (Entry& entry : entries_) settle(entry);
+}
+
+void OptionSet::read_config(const std::filesystem::path& path) {
+  const toml::table table = parse_config(path);
+  for (const auto& [key, node] : table) {
+    const std::string name(key.str());
+    const std::string where = line_of(path.string(), node.source()) + name;
+    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+      return !entry.option.only_flag && key_of(entry.option) == name;
+    });
+    if (found == entries_.end()) refuse(where, ": unknown key; see mwmesh mesh --print-config");
+    const ValueKind kind = found->option.kind;
+    const std::optional<std::string> text = text_of_toml(kind, node);
+    if (!text) refuse(where, std::string(": wrong type; expected ") + toml_type(kind));
+    found->text = *text;
+    found->where = where + " = " + *text;
+    found->is_given = true;
+    if (text->empty()) refuse(where, ": empty; leave the key out instead");
+    // Names of files would end there.
+    if (text->find('\0') != text->npos) refuse(where, ": has a zero byte in it");
+  }
+}
+
+void OptionSet::read_environment() {
+  for (Entry& entry : entries_) {
+    if (entry.option.only_flag) continue;
+    const std::string name = variable_of(entry.option.name);
+    const char* text = std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe)
+    if (text == nullptr || *text == '\0') continue;
+    entry.text = text;
+    entry.where = name + "=" + text;
+    entry.is_given = true;
+  }
+}
+
+void OptionSet::read_flags(const std::map<std::string, std::string>& flags) {
+  for (const auto& [name, text] : flags) {
+    Entry& entry = find(name);
+    const std::string flag = "--" + name;
+    if (text.empty()) refuse(flag, ": empty value");
+    entry.text = text;
+    entry.where = entry.option.kind == ValueKind::kSwitch ? flag : flag + " " + text;
+    entry.is_given = true;
+  }
+}
+
+void OptionSet::read_implied() {
+  for (const Entry& source : entries_) {
+    if (!source.option.implied || source.text.empty()) continue;
+    for (const auto& [name, text] : source.option.implied(source.text)) {
+      Entry& entry = find(name);
+      if (!entry.is_given) entry.text = text;
+    }
+  }
+}
+
+void OptionSet::settle(Entry& entry) {
+  const Option& option = entry.option;
+  if (entry.text.empty()) return;
+  try {
+    entry.text = canonical_text(option.kind, entry.text);
+    const auto& choices = option.choices;
+    if (!choices.empty() &&
+        std::find(choices.begin(), choices.end(), entry.text) == choices.end()) {
+      throw Error(ErrorKind::kUsage, "expected one of " + joined(choices, ", "));
+    }
+    if (option.assign) option.assign(entry.text);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kUsage) throw;
+    refuse(entry.where, std::string(": ") + error.what());
+  }
+}
+
+void OptionSet::require_all() const {
+  for (const Entry& entry : entries_) {
+    if (!entry.option.required || !entry.text.empty()) continue;
+    const std::string flags = entry.option.flags;
+    const std::string name =
+        flags.empty() ? "--" + entry.option.name : flags.substr(0, flags.find(','));
+    const std::string value = name.starts_with('-') ? " " + entry.option.value : "";
+    throw Error(ErrorKind::kUsage, name + value + " is missing; see --help");
+  }
+}
+
+std::string OptionSet::toml() const {
+  std::string out;
+  for (const Entry& entry : entries_) {
+    if (entry.option.only_flag) continue;
+    const std::string key = key_of(entry.option);
+    if (!entry.text.empty()) {
+      out += key + " = " + toml_of_text(entry.option.kind, entry.text) + "\n";
+    } else if (entry.option.listed != Listed::kNowhere) {
+      out += "# " + key + ": not set\n";
+    }
+  }
+  return out;
+}
+
+io::Json OptionSet::json() const {
+  io::Json out = io::Json::object();
+  for (const Entry& entry : entries_) {
+    if (entry.option.only_flag) continue;
+    if (entry.text.empty() && entry.option.listed == Listed::kNowhere) continue;
+    out[key_of(entry.option)] = json_of_text(entry.option.kind, entry.text);
+  }
+  return out;
+}
+
+std::string variable_of(const std::string& option) {
+  std::string name = kPrefix;
+  for (const char c : option) {
+    name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+void refuse_unknown_variables(const std::vector<const OptionSet*>& all) {
+  std::set<std::string> known{"MW_PROGRAM", engine::codt::kWorkerVariable};
+  for (const OptionSet* options : all) {
+    for (const OptionSet::Entry& entry : options->entries()) {
+      if (!entry.option.only_flag) known.insert(variable_of(entry.option.name));
+    }
+  }
+  for (const std::string& name : set_variables()) {
+    if (known.contains(name) || name.starts_with("MW_TEST_")) continue;
+    throw Error(ErrorKind::kUsage,
+                name +
+                    ": no option has this environment variable; unset it, or see "
+                    "mwmesh mesh --help-all");
+  }
+}
+
+}  // namespace mw::cli

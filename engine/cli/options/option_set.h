@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// One list of options: flags, config keys, environment variables, defaults and help from one entry.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/json/json.h"
+
+namespace mw::cli {
+
+enum class ValueKind {
+  kText,
+  kInteger,
+  kNumber,
+  kNumberOrNone,
+  kNumberOrAuto,
+  kNumbers,  ///< X,Y,Z
+  kShape,    ///< X,Y,Z, integers
+  kBox,      ///< X0,Y0,Z0,X1,Y1,Z1, integers
+  kLabels,
+  kSize,
+  kSwitch,
+  kIntegerOrText,  ///< a string or, for TOML, an integer too
+};
+
+/// Where help lists an option.
+enum class Listed {
+  kInHelp,     ///< --help and --help-all
+  kInHelpAll,  ///< --help-all: for experts
+  kNowhere,    ///< an older name, which is still taken
+};
+
+/// Names of options and their values as text.
+using OptionTexts = std::vector<std::pair<std::string, std::string>>;
+
+struct Option {
+  std::string name;   ///< of the flag without dashes; the config key has '_' for '-'
+  std::string value;  ///< what help calls the value; nothing where it shows the choices
+  std::string help;   ///< one line
+  std::string group;  ///< the heading that help lists it under
+  ValueKind kind = ValueKind::kText;
+  std::string fallback;              ///< the default as text; empty: unset
+  std::vector<std::string> choices;  ///< the only texts allowed; empty: any of the kind
+  /// All names of the flag, in capitals that of an argument: "-o,--output"; empty: "--name".
+  std::string flags;
+  Listed listed = Listed::kInHelp;
+  bool required = false;
+  bool only_flag = false;  ///< neither a key nor a variable has it
+  /// Takes the value over.  ERRORS: mw::Error(kUsage) for one that is not allowed.
+  std::function<void(const std::string&)> assign;
+  /// Values of other options that this value stands for, where nothing else gives them.
+  std::function<OptionTexts(const std::string&)> implied;
+};
+
+/// The options of one command.  Each value comes from the strongest of: default < what another
+/// option implies < config file (the option "config") < environment (MW_NAME) < flag.
+class OptionSet {
+ public:
+  void add(Option option);
+
+  /// Finds and assigns every value, in the order of the list.  flags: values of those that were
+  /// given, by name; "true" of a switch.
+  /// ERRORS: mw::Error(kUsage) naming flag, variable, or file, line and key.
+  void resolve(const std::map<std::string, std::string>& flags);
+  /// REQUIRES (all that follow): resolve().
+  /// ERRORS: mw::Error(kUsage) naming the first required option without a value.
+  void require_all() const;
+  /// The effective value; empty: unset.  REQUIRES: an option of that name.
+  [[nodiscard]] const std::string& text(const std::string& name) const { return find(name).text; }
+  /// The effective values as a config file that gives the same ones.
+  [[nodiscard]] std::string toml() const;
+  /// The same as JSON; unset is null.
+  [[nodiscard]] io::Json json() const;
+
+  struct Entry {
+    Option option;
+    std::string text;   ///< effective, in canonical form; empty: unset
+    std::string where;  ///< "--window 41", "MW_WINDOW=41", "run.toml:3: window = 41"
+    bool is_given = false;
+  };
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+
+ private:
+  [[nodiscard]] Entry& find(const std::string& name);
+  [[nodiscard]] const Entry& find(const std::string& name) const;
+  void read_config(const std::filesystem::path& path);
+  void read_environment();
+  void read_flags(const std::map<std::string, std::string>& flags);
+  void read_implied();
+  static void settle(Entry& entry);
+
+  std::vector<Entry> entries_;
+};
+
+/// The variable of an option: MW_EDGE_VARIANCE for edge-variance.
+[[nodiscard]] std::string variable_of(const std::string& option);
+
+/// A variable MW_... that none of these read is a mistake, unless it is empty.  Those of tests and
+/// benchmarks, which run the program with them set, are not: MW_PROGRAM and MW_TEST_...
+/// ERRORS: mw::Error(kUsage) naming the first one.
+void refuse_unknown_variables(const std::vector<const OptionSet*>& all);
+
+/// Joined by what goes between.
+[[nodiscard]] std::string joined(const std::vector<std::string>& words, const std::string& between);
+
+}  // namespace mw::cli

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The forms of an option's value: text, TOML, JSON.
+#pragma once
+
+#include <toml++/toml.h>
+#include <optional>
+#include <string>
+
+#include "engine/cli/options/option_set.h"
+#include "io/json/json.h"
+
+namespace mw::cli {
+
+/// The text in one form for one value.  ERRORS: mw::Error(kUsage) when it is not of the kind.
+[[nodiscard]] std::string canonical_text(ValueKind kind, const std::string& text);
+
+/// A config file's value as text; nothing when its type is not the kind's.
+[[nodiscard]] std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node);
+
+/// What a config file holds for the kind, for messages: "an integer".
+[[nodiscard]] const char* toml_type(ValueKind kind);
+
+/// REQUIRES: canonical text.
+[[nodiscard]] std::string toml_of_text(ValueKind kind, const std::string& text);
+[[nodiscard]] io::Json json_of_text(ValueKind kind, const std::string& text);
+
+}  // namespace mw::cli

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Options that several commands have: settings, the machine, labels, meshes.
+#include "engine/cli/options/shared_options.h"
+
+#include "engine/cli/options/values.h"
+#include "engine/settings/setting_table.h"
+#include "io/mesh/open_mesh.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+using engine::SettingKind;
+
+constexpr int kMaxThreads = 1024;
+
+ValueKind value_kind(SettingKind kind) {
+  switch (kind) {
+    case SettingKind::kInteger:
+      return ValueKind::kInteger;
+    case SettingKind::kNumber:
+      return ValueKind::kNumber;
+    case SettingKind::kNumberOrNone:
+      return ValueKind::kNumberOrNone;
+    case SettingKind::kNumberOrAuto:
+      return ValueKind::kNumberOrAuto;
+    case SettingKind::kSwitch:
+      return ValueKind::kSwitch;
+    case SettingKind::kChoice:
+    case SettingKind::kSizes:
+      break;
+  }
+  return ValueKind::kText;
+}
+
+Option preset_option() {
+  Option out{.name = "preset",
+             .help = engine::kPresetHelp,
+             .group = kShapeGroup,
+             .fallback = engine::kDefaultPreset};
+  for (const engine::Preset& preset : engine::presets()) out.choices.push_back(preset.name);
+  out.implied = [](const std::string& text) {
+    const engine::Preset* preset = engine::find_preset(text);
+    return preset == nullptr ? OptionTexts() : preset->values;
+  };
+  return out;
+}
+
+int parse_threads(const std::string& text) {
+  const std::int64_t threads = parse_integer(text);
+  if (threads >= 0 && threads <= kMaxThreads) return static_cast<int>(threads);
+  throw Error(ErrorKind::kUsage,
+              "must be from 1 to " + std::to_string(kMaxThreads) + ", or 0 for all cores");
+}
+
+}  // namespace
+
+void add_setting_options(OptionSet& options, engine::MeshSettings& settings) {
+  options.add(preset_option());
+  for (const engine::Setting& setting : engine::setting_table()) {
+    options.add({.name = setting.name,
+                 .value = setting.value,
+                 .help = setting.help,
+                 .group = kShapeGroup,
+                 .kind = value_kind(setting.kind),
+                 .fallback = setting.text(engine::MeshSettings{}),
+                 .choices = setting.choices,
+                 .listed = setting.expert ? Listed::kInHelpAll : Listed::kInHelp,
+                 .assign = [&](const std::string& text) { set(setting, settings, text); }});
+  }
+}
+
+void add_resource_options(OptionSet& options, int& threads, std::optional<std::uint64_t>& memory,
+                          const std::string& budget) {
+  options.add({.name = "memory",
+               .value = "SIZE",
+               .help = budget + ", as 512MiB, 1.5G, 4GB [half of what is free]",
+               .group = kRunGroup,
+               .kind = ValueKind::kSize,
+               .assign = into(memory, parse_size)});
+  options.add({.name = "threads",
+               .value = "N",
+               .help = "worker threads; 0: all cores",
+               .group = kRunGroup,
+               .kind = ValueKind::kInteger,
+               .fallback = "0",
+               .assign = into(threads, parse_threads)});
+}
+
+void add_choice_options(OptionSet& options, engine::LabelChoice& choice) {
+  options.add({.name = "labels",
+               .value = "LIST",
+               .help = "labels of the mesh, as 1,2,5; the others are left out of it",
+               .group = kLabelGroup,
+               .kind = ValueKind::kLabels,
+               .assign = into(choice.labels, parse_labels)});
+  options.add({.name = "background",
+               .value = "L",
+               .help = "the label that is left out of the mesh",
+               .group = kLabelGroup,
+               .kind = ValueKind::kLabels,
+               .assign = into(choice.background, parse_label)});
+}
+
+void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what) {
+  options.add({.name = "mesh",
+               .value = "MESH",
+               .help = what,
+               .group = kInputGroup,
+               .flags = "MESH,--mesh",
+               .required = true,
+               .assign = into(mesh)});
+}
+
+std::string mesh_note() {
+  return "MESH: " + io::read_mesh_extensions() + ".\n";
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Options that several commands have: settings, the machine, labels, meshes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "engine/cli/options/option_set.h"
+#include "engine/output/label_choice.h"
+#include "engine/settings/settings.h"
+
+namespace mw::cli {
+
+/// Headings of help.
+inline constexpr const char* kInputGroup = "Input";
+inline constexpr const char* kLabelGroup = "What to mesh";
+inline constexpr const char* kShapeGroup = "Shape and size";
+inline constexpr const char* kRunGroup = "Run";
+inline constexpr const char* kOutputGroup = "Output";
+
+/// An option for each entry of engine::setting_table(), with the default of MeshSettings, and
+/// --preset.  Each value is checked as it is set, so that errors name its place.
+/// REQUIRES (all that follow): what is written to outlives options.
+void add_setting_options(OptionSet& options, engine::MeshSettings& settings);
+
+/// --memory and --threads.  threads: 0 for all cores; memory: empty unless given.  budget: what the
+/// memory is, for the help.
+void add_resource_options(OptionSet& options, int& threads, std::optional<std::uint64_t>& memory,
+                          const std::string& budget);
+
+/// --labels and --background.
+void add_choice_options(OptionSet& options, engine::LabelChoice& choice);
+
+/// The argument MESH.  what: what becomes of it.
+void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what);
+
+/// The formats of such meshes, for the end of help.
+[[nodiscard]] std::string mesh_note();
+
+}  // namespace mw::cli

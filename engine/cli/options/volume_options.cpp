@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Options about the input volume, shared by all subcommands that read one.
+#include "engine/cli/options/volume_options.h"
+
+#include <algorithm>
+
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
+#include "io/file/errors.h"
+#include "io/names/read_names.h"
+#include "io/volume/decode.h"
+#include "io/volume/file_space.h"
+#include "io/volume/open_volume.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+std::array<double, 3> parse_spacing(const std::string& text) {
+  const std::array<double, 3> spacing = parse_numbers(text);
+  if (*std::min_element(spacing.begin(), spacing.end()) > 0) return spacing;
+  throw Error(ErrorKind::kUsage, "spacing must be positive");
+}
+
+io::MergeRule parse_rule(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos) throw Error(ErrorKind::kUsage, "expected A,B=C, got '" + text + "'");
+  const std::string to = text.substr(equals + 1);
+  return {.from = parse_labels(text.substr(0, equals)),
+          .to = parse_label(to),
+          .to_is_negative = to.front() == '-'};
+}
+
+std::vector<io::MergeRule> parse_merge(const std::string& text) {
+  std::vector<io::MergeRule> rules;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    rules.push_back(parse_rule(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return rules;
+}
+
+io::SpeckRule parse_specks(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string joined = text.substr(slash);
+  const std::int64_t min = parse_integer(std::string_view(text).substr(0, slash));
+  const bool fits = min >= 1 && static_cast<std::uint64_t>(min) <= io::SpeckRule::kMax;
+  if (fits && (joined.empty() || joined == "/6" || joined == "/26")) {
+    return {.min = static_cast<std::uint64_t>(min), .diagonal = joined == "/26"};
+  }
+  throw Error(ErrorKind::kUsage, "expected voxels, from 1 on, or voxels/26");
+}
+
+void set_order(VolumeRequest& request, const std::string& text) {
+  request.order = text == "big" ? io::ByteOrder::kBig : io::ByteOrder::kLittle;
+}
+
+/// "u16", or "u16be" for the other byte order.
+void parse_dtype(VolumeRequest& request, const std::string& text) {
+  const bool is_big = text.ends_with("be"), has_order = is_big || text.ends_with("le");
+  request.type = io::parse_voxel_type(text.substr(0, text.size() - (has_order ? 2 : 0)));
+  if (!request.type) {
+    throw Error(ErrorKind::kUsage,
+                "expected u8 u16 u32 u64 i8 i16 i32 i64 f32 or f64; u16be is big-endian");
+  }
+  if (has_order) set_order(request, is_big ? "big" : "little");
+}
+
+void add_raw_options(OptionSet& options, VolumeRequest& request) {
+  options.add({.name = "shape",
+               .value = "X,Y,Z",
+               .help = "voxels along each axis; says that the file is raw",
+               .group = kInputGroup,
+               .kind = ValueKind::kShape,
+               .assign = into(request.shape, parse_shape)});
+  options.add({.name = "dtype",
+               .value = "TYPE",
+               .help = "voxels of a raw file: u8 to u64, i8 to i64, f32, f64; u16be: big-endian",
+               .group = kInputGroup,
+               .assign = [&](const std::string& text) { parse_dtype(request, text); }});
+  options.add({.name = "endian",
+               .choices = {"little", "big"},
+               .listed = Listed::kNowhere,
+               .assign = [&](const std::string& text) { set_order(request, text); }});
+}
+
+int parse_scale(const std::string& text) {
+  constexpr std::int64_t kMaxScale = 1000;
+  const std::int64_t scale = parse_integer(text);
+  if (scale >= 0 && scale <= kMaxScale) return static_cast<int>(scale);
+  throw Error(ErrorKind::kUsage, "expected a level from 0 (the finest) to 1000");
+}
+
+void add_place_options(OptionSet& options, VolumeRequest& request) {
+  options.add({.name = "spacing",
+               .value = "X,Y,Z",
+               .help = "spacing of voxels in physical units [the file's]",
+               .group = kInputGroup,
+               .kind = ValueKind::kNumbers,
+               .assign = into(request.spacing, parse_spacing)});
+  options.add({.name = "origin",
+               .value = "X,Y,Z",
+               .help = "where the first corner of the volume, or of --crop, lies [the file's]",
+               .group = kInputGroup,
+               .kind = ValueKind::kNumbers,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.origin, parse_numbers)});
+  options.add({.name = "frame",
+               .value = "FRAME",
+               .help = "world: file, its own; ras or lps; voxel, spacing times corner",
+               .group = kInputGroup,
+               .fallback = "file",
+               .choices = {"file", "ras", "lps", "voxel"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.frame, [](const std::string& text) {
+                 return io::parse_frame_choice(text).value();
+               })});
+}
+
+void add_array_options(OptionSet& options, VolumeRequest& request) {
+  options.add({.name = "dataset",
+               .value = "PATH",
+               .help = "array of several, of " + io::formats_with_datasets(),
+               .group = kInputGroup,
+               .assign = into(request.dataset)});
+  options.add({.name = "scale",
+               .value = "N",
+               .help = "resolution level, 0 the finest, of " + io::formats_with_scales(),
+               .group = kInputGroup,
+               .kind = ValueKind::kInteger,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.scale, parse_scale)});
+}
+
+}  // namespace
+
+void add_step_options(OptionSet& options, VolumeRequest& request) {
+  options.add({.name = "merge",
+               .value = "A,B=C;D=E",
+               .help = "labels A and B become C, then D becomes E",
+               .group = kLabelGroup,
+               .assign = into(request.steps.merge, parse_merge)});
+  options.add({.name = "drop-specks",
+               .value = "N",
+               .help = "components below N voxels join a neighbour; N/26: corners join them, too",
+               .group = kLabelGroup,
+               .kind = ValueKind::kIntegerOrText,
+               .assign = into(request.steps.specks, parse_specks)});
+  options.add({.name = "names",
+               .value = "FILE",
+               .help = "names and colours: ITK-SNAP, FreeSurfer or Slicer table, or CSV id,name",
+               .group = kLabelGroup,
+               .assign = into(request.names)});
+}
+
+void add_input_option(OptionSet& options, std::filesystem::path& path) {
+  options.add({.name = "input",
+               .value = "INPUT",
+               .help = "labelled volume: a file or a folder; raw with --shape and --dtype",
+               .group = kInputGroup,
+               .flags = "INPUT,--input",
+               .required = true,
+               .assign = into(path)});
+}
+
+void add_volume_options(OptionSet& options, VolumeRequest& request) {
+  add_place_options(options, request);
+  add_raw_options(options, request);
+  add_array_options(options, request);
+  options.add({.name = "crop",
+               .value = "X0,Y0,Z0,X1,Y1,Z1",
+               .help = "the box from the first voxel to before the second",
+               .group = kInputGroup,
+               .kind = ValueKind::kBox,
+               .assign = into(request.crop, parse_box)});
+}
+
+std::string volume_note() {
+  return io::text("Volumes: ", io::volume_endings(), ",\nand folders: ", io::volume_folders(),
+                  ".\n");
+}
+
+namespace {
+
+io::RawLayout raw_layout(const VolumeRequest& request) {
+  if (!request.type) throw Error(ErrorKind::kUsage, "--shape: a raw file needs --dtype as well");
+  return {.shape = *request.shape,
+          .type = *request.type,
+          .order = request.order.value_or(io::ByteOrder::kLittle)};
+}
+
+}  // namespace
+
+io::OpenOptions open_options(const VolumeRequest& request) {
+  io::OpenOptions options{.spacing = request.spacing,
+                          .origin = request.origin,
+                          .frame = request.frame,
+                          .dataset = request.dataset,
+                          .scale = request.scale,
+                          .crop = request.crop,
+                          .cache_bytes = request.cache_bytes};
+  if (request.shape) {
+    options.raw = raw_layout(request);
+  } else if (request.type || request.order) {
+    throw Error(ErrorKind::kUsage, "--dtype is for raw files, which need --shape");
+  }
+  return options;
+}
+
+std::uint64_t cache_bytes(std::uint64_t memory) {
+  constexpr std::uint64_t kMax = 1ULL << 30U;
+  return std::min(memory / 4, kMax);
+}
+
+std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request) {
+  auto volume = io::open_volume(request.path, open_options(request));
+  if (request.names.empty()) return volume;
+  return std::make_unique<io::NamedVolume>(std::move(volume), io::read_names(request.names));
+}
+
+}  // namespace mw::cli

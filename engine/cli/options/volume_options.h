@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Options about the input volume, shared by all subcommands that read one.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/cli/options/option_set.h"
+#include "io/labels/prepared_input.h"
+#include "io/volume/open_options.h"
+
+namespace mw::cli {
+
+/// What the user said about a volume.
+struct VolumeRequest {
+  std::filesystem::path path;
+  std::optional<std::array<double, 3>> spacing;
+  std::optional<std::array<double, 3>> origin;
+  std::optional<Index3> shape;
+  std::optional<io::VoxelType> type;
+  std::optional<io::ByteOrder> order;
+  io::FrameChoice frame = io::FrameChoice::kFile;
+  std::string dataset;
+  std::optional<int> scale;
+  std::optional<Box3> crop;
+  io::InputSteps steps;  ///< what is done with the labels that were opened
+  /// Of unpacked chunks that a chunked volume may keep.
+  std::uint64_t cache_bytes = io::OpenOptions{}.cache_bytes;
+  std::filesystem::path names;  ///< of labels; empty: only those in the volume's file
+};
+
+/// The argument INPUT.
+void add_input_option(OptionSet& options, std::filesystem::path& path);
+
+/// --spacing --origin --frame; --shape --dtype for raw files; --dataset --scale for files of
+/// several arrays; --crop.
+void add_volume_options(OptionSet& options, VolumeRequest& request);
+
+/// --merge --drop-specks --names: what is done with the labels before all else (io::PreparedInput),
+/// and what they are called.
+void add_step_options(OptionSet& options, VolumeRequest& request);
+
+/// The formats of volumes, for the end of help.
+[[nodiscard]] std::string volume_note();
+
+/// ERRORS: mw::Error(kUsage) when values contradict each other.
+[[nodiscard]] io::OpenOptions open_options(const VolumeRequest& request);
+
+/// open_volume of the request, and the names of its labels; its steps are left to
+/// io::PreparedInput.
+[[nodiscard]] std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request);
+
+/// What a chunked volume may keep of its file while labels are read: nothing else needs much then.
+[[nodiscard]] std::uint64_t cache_bytes(std::uint64_t memory);
+
+}  // namespace mw::cli
