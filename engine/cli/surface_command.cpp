@@ -3,6 +3,7 @@
 // mwmesh surface: where labels of a mesh meet, as triangles.
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/report_names.h"
 #include "engine/cli/surface_output.h"

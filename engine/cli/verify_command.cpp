@@ -3,6 +3,7 @@
 // mwmesh verify: promises P1 to P4 and P8 of a finished mesh, independently of how it was made.
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/options/shared_options.h"
 #include "engine/cli/verify_request.h"
 #include "engine/job/verify_job.h"
 #include "engine/report/mesh_facts.h"

@@ -35,7 +35,7 @@ TEST_F(ConfigTest, StrongestSourceWins) {
 
 /// A setting is one entry of a table: flag, variable and config key are there, and its help.
 TEST_F(ConfigTest, EverySettingComesFromFlagVariableAndFile) {
-  const std::string help = run("mesh --help").out;
+  const std::string help = run("mesh --help-all").out;
   for (const engine::Setting& setting : engine::setting_table()) {
     const std::string text = engine::test::samples(setting).good.front();
     std::string key = setting.name;
@@ -52,6 +52,22 @@ TEST_F(ConfigTest, EverySettingComesFromFlagVariableAndFile) {
     EXPECT_EQ(printed, line(key, "--config one.toml")) << key;
     EXPECT_NE(help.find(setting.help), std::string::npos) << flag;
   }
+}
+
+/// Weaker than everything that is said of a setting itself, wherever.
+TEST_F(ConfigTest, PresetsAreRowsOfValues) {
+  EXPECT_EQ(line("surface", "--preset draft"), "surface = \"voxel\"");
+  EXPECT_EQ(line("max_distance", "--preset draft"), "max_distance = \"none\"");
+  EXPECT_EQ(line("max_distance", "--preset fine"), "max_distance = 1");
+  EXPECT_EQ(line("max_distance", "--preset default"), line("max_distance", ""));
+  EXPECT_EQ(line("max_distance", "--preset draft --max-distance 2"), "max_distance = 2");
+  EXPECT_EQ(line("max_distance", "--preset draft", "MW_MAX_DISTANCE=3"), "max_distance = 3");
+  EXPECT_EQ(line("max_distance", "", "MW_PRESET=draft"), "max_distance = \"none\"");
+  EXPECT_EQ(line("max_distance", "--preset fine", "MW_PRESET=draft"), "max_distance = 1");
+  write("c.toml", "preset = \"draft\"\nsurface = \"smooth\"\n");
+  EXPECT_EQ(line("surface", "--config c.toml"), "surface = \"smooth\"");
+  EXPECT_EQ(line("max_distance", "--config c.toml"), "max_distance = \"none\"");
+  expect_failure(2, "mesh --preset best", "--preset best: expected one of draft, default, fine");
 }
 
 TEST_F(ConfigTest, EveryKindOfValueSurvivesPrinting) {

@@ -36,7 +36,7 @@ TEST_F(FewThreads, AreEnoughForEveryOtherCommand) {
   make_volume();
   expect_done("mesh v.npy -o m.vtkhdf");
   expect_done("verify v.npy m.vtkhdf", with_threads(0));
-  expect_done("stats m.vtkhdf v.npy", with_threads(0));
+  expect_done("info m.vtkhdf v.npy --betti", with_threads(0));
   expect_done("convert m.vtkhdf m.vtu", with_threads(0));
   expect_done("digest m.vtkhdf", with_threads(0));
   expect_done("info m.vtkhdf", with_threads(0));

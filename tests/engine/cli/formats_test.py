@@ -372,7 +372,7 @@ class Formats(unittest.TestCase):
 
     def test_raw(self):
         self.labels.astype(">u4").tofile("a.raw")
-        self.check("a.raw", "--shape", "26,18,21", "--dtype", "u32", "--endian", "big", *PLACE)
+        self.check("a.raw", "--shape", "26,18,21", "--dtype", "u32be", *PLACE)
 
     def test_part_of_a_volume(self):
         big = numpy.zeros((25, 24, 30), numpy.uint16)

@@ -88,7 +88,7 @@ class Picture(unittest.TestCase):
 
     def test_colours_are_where_the_labels_are(self):
         self.halves()
-        out = draw("h.vtu", "h.png", "--view", "z", "--size", "200x160", "--cut", "z=0.5")
+        out = draw("h.vtu", "h.png", "--view", "z", "--pixels", "200x160", "--cut", "z=0.5")
         self.assertNotIn("left out", out)
         image = read_png("h.png")
         self.assertEqual(image.shape, (160, 200, 3))
@@ -102,7 +102,7 @@ class Picture(unittest.TestCase):
 
     def test_lit_faces_keep_their_hue(self):
         self.halves()
-        draw("h.vtu", "h.png", "--view", "z", "--size", "100x100")
+        draw("h.vtu", "h.png", "--view", "z", "--pixels", "100x100")
         seen = read_png("h.png")[50, 20].astype(float)
         shares = seen / numpy.array(BLUE)
         self.assertLess(shares.max() - shares.min(), 0.02)
@@ -111,7 +111,7 @@ class Picture(unittest.TestCase):
     def test_edges_darken(self):
         self.halves()
         for edges in ("on", "off"):
-            run("picture", "h.vtu", "-o", edges + ".png", "--view", "z", "--size", "300x300",
+            run("picture", "h.vtu", "-o", edges + ".png", "--view", "z", "--pixels", "300x300",
                 "--edges", edges)
         with_edges, without = read_png("on.png").astype(int), read_png("off.png").astype(int)
         self.assertTrue((with_edges <= without).all())
@@ -120,7 +120,7 @@ class Picture(unittest.TestCase):
 
     def test_only_the_labels_asked_for(self):
         self.halves()
-        draw("h.vtu", "one.png", "--label", "2", "--view", "z", "--cut", "z=0.5", "--size", "100x100")
+        draw("h.vtu", "one.png", "--labels", "2", "--view", "z", "--cut", "z=0.5", "--pixels", "100x100")
         image = read_png("one.png")
         self.assertEqual(count(image, BLUE), 0)
         # 8 x 20 voxels, of which 20 fill the height.
@@ -128,7 +128,7 @@ class Picture(unittest.TestCase):
 
     def test_transparent_where_nothing_is(self):
         self.halves()
-        run("picture", "h.vtu", "-o", "t.png", "--transparent", "--view", "z", "--size", "100x100")
+        run("picture", "h.vtu", "-o", "t.png", "--transparent", "--view", "z", "--pixels", "100x100")
         image = read_png("t.png")
         self.assertEqual(image.shape, (100, 100, 4))
         self.assertEqual(image[0, 0, 3], 0)
@@ -140,10 +140,10 @@ class Picture(unittest.TestCase):
         labels[4:12, 4:12, 4:12] = 2
         numpy.save("b.npy", labels)
         run("mesh", "b.npy", "-o", "b.vtu")
-        out = draw("b.vtu", "b.png", "--cut", "y=0.5", "--size", "80x80")
+        out = draw("b.vtu", "b.png", "--cut", "y=0.5", "--pixels", "80x80")
         self.assertIn("left out    label 0", out)
         self.assertGreater(count(read_png("b.png"), ORANGE), 1000)
-        out = draw("b.vtu", "b.png", "--cut", "y=0.5", "--size", "80x80", "--label", "0,2")
+        out = draw("b.vtu", "b.png", "--cut", "y=0.5", "--pixels", "80x80", "--labels", "0,2")
         self.assertNotIn("left out", out)
         self.assertGreater(count(read_png("b.png"), (186, 176, 172)), count(read_png("b.png"), ORANGE))
 
@@ -151,7 +151,7 @@ class Picture(unittest.TestCase):
         self.halves()
         with open("names.csv", "w", encoding="utf-8") as file:
             file.write("id,name,r,g,b\n1,left,10,200,30\n")
-        draw("h.vtu", "n.png", "--names", "names.csv", "--cut", "z=0.5", "--size", "80x80")
+        draw("h.vtu", "n.png", "--names", "names.csv", "--cut", "z=0.5", "--pixels", "80x80")
         self.assertGreater(count(read_png("n.png"), (10, 200, 30)), 500)
 
     def test_same_bytes_from_every_format(self):
@@ -160,7 +160,7 @@ class Picture(unittest.TestCase):
         pictures = set()
         for mesh in ("v.vtu", "v.vtkhdf", "v.mesh", "v.vtu"):
             run("convert", "v.vtu", mesh) if not os.path.exists(mesh) else None
-            run("picture", mesh, "-o", "v.png", "--cut", "x=0.4", "--size", "200x150")
+            run("picture", mesh, "-o", "v.png", "--cut", "x=0.4", "--pixels", "200x150")
             with open("v.png", "rb") as file:
                 pictures.add(file.read())
         self.assertEqual(len(pictures), 1)
@@ -176,12 +176,12 @@ class Picture(unittest.TestCase):
                 file.write("\n".join(lines[:first] + [place] + lines[first + 1 :]))
         before = set(os.listdir("."))
         for code, piece, *arguments in (
-            (2, "--label: the mesh has no label 7", "h.vtu", "-o", "p.png", "--label", "7"),
+            (2, "--labels: the mesh has no label 7", "h.vtu", "-o", "p.png", "--labels", "7"),
             (2, "x=SHARE", "h.vtu", "-o", "p.png", "--cut", "w=0.5"),
             (2, "0 to 1", "h.vtu", "-o", "p.png", "--cut", "x=1.5"),
             (2, "AZIMUTH", "h.vtu", "-o", "p.png", "--view", "behind"),
             (2, "-90 to 90", "h.vtu", "-o", "p.png", "--view", "0,91"),
-            (2, "8192", "h.vtu", "-o", "p.png", "--size", "9000x10"),
+            (2, "8192", "h.vtu", "-o", "p.png", "--pixels", "9000x10"),
             (2, ".png", "h.vtu", "-o", "p.jpg"),
             (2, "MESH", "-o", "p.png"),
             (3, "no.vtu", "no.vtu", "-o", "p.png"),

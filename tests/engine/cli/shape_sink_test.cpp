@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Figures of a mesh that streams by, against those of the same mesh in memory.
-#include "engine/cli/shape_sink.h"
+#include "engine/cli/info/shape_sink.h"
 
 #include <gtest/gtest.h>
 

@@ -66,8 +66,8 @@ class Sizes(unittest.TestCase):
         with open("more.csv", "w", encoding="utf-8") as file:
             file.write(f"# two more\nlabel,size\n{second}, 2.5\n{third},1.5\n")
         limits = {first: 2.0, second: 2.5, third: 1.5}
-        mesh = self.mesh("m.vtu", "--size", f"{first}=2", "--size-file", "more.csv")
-        self.assertEqual(self.report["settings"]["size"], f"{first}=2")
+        mesh = self.mesh("m.vtu", "--size", f"{first}=2,@more.csv")
+        self.assertEqual(self.report["settings"]["size"], f"{first}=2,@more.csv")
         rows = {row["label"]: row for row in self.report["shape"]["per_label"]}
         for label, limit in limits.items():
             longest = mesh.longest(label)
@@ -114,8 +114,8 @@ class Sizes(unittest.TestCase):
                             (f"{label},3\n2,x\n", "line 2: expected a finite number")):
             with open("bad.csv", "w", encoding="utf-8") as file:
                 file.write(text)
-            self.refused(3, "bad.csv: " + piece, "--size-file", "bad.csv")
-        self.refused(3, "none.csv", "--size-file", "none.csv")
+            self.refused(3, "bad.csv: " + piece, "--size", "@bad.csv")
+        self.refused(3, "none.csv", "--size", "@none.csv")
         with open("twice.csv", "w", encoding="utf-8") as file:
             file.write(f"{label},3\n")
         self.refused(2, "two sizes", "--size-file", "twice.csv", "--size", f"{label}=3")

@@ -24,11 +24,11 @@ TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
   expect_failure(2, "surface m.vtu -o s --unit ft", "--unit ft");
   expect_failure(2, "surface m.vtu -o 's/{label}'", "all labels");
   expect_failure(2, "surface m.vtu -o s --pair 1,2", "--pair");
-  expect_failure(2, "surface m.vtu -o s.stl --pair 1,2 --label 1", "--pair");
+  expect_failure(2, "surface m.vtu -o s.stl --pair 1,2 --labels 1", "--pair");
   expect_failure(2, "surface m.vtu -o '{label}.stl' --pair 1,2", "--pair");
   expect_failure(2, "surface m.vtu -o s.stl --pair 1", "--pair 1");
   expect_failure(2, "surface m.vtu -o s.stl --pair 3,3", "--pair 3,3");
-  expect_failure(2, "surface m.vtu -o s.stl --label x", "--label x");
+  expect_failure(2, "surface m.vtu -o s.stl --labels x", "--labels x");
   expect_failure(2, "surface m.vtu", "output");
   expect_failure(3, "surface m.vtu -o s.stl", "m.vtu");
   expect_failure(3, "surface m.vtu -o s", "m.vtu");
@@ -36,10 +36,10 @@ TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
 
 TEST_F(SurfaceCommand, RefusesWhatTheMeshDoesNotHave) {
   make_mesh();
-  expect_failure(2, "surface v.vtu -o s.stl --label 77", "no label 77; mwmesh info v.vtu");
+  expect_failure(2, "surface v.vtu -o s.stl --labels 77", "no label 77; mwmesh info v.vtu");
   expect_failure(2, "surface v.vtu -o s.stl --pair 77,1", "no label 77");
-  expect_failure(2, "surface v.vtu -o 's/{label}.stl' --each --label 77", "no label 77");
-  expect_failure(2, "surface v.vtu -o s --label 77", "no label 77");
+  expect_failure(2, "surface v.vtu -o 's/{label}.stl' --each --labels 77", "no label 77");
+  expect_failure(2, "surface v.vtu -o s --labels 77", "no label 77");
   write("x", "");
   expect_failure(2, "surface v.vtu -o x", "folder");
   expect_failure(2, "surface v.vtu -o missing/s.stl", "missing/s.stl");
@@ -52,23 +52,23 @@ TEST_F(SurfaceCommand, AMeshOfOneLabelHasItsSurfaceAlone) {
   expect_done("mesh v.npy -o v.vtu");
   expect_failure(2, "surface v.vtu -o s.stl", "no interfaces");
   expect_failure(2, "surface v.vtu -o s.stl --manifold", "no interfaces");
-  expect_failure(2, "surface v.vtu -o s.stl --label 1 --open", "no interfaces");
+  expect_failure(2, "surface v.vtu -o s.stl --labels 1 --open", "no interfaces");
   expect_failure(2, "surface v.vtu -o '{label}.stl' --each --open", "no interfaces");
-  expect_done("surface v.vtu -o s.stl --label 1");
+  expect_done("surface v.vtu -o s.stl --labels 1");
 }
 
 TEST_F(SurfaceCommand, FilesAreTheSameEachTimeAndFromEveryMesh) {
   make_mesh();
   expect_done("convert v.vtu v.mesh");
-  for (const std::string what : {"", " --label 1,2 --manifold", " --pair 1,2", " --manifold"}) {
+  for (const std::string what : {"", " --labels 1,2 --manifold", " --pair 1,2", " --manifold"}) {
     expect_done("surface v.vtu -o a.ply" + what);
     expect_done("surface v.vtu -o b.ply" + what);
     expect_done("surface v.mesh -o c.ply" + what);
     EXPECT_EQ(read("a.ply"), read("b.ply")) << what;
     EXPECT_EQ(read("a.ply"), read("c.ply")) << what;
   }
-  expect_done("surface v.vtu -o a --format draco --label 1,2");
-  expect_done("surface v.vtu -o b --format draco --label 2,1");
+  expect_done("surface v.vtu -o a --format draco --labels 1,2");
+  expect_done("surface v.vtu -o b --format draco --labels 2,1");
   for (const std::string file : {"/info", "/1", "/1.index", "/2", "/2.index"}) {
     EXPECT_FALSE(read("a" + file).empty()) << file;
     EXPECT_EQ(read("a" + file), read("b" + file)) << file;

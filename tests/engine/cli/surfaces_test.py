@@ -101,14 +101,14 @@ class Surfaces(unittest.TestCase):
 
     def test_a_label_is_closed_and_the_same_in_every_format(self):
         for label in (1, 2, 3):
-            run("surface", "v.vtu", "--label", label, "-o", "label.ply")
+            run("surface", "v.vtu", "--labels", label, "-o", "label.ply")
             expected = read("label.ply")
             corners = points_of(expected)[triangles_of(expected)]
             self.assertEqual(wrong_edges(expected, manifold=False), 0)
             volume = volume_of(points_of(expected), triangles_of(expected))
             self.assertAlmostEqual(volume / self.volumes[label], 1, places=6)
             for extension in (".stl", ".ply"):
-                run("surface", "v.vtu", "--label", label, "-o", "one" + extension)
+                run("surface", "v.vtu", "--labels", label, "-o", "one" + extension)
                 poly = read("one" + extension)
                 found = points_of(poly)[triangles_of(poly)]
                 np.testing.assert_allclose(found, corners, atol=1e-5, err_msg=extension)
@@ -118,7 +118,7 @@ class Surfaces(unittest.TestCase):
                 )
 
     def test_volumes_by_vtk(self):
-        run("surface", "v.vtu", "--label", 2, "-o", "two.ply")
+        run("surface", "v.vtu", "--labels", 2, "-o", "two.ply")
         properties = vtkMassProperties()
         properties.SetInputData(read("two.ply"))
         self.assertAlmostEqual(properties.GetVolume() / self.volumes[2], 1, places=5)
@@ -145,19 +145,19 @@ class Surfaces(unittest.TestCase):
             np.testing.assert_array_equal(pair_corners, corners[some])
 
     def test_sides_of_the_box(self):
-        run("surface", "v.vtu", "--label", 1, "-o", "one.ply")
+        run("surface", "v.vtu", "--labels", 1, "-o", "one.ply")
         poly = read("one.ply")
         corners = points_of(poly)[triangles_of(poly)]
         on_side = ((corners == 0).all(axis=1) | (corners == 24).all(axis=1)).any(axis=1)
         self.assertTrue(on_side.any())
-        run("surface", "v.vtu", "--label", 1, "--open", "-o", "open.ply")
+        run("surface", "v.vtu", "--labels", 1, "--open", "-o", "open.ply")
         opened = read("open.ply")
         np.testing.assert_array_equal(
             points_of(opened)[triangles_of(opened)], corners[~on_side]
         )
 
     def test_colours(self):
-        run("surface", "v.vtu", "--label", "1,2,3", "-o", "some.ply")
+        run("surface", "v.vtu", "--labels", "1,2,3", "-o", "some.ply")
         poly = read("some.ply")
         points = vtk_to_numpy(poly.GetPointData().GetArray("RGB"))
         labels = meshio.read("some.ply").point_data["label"]
@@ -171,10 +171,10 @@ class Surfaces(unittest.TestCase):
             facts = json.loads(run("info", mesh + ".vtu", "--json"))
             touching = 0
             for row in facts["volume"]["per_label"]:
-                run("surface", mesh + ".vtu", "--label", row["label"], "-o", "as_is.ply")
+                run("surface", mesh + ".vtu", "--labels", row["label"], "-o", "as_is.ply")
                 touching += wrong_edges(read("as_is.ply"))
                 out = "parted.ply"
-                run("surface", mesh + ".vtu", "--label", row["label"], "--manifold", "-o", out)
+                run("surface", mesh + ".vtu", "--labels", row["label"], "--manifold", "-o", out)
                 poly = read(out)
                 self.assertEqual(wrong_edges(poly), 0, (mesh, row["label"]))
                 volume = volume_of(points_of(poly), triangles_of(poly))

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Bad usage and bad input: exit codes, messages, nothing left behind.
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
 #include "tests/engine/cli/run_program.h"
 
 namespace mw::cli {
@@ -8,18 +12,59 @@ namespace {
 
 class UsageTest : public ProgramTest {};
 
-TEST_F(UsageTest, SaysItsVersionAndHelp) {
+TEST_F(UsageTest, SaysItsVersion) {
   EXPECT_EQ(run("--version").out.substr(0, 7), "mwmesh ");
-  EXPECT_EQ(run("mesh --version").code, 0);
-  const ProgramRun help = run("mesh --help");
-  EXPECT_EQ(help.code, 0);
-  EXPECT_NE(help.out.find("--edge-variance"), std::string::npos);
+  EXPECT_EQ(run("-v").out, run("--version").out);
+  EXPECT_EQ(run("mesh --version").out, run("--version").out);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) out.push_back(line);
+  return out;
+}
+
+TEST_F(UsageTest, HelpIsOneLineAnOption) {
+  std::vector<std::string> commands;
+  for (const std::string& line : lines_of(run("help").out)) {
+    if (line.starts_with("  ")) commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+  }
+  ASSERT_EQ(commands.size(), 8U);
+  for (const std::string& command : commands) {
+    EXPECT_EQ(run("help " + command).out, run(command + " --help").out) << command;
+    for (const std::string& line : lines_of(run(command + " --help-all").out)) {
+      EXPECT_LE(line.size(), 100U) << command << ": " << line;
+    }
+  }
+}
+
+TEST_F(UsageTest, HelpOfMeshIsShort) {
+  const std::vector<std::string> lines = lines_of(run("mesh --help").out);
+  EXPECT_LE(lines.size(), 45U);
+  const auto is_option = [](const std::string& line) { return line.starts_with("  "); };
+  EXPECT_LE(std::count_if(lines.begin(), lines.end(), is_option), 24);
+  for (const char* group : {"Input:", "What to mesh:", "Shape and size:", "Run:", "Output:"}) {
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), group), 1) << group;
+  }
+  const std::string all = run("mesh --help-all").out;
+  EXPECT_NE(all.find("--edge-variance"), std::string::npos);
+  EXPECT_EQ(run("mesh --help").out.find("--edge-variance"), std::string::npos);
+}
+
+TEST_F(UsageTest, UnknownCommandsAndFlagsAreNamed) {
+  expect_failure(2, "mehs seg.nii.gz -o o.vtu", "mehs: unknown command; see mwmesh --help");
+  expect_failure(2, "help mehs", "mehs: unknown command");
+  expect_failure(2, "mesh v.npy -o v.vtu --windwo=16",
+                 "--windwo: unknown flag; see mwmesh mesh --help");
+  // Though a flag that must be there is missing then.
+  expect_failure(2, "synth voronoi --shap 3,3,3 --labels 2 --seed 1 -o w.npy",
+                 "--shap: unknown flag");
 }
 
 TEST_F(UsageTest, RefusesUnknownWords) {
   make_volume();
-  expect_failure(2, "", "subcommand");
-  expect_failure(2, "mash", "mash");
+  expect_failure(2, "", "a command is needed");
   expect_failure(2, "mesh v.npy -o v.vtu --foo", "--foo");
   expect_failure(2, "mesh v.npy -o v.vtu extra", "extra");
   expect_failure(2, "synth cubes --shape 3,3,3 --labels 2 --seed 1 -o w.npy", "cubes");
@@ -138,6 +183,42 @@ TEST_F(UsageTest, CoordinatesThatCannotBeToldApart) {
     expect_done("mesh v.npy -o v.vtu " + position);
     expect_done("verify v.npy v.vtu " + position);
   }
+}
+
+TEST_F(UsageTest, VariablesWhateverTheSubcommand) {
+  make_volume();
+  for (const std::string words : {"mesh --print-config", "info v.npy", "digest v.vtu",
+                                  "synth voronoi --shape 3,3,3 --labels 2 --seed 1 -o w.npy"}) {
+    expect_failure(2, words, "MW_THREDS: no option has this environment variable; unset it, or see",
+                   "MW_THREDS=2");
+    expect_failure(2, words, "MW_FOO: no option", "MW_FOO=1");
+    expect_failure(2, words, "MW_: no option", "MW_=1");
+  }
+}
+
+TEST_F(UsageTest, VariablesOfOtherSubcommandsAreFine) {
+  make_volume();
+  expect_done("info v.npy", "MW_THREADS=2");
+  expect_done("mesh --print-config", "MW_MAX_VOLUME_ERROR=0.1");
+  expect_done("info v.npy", "MW_CODT_WORKER=/nowhere");
+  expect_done("info v.npy", "MW_PROGRAM=mwmesh MW_TEST_KILLS=3 MWFOO=1 MW_EMPTY=");
+  expect_done("--version", "MW_FOO=1");
+}
+
+/// A flag that has no variable: setting one would change nothing.
+TEST_F(UsageTest, VariablesOfFlagsThatHaveNone) {
+  make_volume();
+  expect_failure(2, "info v.npy", "MW_JSON: no option", "MW_JSON=1");
+  expect_failure(2, "mesh --print-config", "MW_CONFIG: no option", "MW_CONFIG=c.toml");
+}
+
+TEST_F(UsageTest, SizesAsPeopleWriteThem) {
+  EXPECT_NE(run("mesh --print-config --memory 1.5g").out.find("memory = \"1.5g\"\n"),
+            std::string::npos);
+  make_volume();
+  expect_done("mesh v.npy -o v.vtu --memory 1G --report r.json");
+  EXPECT_NE(read("r.json").find("\"memory_budget_bytes\": 1073741824"), std::string::npos);
+  expect_failure(2, "mesh v.npy -o w.vtu --memory 1X", "--memory 1X: expected a size such as 512M");
 }
 
 }  // namespace

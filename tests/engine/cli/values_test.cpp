@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Sizes as people write them.
-#include "engine/cli/values.h"
+#include "engine/cli/options/values.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // Promise 6 of `info`: what measures a mesh that streams by does not grow with it.
 #include <gtest/gtest.h>
 
-#include "engine/cli/shape_sink.h"
+#include "engine/cli/info/shape_sink.h"
 #include "io/file/scratch/scratch_file.h"
 #include "tests/engine/memory/counted_memory.h"
 

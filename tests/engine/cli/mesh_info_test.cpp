@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// mwmesh stats against sums over the mesh and the voxels that are made here.
+// mwmesh info of a mesh against sums over the mesh and the voxels that are made here.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,10 +18,10 @@ using io::Position;
 using nlohmann::json;
 using Triangle = std::array<std::uint64_t, 3>;
 
-class StatsTest : public ProgramTest {
+class MeshInfoTest : public ProgramTest {
  protected:
   [[nodiscard]] json stats(const std::string& arguments) const {
-    const ProgramRun result = run("stats " + arguments + " --json");
+    const ProgramRun result = run("info " + arguments + " --betti --contacts --json");
     EXPECT_EQ(result.code, 0) << result.err;
     return json::parse(result.out);
   }
@@ -60,7 +60,7 @@ std::map<std::pair<RawLabel, RawLabel>, double> areas_of(const io::MeshData& mes
   return areas;
 }
 
-TEST_F(StatsTest, AgreeWithBruteForce) {
+TEST_F(MeshInfoTest, AgreeWithBruteForce) {
   expect_done("synth voronoi --shape 30,26,22 --labels 9 --seed 5 -o v.npy");
   expect_done("mesh v.npy --spacing 2,1,1.5 --origin=-7,3,1e3 --topology interfaces -o m.vtu");
   const io::MeshData mesh = io::read_mesh(folder() / "m.vtu");
@@ -72,7 +72,7 @@ TEST_F(StatsTest, AgreeWithBruteForce) {
     surface[pair.first] += area;
     if (pair.second != pair.first) surface[pair.second] += area;
   }
-  for (const json& row : found["labels"]) {
+  for (const json& row : found["volume"]["per_label"]) {
     const RawLabel label = row["label"];
     EXPECT_EQ(row["tets"], std::count(mesh.labels.begin(), mesh.labels.end(), label));
     EXPECT_NEAR(row["area"], surface.at(label), 1e-9 * surface.at(label));
@@ -99,8 +99,8 @@ TEST_F(StatsTest, AgreeWithBruteForce) {
   }
 }
 
-/// With --topology labels a contact may go; then stats still names it.
-TEST_F(StatsTest, NoContactOfTheVoxelsIsMissing) {
+/// With --topology labels a contact may go; then info still names it.
+TEST_F(MeshInfoTest, NoContactOfTheVoxelsIsMissing) {
   expect_done("synth noise --shape 9,8,7 --labels 4 --seed 3 -o v.npy");
   expect_done("mesh v.npy -o m.vtkhdf");
   const auto volume = io::open_volume(folder() / "v.npy");
@@ -127,7 +127,7 @@ TEST_F(StatsTest, NoContactOfTheVoxelsIsMissing) {
 }
 
 /// A shell, a ring, and what is in and around them.
-TEST_F(StatsTest, CountsComponentsTunnelsAndCavities) {
+TEST_F(MeshInfoTest, CountsComponentsTunnelsAndCavities) {
   std::string voxels;
   const auto label_at = [](int x, int y, int z) {
     const bool shell = std::max({std::abs(x - 6), std::abs(y - 6), std::abs(z - 6)}) == 3;
@@ -141,28 +141,30 @@ TEST_F(StatsTest, CountsComponentsTunnelsAndCavities) {
   }
   write("v.raw", voxels);
   expect_done("mesh v.raw --shape 13,13,19 --dtype u8 -o m.mesh");
-  const json rows = stats("m.mesh")["labels"];
+  const json rows = stats("m.mesh")["volume"]["per_label"];
   EXPECT_EQ(rows[0]["components"], 2);
   // What hangs in it, shell and ring, are two cavities; the ring is a tunnel, too.
   EXPECT_EQ(rows[0]["betti_closed"], json({2, 1, 2}));
   EXPECT_EQ(rows[1]["betti_closed"], json({1, 0, 1}));
   EXPECT_EQ(rows[2]["betti_closed"], json({1, 1, 0}));
-  EXPECT_FALSE(stats("m.mesh --no-betti")["labels"][0].contains("components"));
+  const json plain = json::parse(run("info m.mesh --json").out);
+  EXPECT_FALSE(plain["volume"]["per_label"][0].contains("components"));
+  EXPECT_FALSE(plain.contains("contacts"));
   // The same of each label alone.
   expect_done("mesh v.raw --shape 13,13,19 --dtype u8 --labels 2,1 -o some.mesh");
-  const json some = stats("some.mesh")["labels"];
+  const json some = stats("some.mesh")["volume"]["per_label"];
   ASSERT_EQ(some.size(), 2U);
   EXPECT_EQ(some[0]["betti_closed"], rows[1]["betti_closed"]);
   EXPECT_EQ(some[1]["betti_closed"], rows[2]["betti_closed"]);
   EXPECT_EQ(some[0]["area_on_box"], 0);
 }
 
-TEST_F(StatsTest, TablesSayTheSame) {
+TEST_F(MeshInfoTest, TablesSayTheSame) {
   make_volume();
   expect_done("mesh v.npy -o m.vtu");
   write("n.csv", "id,name\n1,\"left, \"\"upper\"\" half\"\n");
-  const json rows = stats("m.vtu v.npy --names n.csv")["labels"];
-  std::istringstream csv(run("stats m.vtu v.npy --csv --names n.csv").out);
+  const json rows = stats("m.vtu v.npy --names n.csv")["volume"]["per_label"];
+  std::istringstream csv(run("info m.vtu v.npy --betti --csv --names n.csv").out);
   std::string line;
   std::getline(csv, line);
   EXPECT_EQ(line,
@@ -175,20 +177,20 @@ TEST_F(StatsTest, TablesSayTheSame) {
     EXPECT_EQ(line.substr(0, begin.size()), begin);
   }
   EXPECT_FALSE(std::getline(csv, line));
-  const std::string text = run("stats m.vtu").out;
-  EXPECT_EQ(
-      std::count(text.begin(), text.end(), '\n'),
-      static_cast<std::ptrdiff_t>(2 * (rows.size() + 1) + 3 + stats("m.vtu")["contacts"].size()));
-  EXPECT_EQ(run("stats m.vtu --contacts --csv").out.substr(0, 28), "first,second,triangles,area\n");
+  const std::string text = run("info m.vtu").out;
+  const std::string more = run("info m.vtu --contacts").out;
+  EXPECT_EQ(std::count(more.begin(), more.end(), '\n') - std::count(text.begin(), text.end(), '\n'),
+            static_cast<std::ptrdiff_t>(2 + stats("m.vtu")["contacts"].size()));
+  EXPECT_EQ(run("info m.vtu --contacts --csv").out.substr(0, 28), "first,second,triangles,area\n");
 }
 
-TEST_F(StatsTest, WrongUse) {
+TEST_F(MeshInfoTest, WrongUse) {
   make_volume();
   expect_done("mesh v.npy -o m.vtu");
-  expect_failure(2, "stats m.vtu --json --csv", "only one");
-  expect_failure(2, "stats", "MESH");
-  expect_failure(3, "stats gone.vtu", "gone.vtu");
-  expect_failure(2, "stats v.npy", "no mesh format");
+  expect_failure(2, "info m.vtu --json --csv", "only one");
+  expect_failure(2, "info", "FILE");
+  expect_failure(3, "info gone.vtu", "gone.vtu");
+  expect_failure(2, "info v.npy --csv", "FILE must be a mesh");
 }
 
 }  // namespace
