@@ -42,8 +42,7 @@ void add_size_file_option(OptionSet& options, MeshRequest& request) {
 }
 
 void add_run_options(OptionSet& options, MeshRequest& request) {
-  add_resource_options(options, request.job.run.threads, request.memory,
-                       "hard bound for the process");
+  add_resource_options(options, request.job.run.threads, request.memory, "bound for the process");
   options.add({.name = "resume",
                .help = "go on from the work of a run that was killed or interrupted",
                .group = kRunGroup,

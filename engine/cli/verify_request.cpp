@@ -67,7 +67,7 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
   add_choice_options(options, request.choice);
   add_step_options(options, request.volume);
   add_bounds(options, request);
-  add_resource_options(options, request.threads, request.memory, "bound on lists and buffers");
+  add_resource_options(options, request.threads, request.memory, "bound on buffers");
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes the result as JSON",

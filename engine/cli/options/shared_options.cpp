@@ -75,7 +75,7 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
                           const std::string& budget) {
   options.add({.name = "memory",
                .value = "SIZE",
-               .help = budget + ", as 512MiB, 1.5G, 4GB [half of what is free]",
+               .help = budget + ", as 512MiB, 4GB [half of what is free]",
                .group = kRunGroup,
                .kind = ValueKind::kSize,
                .assign = into(memory, parse_size)});

@@ -77,7 +77,7 @@ void add_raw_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.shape, parse_shape)});
   options.add({.name = "dtype",
                .value = "TYPE",
-               .help = "voxels of a raw file: u8 to u64, i8 to i64, f32, f64; u16be: big-endian",
+               .help = "of raw voxels: u8 to u64, i8 to i64, f32, f64; u16be: big-endian",
                .group = kInputGroup,
                .assign = [&](const std::string& text) { parse_dtype(request, text); }});
   options.add({.name = "endian",
@@ -102,7 +102,7 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.spacing, parse_spacing)});
   options.add({.name = "origin",
                .value = "X,Y,Z",
-               .help = "where the first corner of the volume, or of --crop, lies [the file's]",
+               .help = "where the first corner, or that of --crop, lies [the file's]",
                .group = kInputGroup,
                .kind = ValueKind::kNumbers,
                .listed = Listed::kInHelpAll,
@@ -144,13 +144,13 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.steps.merge, parse_merge)});
   options.add({.name = "drop-specks",
                .value = "N",
-               .help = "components below N voxels join a neighbour; N/26: corners join them, too",
+               .help = "parts below N voxels join a neighbour; N/26: parts join at corners",
                .group = kLabelGroup,
                .kind = ValueKind::kIntegerOrText,
                .assign = into(request.steps.specks, parse_specks)});
   options.add({.name = "names",
                .value = "FILE",
-               .help = "names and colours: ITK-SNAP, FreeSurfer or Slicer table, or CSV id,name",
+               .help = "names and colours: ITK-SNAP, FreeSurfer, Slicer, or CSV id,name",
                .group = kLabelGroup,
                .assign = into(request.names)});
 }
