@@ -7,8 +7,8 @@
 
 #include "engine/settings/number_text.h"
 #include "io/file/errors.h"
-#include "io/file/open_bytes.h"
-#include "io/names/csv_records.h"
+#include "io/file/source/inflated_source.h"
+#include "io/names/csv_names.h"
 
 namespace mw::engine {
 namespace {
