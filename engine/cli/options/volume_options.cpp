@@ -109,7 +109,7 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.origin, parse_numbers)});
   options.add({.name = "frame",
                .value = "FRAME",
-               .help = "world: file, its own; ras or lps; voxel, spacing times corner",
+               .help = "world: file: its own; ras; lps; voxel: spacing times corner",
                .group = kInputGroup,
                .fallback = "file",
                .choices = {"file", "ras", "lps", "voxel"},
@@ -127,7 +127,7 @@ void add_array_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.dataset)});
   options.add({.name = "scale",
                .value = "N",
-               .help = "resolution level, 0 the finest, of " + io::formats_with_scales(),
+               .help = "level, 0 the finest, of " + io::formats_with_scales(),
                .group = kInputGroup,
                .kind = ValueKind::kInteger,
                .listed = Listed::kInHelpAll,
@@ -178,7 +178,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
 }
 
 std::string volume_note() {
-  return io::text("Volumes: ", io::volume_endings(), ",\nand folders: ", io::volume_folders(),
+  return io::text("Volumes:\n", io::volume_endings(), ",\nand folders: ", io::volume_folders(),
                   ".\n");
 }
 

@@ -60,7 +60,7 @@ TEST_F(NamesTest, ReachEveryMeshAndReport) {
     EXPECT_EQ(rows[2]["colour"], json::parse("[1, 2, 3, 4]"));
   }
   const std::string text = run("info v.vtu").out;
-  EXPECT_NE(text.find("label 1, name \"liver, <left>\", volume "), std::string::npos) << text;
+  EXPECT_NE(text.find("\n    1  liver, <left>  "), std::string::npos) << text;
 }
 
 TEST_F(NamesTest, VerifyNamesLabels) {

@@ -29,7 +29,7 @@ TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
   expect_failure(2, "surface m.vtu -o s.stl --pair 1", "--pair 1");
   expect_failure(2, "surface m.vtu -o s.stl --pair 3,3", "--pair 3,3");
   expect_failure(2, "surface m.vtu -o s.stl --labels x", "--labels x");
-  expect_failure(2, "surface m.vtu", "output");
+  expect_failure(2, "surface m.vtu", "-o OUTPUT");
   expect_failure(3, "surface m.vtu -o s.stl", "m.vtu");
   expect_failure(3, "surface m.vtu -o s", "m.vtu");
 }
