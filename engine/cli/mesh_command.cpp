@@ -97,7 +97,6 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   job.stop = stop_if_interrupted;
   job.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
   engine::RunHooks& run = job.run;
-  run.processes = &run_processes();
   run.together = files.shared.mesh.get();
   run.stop_after_save = is_save_requested;
   run.progress = [&](const engine::RunProgress& at) { progress.show(at); };

@@ -57,9 +57,10 @@ void divide_runs_among(engine::Processes& processes) {
 }
 
 void take_part(MeshRequest& request) {
+  engine::RunHooks& run = request.job.run;
+  run.processes = &run_processes();
   if (!runs_are_divided()) return;
   const int here = run_processes().count_here();
-  engine::RunHooks& run = request.job.run;
   run.store.memory /= static_cast<std::uint64_t>(here);
   run.threads = threads_of_process(run.threads, here);
   if (run_processes().speaks()) return;
