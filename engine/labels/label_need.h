@@ -28,7 +28,7 @@ struct NeededBricks {
 /// With limits on edges all bricks: such a limit reaches as far as its gradation lets it, and how
 /// far that is only the labels of the whole volume tell.
 [[nodiscard]] NeededBricks bricks_of(const LabelNeed& need, Index3 volume,
-                                    const MeshSettings& settings);
+                                     const MeshSettings& settings);
 
 /// The smallest box that has both; an empty one adds nothing.
 [[nodiscard]] Box3 hull(const Box3& a, const Box3& b);

@@ -90,8 +90,8 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                const LabelNeed& need, int threads,
                                const std::filesystem::path& folder)
-    : PreparedLabels(volume, settings, bricks_of(need, volume.info().shape, settings),
-                     std::nullopt, threads, folder) {}
+    : PreparedLabels(volume, settings, bricks_of(need, volume.info().shape, settings), std::nullopt,
+                     threads, folder) {}
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                const NeededBricks& bricks, std::optional<LabelCounts> counts,

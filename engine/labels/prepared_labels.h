@@ -30,13 +30,12 @@ class PreparedLabels {
 
   /// Only what is needed; what is counted is then known already (counts_of_part()).
   /// REQUIRES: the volume outlives this.
-  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
-                 const LabelNeed& need, int threads = 1,
-                 const std::filesystem::path& folder = io::scratch_folder());
+  PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, const LabelNeed& need,
+                 int threads = 1, const std::filesystem::path& folder = io::scratch_folder());
 
   /// Boxes may reach outside the volume; voxels there are kExterior.
-  /// Beyond what is needed the volume is read again: how far the tets of a window reach out of it has no
-  /// bound that is as tight as what is usual.
+  /// Beyond what is needed the volume is read again: how far the tets of a window reach out of it
+  /// has no bound that is as tight as what is usual.
   [[nodiscard]] LabelBox original(const Box3& box) const;
   /// REQUIRES: a block that is needed and kStartHalo around it.
   [[nodiscard]] LabelBox shape(const Box3& box) const;

@@ -80,9 +80,9 @@ class RunStore {
   void receive(const BlockVersion& version, std::vector<std::byte> bytes,
                std::uint64_t memory_bytes, MemoryBudget::Reservation room = {});
 
-  /// With a router: no window starts from pause() until go_on().  Once none runs (is_quiet()) and no
-  /// block is on its way, checkpoint() makes what is here durable as one record; what older records
-  /// point to is let go by go_on().
+  /// With a router: no window starts from pause() until go_on().  Once none runs (is_quiet()) and
+  /// no block is on its way, checkpoint() makes what is here durable as one record; what older
+  /// records point to is let go by go_on().
   void pause();
   [[nodiscard]] bool is_quiet() const;
   void checkpoint();

@@ -54,7 +54,7 @@ LabelCounts count_together(Team& team, const io::DenseVolume& volume, int thread
 }
 
 LabelNeed labels_needed(const RunLayout& layout, const Partition& partition, int rank,
-                    const MeshSettings& settings) {
+                        const MeshSettings& settings) {
   LabelNeed need;
   for (std::uint32_t march = 0; march < layout.marches(); ++march) {
     Box3 boxes;

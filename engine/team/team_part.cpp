@@ -75,11 +75,16 @@ void TeamPart::take_up(RunStore& store) {
 }
 
 std::optional<PartialMarch> TeamPart::part_of_march(std::uint32_t march) {
-  return PartialMarch{
-      .march = march,
-      .is_mine = [this, march](Index3 w) { return traffic_.is_mine({march, w}); },
-      .inputs = [this, march](Index3 w) { return traffic_.inputs({march, w}); },
-      .arrivals = &traffic_.arrivals()};
+  return PartialMarch{.march = march,
+                      .is_mine =
+                          [this, march](Index3 w) {
+                            return traffic_.is_mine({march, w});
+                          },
+                      .inputs =
+                          [this, march](Index3 w) {
+                            return traffic_.inputs({march, w});
+                          },
+                      .arrivals = &traffic_.arrivals()};
 }
 
 VisitStats TeamPart::end_marches(const VisitStats& own) {

@@ -18,8 +18,7 @@ std::uint64_t TeamProcesses::least_bytes(const RunLayout& layout, const io::Dens
   return least_index_bytes(layout) + prepared_bytes(volume, settings, &nothing);
 }
 
-std::unique_ptr<RunPart> TeamProcesses::take_part(const RunLayout& layout,
-                                                  const RunHooks& hooks,
+std::unique_ptr<RunPart> TeamProcesses::take_part(const RunLayout& layout, const RunHooks& hooks,
                                                   const std::string& identity) {
   return std::make_unique<TeamPart>(team_, layout, hooks, identity);
 }

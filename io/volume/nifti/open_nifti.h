@@ -40,10 +40,10 @@ struct NiftiHeader {
 [[nodiscard]] NiftiHeader parse_nifti_header(std::span<const std::byte> bytes,
                                              std::string_view file);
 
-/// The first label table (io/names/header_names.h) among the header extensions.  Extensions that are
-/// damaged, or hold something else, are nothing: the voxels do not need them.
-/// Memory: one extension and its XML tree; none above 4 MiB is looked at.
-/// ERRORS: mw::Error(kInput) when the file cannot be read.
+/// The first label table (io/names/header_names.h) among the header extensions.  Extensions that
+/// are damaged, or hold something else, are nothing: the voxels do not need them. Memory: one
+/// extension and its XML tree; none above 4 MiB is looked at. ERRORS: mw::Error(kInput) when the
+/// file cannot be read.
 [[nodiscard]] LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header);
 
 /// Bytes behind the voxels are ignored.  ERRORS: mw::Error(kInput) naming file and field.

@@ -98,7 +98,8 @@ TEST_F(ChooseLabelsTest, VerifyTakesMeshesOfSomeLabels) {
   // The file tells.
   expect_done(judging + "some.vtkhdf");
   expect_done(judging + "rest.vtkhdf");
-  for (const char* wrong : {"some.vtkhdf --labels 2,3", "some.vtkhdf --labels 1,2,3,7", "rest.vtkhdf --background 5"}) {
+  for (const char* wrong :
+       {"some.vtkhdf --labels 2,3", "some.vtkhdf --labels 1,2,3,7", "rest.vtkhdf --background 5"}) {
     EXPECT_EQ(run(judging + wrong).code, 5) << wrong;
   }
   expect_failure(2, "verify v.npy some.vtkhdf --labels 99", "no label 99");
