@@ -7,7 +7,7 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
-#include "engine/cli/picture/picture_request.h"
+#include "engine/cli/picture_request.h"
 #include "engine/cli/report_names.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_sink.h"
@@ -42,7 +42,7 @@ std::vector<bool> asked_labels(const io::LabelTable& table, const std::vector<Ra
 std::vector<bool> inner_labels(io::GroupedMesh& mesh, const io::LabelNames& names) {
   const io::LabelTable& table = mesh.table();
   std::vector<bool> shown(table.size(), true);
-  if (const std::optional<Label> around = surrounding_label(mesh)) {
+  if (const std::optional<Label> around = picture::surrounding_label(mesh)) {
     shown[*around] = false;
     std::cout << "left out    label " << label_text(table.raw(*around), table.is_signed(), names)
               << ", which is around the others; --labels draws it\n";
@@ -64,11 +64,11 @@ std::uint64_t draw_mesh(const PictureRequest& request, const io::TakeBytes& take
   io::GroupedMesh& mesh = sink.mesh();
   io::LabelNames names = mesh.names();
   if (!request.names.empty()) names = names.merged_with(io::read_names(request.names));
-  MeshScene scene(
+  picture::MeshScene scene(
       mesh,
       request.labels ? asked_labels(mesh.table(), *request.labels) : inner_labels(mesh, names),
       names);
-  const picture::View view = request.view.value_or(default_view(request.cut));
+  const picture::View view = request.view.value_or(picture::default_view(request.cut));
   if (request.cut) scene.cut(cut_plane(mesh.box(), *request.cut, view));
   return draw(scene,
               {.width = request.pixels[0],

@@ -60,6 +60,7 @@ bool is_concrete_io(const std::string& name) {
     return true;
   }
   const std::string folder = folder_of(name);
+  if (folder == "io/mesh/grouped/") return false;  // facets by what they bound, whatever the format
   return (folder.starts_with("io/volume/") && folder != "io/volume/") ||
          (folder.starts_with("io/mesh/") && folder != "io/mesh/") ||
          folder.starts_with("io/surface/");
@@ -123,6 +124,8 @@ const Room kRooms[] = {
     {kTeam,
      {"engine/forecast/", "engine/labels/", "engine/march/", "engine/output/", "engine/run/",
       "engine/settings/", "engine/store/", "engine/window/"}},
+    // What of a mesh is seen, and from where: commands, pages and the library have it drawn.
+    {"engine/picture/", {}},
     // The main job as program and library start it.
     {"engine/job/", {"engine/"}},
 };

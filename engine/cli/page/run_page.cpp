@@ -11,7 +11,7 @@
 #include "engine/cli/page/charts.h"
 #include "engine/cli/page/page_sections.h"
 #include "engine/cli/page/view_data.h"
-#include "engine/cli/picture/picture_request.h"
+#include "engine/picture/draw.h"
 
 namespace mw::cli {
 namespace {
@@ -85,7 +85,7 @@ struct PageLabels {
 };
 
 PageLabels labels_of(const report::FinishedRun& run, io::GroupedMesh& mesh) {
-  PageLabels out{.mesh = mesh, .surrounding = surrounding_label(mesh), .volumes = {}};
+  PageLabels out{.mesh = mesh, .surrounding = picture::surrounding_label(mesh), .volumes = {}};
   out.volumes.resize(mesh.table().size());
   for_each_volume(run, [&](const audit::VolumeRow& row) {
     const RawLabel raw = run.labels.raw(row.label);
@@ -108,7 +108,7 @@ std::string hex(const picture::Colour& colour) {
 std::string label_row(const PageLabels& labels, Label rank, std::optional<std::size_t> position) {
   const io::LabelNames& names = labels.mesh.names();
   const std::string swatch =
-      "<i style=\"background:" + hex(label_colour(labels.raw(rank), names)) + "\"></i>";
+      "<i style=\"background:" + hex(picture::label_colour(labels.raw(rank), names)) + "\"></i>";
   const std::string digits = labels.digits(rank);
   std::string out = "<tr><td><label>";
   if (position) {
@@ -171,7 +171,7 @@ std::string label_section(const PageLabels& labels, const ViewData& view) {
 }
 
 /// The scene as a figure.
-void add_picture(io::AtomicFile& file, MeshScene& scene, const std::string& title,
+void add_picture(io::AtomicFile& file, picture::MeshScene& scene, const std::string& title,
                  const picture::View& view) {
   file.append("<figure class=\"card\"><figcaption><b>" + title +
               "</b></figcaption><img width=\"1200\" height=\"900\" alt=\"" + title +
@@ -187,11 +187,11 @@ void add_picture(io::AtomicFile& file, MeshScene& scene, const std::string& titl
 void add_pictures(io::AtomicFile& file, const PageLabels& labels) {
   std::vector<bool> shown(labels.volumes.size(), true);
   if (labels.surrounding) shown[*labels.surrounding] = false;
-  MeshScene scene(labels.mesh, std::move(shown), labels.mesh.names());
+  picture::MeshScene scene(labels.mesh, std::move(shown), labels.mesh.names());
   file.append("<section><h2>Pictures</h2><div class=\"pictures\">\n");
-  add_picture(file, scene, "Surfaces", default_view({}));
-  const CutPosition middle = middle_cut(scene, labels.mesh.box(), 0);
-  const picture::View view = default_view(middle);
+  add_picture(file, scene, "Surfaces", picture::default_view({}));
+  const picture::CutPosition middle = middle_cut(scene, labels.mesh.box(), 0);
+  const picture::View view = picture::default_view(middle);
   scene.cut(cut_plane(labels.mesh.box(), middle, view));
   add_picture(file, scene, "Cut across x", view);
   file.append("</div></section>\n");
@@ -202,7 +202,7 @@ Json view_json(const PageLabels& labels, const ViewData& view) {
   Json rows = Json::array();
   for (const Label rank : view.labels()) {
     rows.push_back({{"label", labels.digits(rank)},
-                    {"colour", label_colour(labels.raw(rank), labels.mesh.names())}});
+                    {"colour", picture::label_colour(labels.raw(rank), labels.mesh.names())}});
   }
   out["labels"] = std::move(rows);
   return out;

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Bands of rows through the rasteriser.
-#include "engine/cli/picture/draw.h"
+#include "engine/picture/draw.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "kernels/core/error.h"
 
-namespace mw::cli {
+namespace mw::picture {
 namespace {
 
 constexpr int kSamples = 3;
@@ -17,11 +17,11 @@ constexpr std::int64_t kBandBytes = 64 << 20;
 constexpr std::int64_t kSampleBytes = 8;
 
 struct Measured {
-  picture::Extent extent;
+  Extent extent;
   std::uint64_t triangles = 0;
 };
 
-Measured measure(MeshScene& scene, const picture::View& view) {
+Measured measure(MeshScene& scene, const View& view) {
   Measured out;
   scene.each([&](const SceneTriangle& triangle) {
     for (const Vec3& corner : triangle.corners) out.extent.add(view, corner);
@@ -57,18 +57,18 @@ class Painter {
         camera_(style.view, measured.extent, style.width, style.height),
         line_share_(line_share(measured, style)) {}
 
-  void paint(const SceneTriangle& triangle, picture::Raster& raster) const {
-    picture::ScreenTriangle out{.lined = triangle.lined,
-                                .face = picture::lit(triangle.colour, triangle.normal, view_),
-                                .line_width = line_share_ > 0 ? kLineWidth : 0};
-    out.line = picture::mixed(out.face, {0, 0, 0}, line_share_);
+  void paint(const SceneTriangle& triangle, Raster& raster) const {
+    ScreenTriangle out{.lined = triangle.lined,
+                       .face = lit(triangle.colour, triangle.normal, view_),
+                       .line_width = line_share_ > 0 ? kLineWidth : 0};
+    out.line = mixed(out.face, {0, 0, 0}, line_share_);
     for (std::size_t i = 0; i < 3; ++i) out.corners[i] = camera_.at(triangle.corners[i]);
     raster.draw(out);
   }
 
  private:
-  picture::View view_;
-  picture::Camera camera_;
+  View view_;
+  Camera camera_;
   double line_share_;
 };
 
@@ -87,8 +87,8 @@ std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBy
   std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(style.width));
   const int rows = band_rows(style);
   for (int first = 0; first < style.height; first += rows) {
-    const picture::Band band{style.width, first, std::min(rows, style.height - first)};
-    picture::Raster raster(band, kSamples);
+    const Band band{style.width, first, std::min(rows, style.height - first)};
+    Raster raster(band, kSamples);
     scene.each([&](const SceneTriangle& triangle) { painter.paint(triangle, raster); });
     for (int y = 0; y < band.rows; ++y) {
       raster.read_row(y, row);
@@ -99,4 +99,4 @@ std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBy
   return measured.triangles;
 }
 
-}  // namespace mw::cli
+}  // namespace mw::picture

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The options of `mwmesh picture`.
-#include "engine/cli/picture/picture_request.h"
+#include "engine/cli/picture_request.h"
 
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
@@ -29,7 +29,8 @@ std::array<int, 2> parse_pixels(const std::string& text) {
   return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
 }
 
-Lines parse_lines(const std::string& text) {
+picture::Lines parse_lines(const std::string& text) {
+  using picture::Lines;
   if (text == "auto") return Lines::kAuto;
   return text == "on" ? Lines::kAll : Lines::kNone;
 }
@@ -96,23 +97,17 @@ void add_picture_options(OptionSet& options, PictureRequest& request) {
   add_style(options, request);
 }
 
-picture::View default_view(const std::optional<CutPosition>& cut) {
-  if (!cut) return picture::view_from(-55, 24);
-  if (cut->axis == 0) return picture::view_from(-28, 20);
-  return cut->axis == 1 ? picture::view_from(-62, 20) : picture::view_from(-60, 52);
-}
-
-CutPosition parse_cut(std::string_view text) {
+picture::CutPosition parse_cut(std::string_view text) {
   constexpr const char* kExpected = "x=SHARE, y=SHARE or z=SHARE with a share from 0 to 1";
   if (text.size() < 3 || text[0] < 'x' || text[0] > 'z' || text[1] != '=') fail_expected(kExpected);
-  const CutPosition position{.axis = static_cast<std::size_t>(text[0] - 'x'),
-                             .share = parse_number(text.substr(2))};
+  const picture::CutPosition position{.axis = static_cast<std::size_t>(text[0] - 'x'),
+                                      .share = parse_number(text.substr(2))};
   if (position.share < 0 || position.share > 1) fail_expected(kExpected);
   return position;
 }
 
 picture::View parse_view(std::string_view text) {
-  if (text == "iso") return default_view({});
+  if (text == "iso") return picture::default_view({});
   if (text == "x") return picture::view_from(0, 0);
   if (text == "y") return picture::view_from(90, 0);
   if (text == "z") return picture::view_from(-90, 90);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // What of a mesh is seen: the surface of some labels, and a cut through them.
-#include "engine/cli/picture/mesh_scene.h"
+#include "engine/picture/mesh_scene.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 #include "io/file/errors.h"
 
-namespace mw::cli {
+namespace mw::picture {
 namespace {
 
 Vec3 vec(const io::Position& p) {
@@ -21,7 +21,7 @@ Vec3 normal_of(const std::array<Vec3, 3>& t) {
 }
 
 /// A polygon as triangles around its first corner; its own sides are edges of the mesh.
-void fan(const picture::Piece& piece, SceneTriangle triangle, const MeshScene::Visit& visit) {
+void fan(const Piece& piece, SceneTriangle triangle, const MeshScene::Visit& visit) {
   for (std::size_t i = 1; i + 1 < piece.count; ++i) {
     triangle.corners = {piece.corners[0], piece.corners[i], piece.corners[i + 1]};
     triangle.lined = {true, i + 2 == piece.count, i == 1};
@@ -31,9 +31,9 @@ void fan(const picture::Piece& piece, SceneTriangle triangle, const MeshScene::V
 
 }  // namespace
 
-picture::Colour label_colour(RawLabel label, const io::LabelNames& names) {
+Colour label_colour(RawLabel label, const io::LabelNames& names) {
   const io::LabelName* const row = names.find(label);
-  if (row == nullptr || !row->colour) return picture::palette_colour(label);
+  if (row == nullptr || !row->colour) return palette_colour(label);
   const io::Colour& colour = *row->colour;
   return {colour[0], colour[1], colour[2]};
 }
@@ -58,11 +58,15 @@ std::optional<Label> surrounding_label(io::GroupedMesh& mesh) {
   return std::nullopt;
 }
 
-picture::CutPlane cut_plane(const io::MeshBox& box, const CutPosition& position,
-                            const picture::View& view) {
+View default_view(const std::optional<CutPosition>& cut) {
+  if (!cut) return view_from(-55, 24);
+  if (cut->axis == 0) return view_from(-28, 20);
+  return cut->axis == 1 ? view_from(-62, 20) : view_from(-60, 52);
+}
+
+CutPlane cut_plane(const io::MeshBox& box, const CutPosition& position, const View& view) {
   const Vec3 edge = vec(box.edges[position.axis]);
-  picture::CutPlane plane{.normal = edge,
-                          .offset = edge.dot(vec(box.origin) + position.share * edge)};
+  CutPlane plane{.normal = edge, .offset = edge.dot(vec(box.origin) + position.share * edge)};
   if (edge.dot(view.viewer) < 0) plane = {.normal = -edge, .offset = -plane.offset};
   return plane;
 }
@@ -85,7 +89,7 @@ void MeshScene::for_each_facet(const io::FacetGroup& group, const Visit& visit) 
                                       one ? vertex(c) : vertex(b)};
     triangle.normal = normal_of(corners);
     if (plane_) {
-      fan(picture::clipped(corners, *plane_), triangle, visit);
+      fan(clipped(corners, *plane_), triangle, visit);
     } else {
       triangle.corners = corners;
       triangle.lined = {true, true, true};
@@ -99,8 +103,7 @@ void MeshScene::for_each_section(Label rank, const Visit& visit) {
   const io::RowRange tets = mesh_.label_tets()[rank];
   for (std::uint64_t number = tets.begin; number < tets.end; ++number) {
     const auto [a, b, c, d] = mesh_.tet(number);
-    fan(picture::cross_section({vertex(a), vertex(b), vertex(c), vertex(d)}, *plane_), triangle,
-        visit);
+    fan(cross_section({vertex(a), vertex(b), vertex(c), vertex(d)}, *plane_), triangle, visit);
   }
 }
 
@@ -125,4 +128,4 @@ CutPosition middle_cut(MeshScene& scene, const io::MeshBox& box, std::size_t axi
   return {.axis = axis, .share = (min + max) / 2};
 }
 
-}  // namespace mw::cli
+}  // namespace mw::picture

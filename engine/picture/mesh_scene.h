@@ -10,10 +10,10 @@
 #include "kernels/picture/cut.h"
 #include "kernels/picture/shade.h"
 
-namespace mw::cli {
+namespace mw::picture {
 
 /// Names' colour of a label, else the palette's.
-[[nodiscard]] picture::Colour label_colour(RawLabel label, const io::LabelNames& names);
+[[nodiscard]] Colour label_colour(RawLabel label, const io::LabelNames& names);
 
 /// The label that surrounds the others: more than two thirds of the box's surface are at it, and
 /// it is not the only one.  Empty when there is none such.
@@ -27,14 +27,17 @@ struct CutPosition {
 };
 
 /// The plane of the box there; what lies towards the viewer goes.
-[[nodiscard]] picture::CutPlane cut_plane(const io::MeshBox& box, const CutPosition& position,
-                                          const picture::View& view);
+[[nodiscard]] CutPlane cut_plane(const io::MeshBox& box, const CutPosition& position,
+                                 const View& view);
+
+/// The view where none is asked for: the cut is seen, and some of the sides.
+[[nodiscard]] View default_view(const std::optional<CutPosition>& cut);
 
 struct SceneTriangle {
   std::array<Vec3, 3> corners;
   std::array<bool, 3> lined{};  ///< whether the side opposite to this corner is an edge of the mesh
   Vec3 normal = Vec3::Zero();   ///< outwards, of any length; zero on the cut, which is not lit
-  picture::Colour colour{};
+  Colour colour{};
 };
 
 /// Some labels of a mesh as one opaque solid.  The mesh outlives it.
@@ -44,7 +47,7 @@ class MeshScene {
   MeshScene(io::GroupedMesh& mesh, std::vector<bool> shown, io::LabelNames names)
       : mesh_(mesh), shown_(std::move(shown)), names_(std::move(names)) {}
 
-  void cut(const picture::CutPlane& plane) { plane_ = plane; }
+  void cut(const CutPlane& plane) { plane_ = plane; }
 
   using Visit = std::function<void(const SceneTriangle&)>;
   /// The triangles between a shown label and what is not shown, in the colour of the former; with
@@ -57,18 +60,18 @@ class MeshScene {
   void for_each_facet(const io::FacetGroup& group, const Visit& visit);
   void for_each_section(Label rank, const Visit& visit);
   [[nodiscard]] Vec3 vertex(std::uint64_t row);
-  [[nodiscard]] picture::Colour colour(Label rank) const {
+  [[nodiscard]] Colour colour(Label rank) const {
     return label_colour(mesh_.table().raw(rank), names_);
   }
 
   io::GroupedMesh& mesh_;
   std::vector<bool> shown_;
   io::LabelNames names_;
-  std::optional<picture::CutPlane> plane_;
+  std::optional<CutPlane> plane_;
 };
 
 /// The place half way between the ends of an uncut scene along an axis of the box, where a cut
 /// leaves something to see.  Cost: a pass over the facets.
 [[nodiscard]] CutPosition middle_cut(MeshScene& scene, const io::MeshBox& box, std::size_t axis);
 
-}  // namespace mw::cli
+}  // namespace mw::picture

@@ -3,10 +3,10 @@
 // A scene becomes a PNG picture.
 #pragma once
 
-#include "engine/cli/picture/mesh_scene.h"
+#include "engine/picture/mesh_scene.h"
 #include "io/picture/png_writer.h"
 
-namespace mw::cli {
+namespace mw::picture {
 
 enum class Lines : std::uint8_t {
   kAuto,  ///< edges fade where triangles are only some pixels wide
@@ -17,7 +17,7 @@ enum class Lines : std::uint8_t {
 struct PictureStyle {
   int width = 1200;  ///< pixels
   int height = 900;
-  picture::View view;
+  View view;
   Lines lines = Lines::kAuto;
   bool transparent = false;  ///< what shows nothing; else white
 };
@@ -25,9 +25,9 @@ struct PictureStyle {
 /// Returns how many triangles it drew, hidden ones too.
 /// Memory: 64 MiB of samples, and for one row; the scene is drawn once for each band of rows that
 /// fits there, and once more before to see how large it is.
-/// The same pixels on every machine (picture::Raster).
+/// The same pixels on every machine (Raster).
 /// ERRORS: those of scene and take; kInput when there is nothing to see or it is too large to
 /// compute with.
 std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBytes& take);
 
-}  // namespace mw::cli
+}  // namespace mw::picture
