@@ -3,7 +3,6 @@
 // What of a mesh is seen: the surface of some labels, and a cut through them.
 #include "engine/picture/mesh_scene.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
@@ -14,10 +13,6 @@ namespace {
 
 Vec3 vec(const io::Position& p) {
   return {p[0], p[1], p[2]};
-}
-
-Vec3 normal_of(const std::array<Vec3, 3>& t) {
-  return (t[1] - t[0]).cross(t[2] - t[0]);
 }
 
 /// A polygon as triangles around its first corner; its own sides are edges of the mesh.

@@ -3,6 +3,7 @@
 // A palette and a light.
 #include "kernels/picture/shade.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -45,6 +46,10 @@ Colour palette_colour(RawLabel label) {
   constexpr std::array<double, 5> kShades{0, 0.3, -0.25, 0.45, -0.4};
   const double shade = kShades[label / kPalette.size() % kShades.size()];
   return shade < 0 ? mixed(base, {0, 0, 0}, -shade) : mixed(base, {255, 255, 255}, shade);
+}
+
+Vec3 normal_of(const std::array<Vec3, 3>& triangle) {
+  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
 }
 
 Colour lit(const Colour& colour, const Vec3& normal, const View& view) {

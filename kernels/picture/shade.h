@@ -13,6 +13,9 @@ namespace mw::picture {
 /// 0 to 15 all different.
 [[nodiscard]] Colour palette_colour(RawLabel label);
 
+/// Twice the area long; its corners are counterclockwise seen from where it points.
+[[nodiscard]] Vec3 normal_of(const std::array<Vec3, 3>& triangle);
+
 /// The colour of a face with that normal of any length, lit from beside the viewer; without a
 /// normal (zero) the colour itself.
 [[nodiscard]] Colour lit(const Colour& colour, const Vec3& normal, const View& view);
