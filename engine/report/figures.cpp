@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace mw::report {
 
@@ -21,7 +22,27 @@ std::string format_fixed(double value, int digits) {
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, digits)
           .ptr;
+  const std::string out(text.data(), end);
+  return out.find_first_not_of("-0.") == out.npos && out.starts_with('-') ? out.substr(1) : out;
+}
+
+std::string format_figure(double value) {
+  constexpr int kDigits = 4;
+  constexpr double kAllBeforeThePoint = 1000;
+  if (value == 0 || std::abs(value) >= kAllBeforeThePoint) return format_fixed(value, 0);
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::general, kDigits)
+                       .ptr;
   return {text.data(), end};
+}
+
+std::string format_volume(double volume, const std::string& unit) {
+  constexpr double kCubicMillimetres = 1000;  // of a millilitre
+  if (unit == "mm" && volume >= kCubicMillimetres) {
+    return format_figure(volume / kCubicMillimetres) + " mL";
+  }
+  return format_figure(volume) + (unit.empty() ? "" : " " + unit + "3");
 }
 
 }  // namespace mw::report

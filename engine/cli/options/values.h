@@ -27,8 +27,10 @@ using engine::parse_size;
 using engine::parse_switch;
 using io::parse_element;
 using report::format_bytes;
+using report::format_figure;
 using report::format_fixed;
 using report::format_label;
+using report::format_volume;
 
 /// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.
 [[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z"

@@ -43,11 +43,8 @@ std::string with_commas(std::uint64_t number) {
 }
 
 std::string short_number(double value) {
-  const double size = std::abs(value);
-  if (size >= 1000) {
-    return (value < 0 ? "-" : "") + with_commas(static_cast<std::uint64_t>(std::llround(size)));
-  }
-  return format_fixed(value, size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3);
+  return value < 1000 ? format_figure(value)
+                      : with_commas(static_cast<std::uint64_t>(std::llround(value)));
 }
 
 std::string size_text(std::uint64_t bytes) {

@@ -22,7 +22,7 @@ namespace mw::cli {
 /// "41,247".
 [[nodiscard]] std::string with_commas(std::uint64_t number);
 
-/// Three significant digits: "0.738", "12.3", "1,040".
+/// format_figure() with commas: "0.7381", "12.34", "1,040".
 [[nodiscard]] std::string short_number(double value);
 
 using AppendText = std::function<void(std::string_view)>;

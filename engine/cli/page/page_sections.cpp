@@ -146,14 +146,16 @@ std::string promise_row(const Verdict& verdict) {
          "</td></tr>\n";
 }
 
-/// Keys end in "_s", which people need not read.
-std::vector<BarRow> seconds_rows(const Json& stages) {
+/// Shares, as stages are told by threads that wait for each other and for a processor: in seconds
+/// they would add up to neither of the run's times.
+std::vector<BarRow> stage_rows(const Json& stages) {
+  double total = 0;
+  for (const auto& [key, value] : stages.items()) total += value.number();
   std::vector<BarRow> out;
   for (const auto& [key, value] : stages.items()) {
-    const double seconds = value.number();
-    if (seconds > 0) {
-      out.push_back({key.substr(0, key.size() - 2), seconds, short_number(seconds) + " s"});
-    }
+    const double share = total > 0 ? value.number() / total : 0;
+    // Keys end in "_s", which people need not read.
+    if (share > 0) out.push_back({key.substr(0, key.size() - 2), share, percent(share, 1)});
   }
   return out;
 }
@@ -229,8 +231,8 @@ std::string head_section(const Json& report) {
       tile("volume error, at most", error.is_null() ? "–" : percent(error.number(), 2),
            error.is_null() ? "no label of 1,000 voxels"
                            : percent(shape["volume_error_mean_abs"].number(), 3) + " on average");
-  out += tile("time", short_number(performance["wall_s"].number()) + " s",
-              short_number(performance["voxels_per_s"].number()) + " voxels/s");
+  out += tile("time on the clock", short_number(performance["wall_s"].number()) + " s",
+              short_number(performance["cpu_s"].number()) + " s of CPU");
   out += tile("memory, at most", size_text(performance["peak_rss_bytes"].integer()),
               size_text(report["engine"]["memory_budget_bytes"].integer()) + " allowed");
   return out + "</div></header>\n";
@@ -247,18 +249,22 @@ std::string promise_section(const Json& report) {
 
 std::string engine_section(const Json& report) {
   const Json& engine = report["engine"];
+  const Json& performance = report["performance"];
   std::string out = "<section><h2>Engine</h2><div class=\"charts\">\n";
-  out += bar_figure("Seconds, summed over threads", seconds_rows(report["performance"]["stages"]));
-  out += bar_figure("Memory set aside at most, by purpose",
+  out += bar_figure("Where the threads' time went", stage_rows(performance["stages"]));
+  out += bar_figure("Memory reserved, of which less is used",
                     memory_rows(engine["peak_bytes_by_purpose"]));
-  out += "<figure class=\"card\"><figcaption><b>Run</b></figcaption>" +
-         facts_table({{"windows", with_commas(engine["windows"].integer())},
-                      {"threads", with_commas(engine["threads"].integer())},
-                      {"CPU seconds", short_number(report["performance"]["cpu_s"].number())},
-                      {"blocks spilled", with_commas(engine["blocks_spilled"].integer())},
-                      {"bytes written", size_text(engine["bytes_written"].integer())},
-                      {"bytes read", size_text(engine["bytes_read"].integer())}}) +
-         "</figure>\n";
+  out +=
+      "<figure class=\"card\"><figcaption><b>Run</b></figcaption>" +
+      facts_table({{"windows", with_commas(engine["windows"].integer())},
+                   {"threads", with_commas(engine["threads"].integer())},
+                   {"time on the clock", short_number(performance["wall_s"].number()) + " s"},
+                   {"CPU time of all threads", short_number(performance["cpu_s"].number()) + " s"},
+                   {"voxels/s", short_number(performance["voxels_per_s"].number())},
+                   {"blocks spilled", with_commas(engine["blocks_spilled"].integer())},
+                   {"bytes written", size_text(engine["bytes_written"].integer())},
+                   {"bytes read", size_text(engine["bytes_read"].integer())}}) +
+      "</figure>\n";
   return out + "</div></section>\n";
 }
 

@@ -75,6 +75,7 @@ std::string shape_section(const report::FinishedRun& run) {
 /// What a page knows of its labels.
 struct PageLabels {
   io::GroupedMesh& mesh;
+  const io::VolumeSpace& space;
   std::optional<Label> surrounding;
   std::vector<std::optional<audit::VolumeRow>> volumes;  ///< by rank in the mesh
 
@@ -82,10 +83,19 @@ struct PageLabels {
   [[nodiscard]] std::string digits(Label rank) const {
     return format_label(raw(rank), mesh.table().is_signed());
   }
+  /// "17.18 mL", "490 mm³".
+  [[nodiscard]] std::string volume(double voxels) const {
+    for (const double edge : space.spacing) voxels *= edge;
+    std::string out = format_volume(voxels, space.unit);
+    return out.ends_with('3') && !space.unit.empty() ? out.replace(out.size() - 1, 1, "³") : out;
+  }
 };
 
 PageLabels labels_of(const report::FinishedRun& run, io::GroupedMesh& mesh) {
-  PageLabels out{.mesh = mesh, .surrounding = picture::surrounding_label(mesh), .volumes = {}};
+  PageLabels out{.mesh = mesh,
+                 .space = run.volume.space,
+                 .surrounding = picture::surrounding_label(mesh),
+                 .volumes = {}};
   out.volumes.resize(mesh.table().size());
   for_each_volume(run, [&](const audit::VolumeRow& row) {
     const RawLabel raw = run.labels.raw(row.label);
@@ -116,10 +126,12 @@ std::string label_row(const PageLabels& labels, Label rank, std::optional<std::s
            "\" aria-label=\"show " + digits + "\"" +
            (labels.surrounding == rank ? "" : " checked") + ">";
   }
-  out += swatch + digits + "</label></td><td>" + escaped(names.name(labels.raw(rank))) + "</td>";
+  out += swatch + digits + "</label></td><td>" + escaped(names.name(labels.raw(rank))) +
+         "</td><td>" + with_commas(labels.mesh.label_tets()[rank].size()) + "</td>";
   const std::optional<audit::VolumeRow>& volume = labels.volumes[rank];
-  if (!volume) return out + "<td></td><td></td></tr>\n";
+  if (!volume) return out + "<td></td><td></td><td></td></tr>\n";
   return out + "<td>" + with_commas(volume->voxels) + "</td><td>" +
+         escaped(labels.volume(volume->volume_voxels)) + "</td><td>" +
          format_fixed(100 * volume->error, 2) + " %</td></tr>\n";
 }
 
@@ -138,7 +150,9 @@ std::string label_rows(const PageLabels& labels, const ViewData& view) {
 
 constexpr const char* kStage =
     R"(<section><h2>Labels</h2><div class="viewer"><div class="card stage">
-<canvas id="view" tabindex="0" aria-label="the mesh; drag to turn, wheel or two fingers to zoom"></canvas>
+<div class="screen">
+<canvas id="view" tabindex="0" aria-label="the mesh; drag to turn, wheel or two fingers to zoom"></canvas></div>
+<p id="no-view" class="soft">This browser shows no WebGL 2; the pictures above are of the same mesh.</p>
 <p id="view-note" class="soft">@NOTE@</p>
 <div class="controls"><fieldset><span class="soft">Cut</span>
 <label><input type="radio" name="cut" value="-1" checked>none</label>
@@ -151,7 +165,7 @@ constexpr const char* kStage =
 <button id="view-reset" type="button">Reset</button></div></div>
 <div class="card panel"><div class="controls"><input id="labels-find" type="search" placeholder="Find" aria-label="find labels">
 <button id="labels-all" type="button">All</button><button id="labels-none" type="button">None</button></div>
-<div class="rows"><table id="labels"><thead><tr><th>Label</th><th>Name</th><th>Voxels</th><th title="of the volume">Error</th></tr></thead><tbody>
+<div class="rows"><table id="labels"><thead><tr><th>Label</th><th>Name</th><th>Tets</th><th>Voxels</th><th title="in the mesh">Volume</th><th title="of the volume">Error</th></tr></thead><tbody>
 )";
 
 std::string view_note(const ViewData& view) {
@@ -205,6 +219,7 @@ Json view_json(const PageLabels& labels, const ViewData& view) {
                     {"colour", picture::label_colour(labels.raw(rank), labels.mesh.names())}});
   }
   out["labels"] = std::move(rows);
+  out["frame"] = name(labels.space.frame);
   return out;
 }
 
@@ -219,10 +234,11 @@ void add_data(io::AtomicFile& file, const PageLabels& labels, ViewData& view) {
   file.append("</script>\n<script>\n" + std::string(kPageScript) + "</script>\n");
 }
 
-/// The policy forbids what the page does not do: to ask a network for anything.
+/// The policy forbids what the page does not do: to ask a network for anything.  Until its script
+/// runs, and finds WebGL 2, there is no view.
 std::string page_top(const Json& report) {
   return R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8">
+<html lang="en" data-view="none"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
 <title>)" +

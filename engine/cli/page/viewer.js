@@ -8,12 +8,16 @@
   const canvas = byId('view');
   addEventListener('error', (event) => { root.dataset.error = event.message; });
 
+  byId('labels-find').addEventListener('input', (event) => {
+    const wanted = event.target.value.trim().toLowerCase();
+    for (const row of document.querySelectorAll('#labels tbody tr')) {
+      row.hidden = !row.textContent.toLowerCase().includes(wanted);
+    }
+  });
+
   const gl = canvas.getContext('webgl2', {antialias: true, stencil: true});
-  if (!gl) {
-    root.dataset.view = 'none';
-    byId('view-note').textContent = 'This browser shows no WebGL 2; the pictures below are of the same mesh.';
-    return;
-  }
+  if (!gl) return;  // the page says so where the view would be
+  root.dataset.view = 'there';
 
   // --- data -------------------------------------------------------------------------------------
   const bytesOf = (id) => {
@@ -36,12 +40,39 @@
     for (const place of [group.a, group.b]) if (place >= 0) labels[place].groups.push(group);
   }
 
-  // The world is moved and scaled so that what is shown first lies around 0, its diagonal 2 long.
   const add = (a, b, f = 1) => a.map((x, i) => x + f * b[i]);
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const scaled = (a, f) => a.map((x) => x * f);
   const step = add(data.hi, data.lo, -1).map((length) => length / 65535);
-  const boxOf = (chosen) => {
+  const cornerOf = (box, shares) => shares.reduce((p, share, k) => add(p, box.edges[k], share), box.origin);
+
+  // What the page shows at most, in a box whose sides are those of the volume's.
+  const smallestBox = () => {
+    const [least, most] = [[1, 1, 1], [0, 0, 0]];
+    for (let i = 0; i < vertices.length; i += 3) {
+      const p = data.lo.map((x, k) => x + vertices[i + k] * step[k] - data.box.origin[k]);
+      data.box.edges.forEach((edge, k) => {
+        const share = dot(p, edge) / dot(edge, edge);
+        least[k] = Math.min(least[k], share);
+        most[k] = Math.max(most[k], share);
+      });
+    }
+    const edges = data.box.edges.map((edge, k) => scaled(edge, Math.max(most[k] - least[k], 0)));
+    return {origin: cornerOf(data.box, least), edges};
+  };
+
+  // The world is moved and scaled so that this box lies around 0, its diagonal 2 long.
+  const whole = smallestBox();
+  const middle = cornerOf(whole, [0.5, 0.5, 0.5]);
+  const scale = 2 / (Math.hypot(...whole.edges.map((edge) => Math.hypot(...edge))) || 1);
+  const place = (p) => scaled(add(p, middle, -1), scale);
+  const lo = place(data.lo);
+  const size = scaled(add(data.hi, data.lo, -1), scale);
+  const box = {origin: place(whole.origin), edges: whole.edges.map((edge) => scaled(edge, scale))};
+  const reach = 1.1;
+
+  const boxes = [...document.querySelectorAll('input[data-label]')];
+  const extentOf = (chosen) => {
     const [least, most] = [[65535, 65535, 65535], [0, 0, 0]];
     for (const group of chosen) {
       for (let i = 3 * group.first; i < 3 * (group.first + group.count); ++i) {
@@ -52,20 +83,9 @@
         }
       }
     }
-    return [least, most].map((end) => data.lo.map((x, k) => x + end[k] * step[k]));
+    return [least, most].map((end) => place(data.lo.map((x, k) => x + end[k] * step[k])));
   };
-  const boxes = [...document.querySelectorAll('input[data-label]')];
-  const ticked = boxes.filter((input) => input.checked).flatMap((input) => labels[input.dataset.label].groups);
-  const [least, most] = boxOf(ticked.length ? ticked : groups);
-  const middle = scaled(add(least, most), 0.5);
-  const scale = 2 / (Math.hypot(...add(most, least, -1)) || 1);
-  const place = (p) => scaled(add(p, middle, -1), scale);
-  const lo = place(data.lo);
-  const size = scaled(add(data.hi, data.lo, -1), scale);
-  const box = {origin: place(data.box.origin), edges: data.box.edges.map((edge) => scaled(edge, scale))};
-
-  for (const label of labels) [label.lo, label.hi] = boxOf(label.groups).map(place);
-  const reach = Math.hypot(...[0, 1, 2].map((k) => Math.max(Math.abs(lo[k]), Math.abs(lo[k] + size[k])))) + 0.1;
+  for (const label of labels) [label.lo, label.hi] = extentOf(label.groups);
 
   // --- WebGL ------------------------------------------------------------------------------------
   const shader = (type, source) => {
@@ -135,7 +155,7 @@
     }
     return array(vertexBuffer, gl.UNSIGNED_SHORT, lines);
   };
-  const corner = (x, y, z) => add(add(add(box.origin, box.edges[0], x), box.edges[1], y), box.edges[2], z);
+  const corner = (...shares) => cornerOf(box, shares);
   const frameLines = [];
   for (const [u, v] of [[0, 0], [0, 1], [1, 0], [1, 1]]) {
     frameLines.push(...corner(0, u, v), ...corner(1, u, v), ...corner(u, 0, v), ...corner(u, 1, v),
@@ -146,7 +166,8 @@
   const cap = array(capBuffer, gl.FLOAT);
 
   // --- state ------------------------------------------------------------------------------------
-  const start = {azimuth: -55, elevation: 24, distance: 1, x: 0, y: 0};
+  // At this distance a ball of radius 1, and so the box however it is turned, just fits.
+  const start = {azimuth: -55, elevation: 24, distance: 1.06, x: 0, y: 0};
   const eye = {...start};
   const cut = {axis: -1, share: 0.5, side: 1};
   let edges = false;
@@ -166,18 +187,42 @@
 
   // A perspective of a narrow angle, columns first.
   const kFocus = 3.6;
-  const kFill = 1;
   const cameraMatrix = ({right, up, viewer}) => {
     const far = kFocus * eye.distance;
     const aspect = canvas.width / canvas.height;
-    const fx = kFocus * kFill / Math.max(1, aspect);
-    const fy = kFocus * kFill * Math.min(1, aspect);
+    const fx = kFocus / Math.max(1, aspect);
+    const fy = kFocus * Math.min(1, aspect);
     const [near, back] = [Math.max(far - reach, 0.02), far + reach];
     const [c, d] = [(back + near) / (near - back), 2 * back * near / (near - back)];
     const out = [];
     for (let k = 0; k < 3; ++k) out.push(fx * right[k], fy * up[k], c * viewer[k], -viewer[k]);
     out.push(fx * eye.x, fy * eye.y, d - c * far, far);
     return out;
+  };
+
+  // --- names of the box's sides -----------------------------------------------------------------
+  const sides = {ras: ['LR', 'PA', 'IS'], lps: ['RL', 'AP', 'IS']}[data.frame];
+  const endsOf = (edge, k) => {
+    if (!sides) return ['', 'xyz'[k]];
+    const sizes = edge.map(Math.abs);
+    const axis = sizes.indexOf(Math.max(...sizes));
+    const ends = [...sides[axis]];
+    return edge[axis] < 0 ? ends.reverse() : ends;
+  };
+  const signs = box.edges.flatMap((edge, k) => endsOf(edge, k).map((text, end) => {
+    const element = document.createElement('span');
+    element.textContent = text;
+    canvas.parentElement.append(element);
+    const out = (end - 0.5) * (1 + 0.16 / (Math.hypot(...edge) || 1));
+    return {element, at: scaled(edge, out)};
+  }));
+  const placeSigns = (camera, viewer) => {
+    for (const {element, at: p} of signs) {
+      const [x, y, , w] = [0, 1, 2, 3].map((row) => dot(p, [camera[row], camera[row + 4], camera[row + 8]]) + camera[row + 12]);
+      element.style.left = `${50 + 50 * x / w}%`;
+      element.style.top = `${50 - 50 * y / w}%`;
+      element.style.opacity = dot(p, viewer) < 0 ? 0.45 : 1;
+    }
   };
 
   // --- drawing ----------------------------------------------------------------------------------
@@ -293,7 +338,9 @@
     const view = axes();
     const light = add(add(view.viewer, view.up, 0.5), view.right, -0.35);
     const plane = cutPlane();
-    gl.uniformMatrix4fv(at.camera, false, cameraMatrix(view));
+    const camera = cameraMatrix(view);
+    placeSigns(camera, view.viewer);
+    gl.uniformMatrix4fv(at.camera, false, camera);
     gl.uniform3f(at.viewer, ...view.viewer);
     gl.uniform3f(at.light, ...scaled(light, 1 / Math.hypot(...light)));
     gl.uniform4f(at.cut, ...plane);
@@ -397,12 +444,6 @@
   };
   byId('labels-all').addEventListener('click', () => setAll(true));
   byId('labels-none').addEventListener('click', () => setAll(false));
-  byId('labels-find').addEventListener('input', (event) => {
-    const wanted = event.target.value.trim().toLowerCase();
-    for (const row of document.querySelectorAll('#labels tbody tr')) {
-      row.hidden = !row.textContent.toLowerCase().includes(wanted);
-    }
-  });
 
   new ResizeObserver(redraw).observe(canvas);
   read();

@@ -107,8 +107,13 @@ class RunPage(unittest.TestCase):
             "verify v.npy v.vtu",
         ):
             self.assertIn(fact, text)
-        for row in shape["per_label"]:
-            self.assertRegex(text, rf'\b{row["label"]}\b.*{row["voxels"]:,} *{100 * row["volume_error"]:.2f} %')
+        for row in shape["per_label"]:  # the spacing is 1, and of no unit
+            figures = rf'{row["voxels"]:,} {row["volume_voxels"]:.4g} {100 * row["volume_error"]:.2f} %'
+            self.assertRegex(text, rf'\b{row["label"]}\b.* [0-9,]+ {figures}'.replace(" -0.00", " 0.00"))
+        rows = re.findall("</td><td>([0-9,]+)</td><td>[0-9,]+</td>", self.page.source)
+        self.assertEqual(sum(int(row.replace(",", "")) for row in rows), report["output"]["tets"])
+        self.assertIn(f'{report["performance"]["wall_s"]:.4g} s', text)
+        self.assertNotIn("-0.00 %", text)
 
     def test_histograms_are_those_of_the_report(self):
         quality, shape = self.report["quality"], self.report["shape"]
@@ -189,24 +194,68 @@ class RunPage(unittest.TestCase):
             self.assertEqual(done.returncode, 2, taken)
             self.assertIn("--html " + taken, done.stderr)
 
+    def in_a_browser(self, page, script, *flags):
+        """What the page's root says when the script has run."""
+        with open("t.html", "w", encoding="utf-8") as file:
+            file.write(page + "<script>const byId = (id) => document.getElementById(id);" + script + "</script>")
+        command = [CHROMIUM, "--headless", "--no-sandbox", *flags, "--virtual-time-budget=3000", "--dump-dom",
+                   "file://" + os.path.abspath("t.html")]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+        return re.search("<html[^>]*>", done.stdout).group()
+
+    def in_a_view(self, page, script):
+        root = self.in_a_browser(page, script, "--use-gl=angle", "--use-angle=swiftshader",
+                                 "--enable-unsafe-swiftshader")
+        if 'data-view="none"' in root:
+            self.skipTest("this chromium has no WebGL 2")
+        self.assertIn('data-view="drawn"', root)
+        self.assertNotIn("data-error", root)
+        return root
+
     @unittest.skipUnless(CHROMIUM, "no chromium")
     def test_runs_in_a_browser(self):
         """Draws, with a cut and edges too, without an error of script or WebGL."""
-        with open("t.html", "w", encoding="utf-8") as file:
-            file.write(self.page.source)
-            file.write("<script>document.querySelector('input[name=cut][value=\"1\"]').click();"
-                       "document.getElementById('view-edges').click();"
-                       "document.getElementById('labels-none').click();"
-                       "document.getElementById('labels-all').click();</script>")
-        command = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                   "--enable-unsafe-swiftshader", "--virtual-time-budget=3000", "--dump-dom",
-                   "file://" + os.path.abspath("t.html")]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
-        top = done.stdout[:400]
-        if 'data-view="none"' in top:
-            self.skipTest("this chromium has no WebGL 2")
-        self.assertIn('data-view="drawn"', top)
-        self.assertNotIn("data-error", top)
+        self.in_a_view(self.page.source, "document.querySelector('input[name=cut][value=\"1\"]').click();"
+                       "for (const id of ['view-edges', 'labels-none', 'labels-all']) byId(id).click();")
+
+    @unittest.skipUnless(CHROMIUM, "no chromium")
+    def test_box_is_within_the_view_and_its_sides_have_names(self):
+        labels = numpy.ones((12, 10, 14), "u1")
+        labels[4:8, 3:7, 2:6] = 2
+        header = ("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 14 10 12\nencoding: raw\n"
+                  "space: left-posterior-superior\nspace directions: (0,2,0) (-1,0,0) (0,0,3)\n"
+                  "space origin: (0,0,0)\nspace units: \"mm\" \"mm\" \"mm\"\n\n")
+        with open("lps.nrrd", "wb") as file:
+            file.write(header.encode() + labels.tobytes())
+        run("mesh", "lps.nrrd", "-o", "lps.vtu", "--html", "lps.html")
+        page = Page("lps.html")
+        self.assertRegex(" ".join(" ".join(page.text).split()), r"[0-9.]+ mL .*[0-9.]+ mm³")
+        root = self.in_a_view(page.source, """
+            byId('view-reset').click();
+            requestAnimationFrame(() => {  // behind that of the page, and before the picture is gone
+              const gl = byId('view').getContext('webgl2'), w = gl.drawingBufferWidth, h = gl.drawingBufferHeight;
+              const pixels = new Uint8Array(4 * w * h);
+              gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+              let inside = 0, border = 0;
+              for (let y = 0; y < h; ++y) for (let x = 0; x < w; ++x) {
+                if (pixels[4 * (w * y + x) + 3] === 0) continue;
+                ++inside;
+                if (x === 0 || y === 0 || x === w - 1 || y === h - 1) ++border;
+              }
+              const ends = [...document.querySelectorAll('.screen span')].map((end) => end.textContent).join('');
+              document.documentElement.dataset.seen = `${inside > 1000} ${border} ${ends}`;
+            });""")
+        self.assertIn('data-seen="true 0 APLRIS"', root)
+
+    @unittest.skipUnless(CHROMIUM, "no chromium")
+    def test_without_webgl_there_is_no_hole(self):
+        script = """document.documentElement.dataset.seen = ['no-view', 'view', 'view-note', 'view-edges', 'labels-all']
+            .map((id) => byId(id).offsetHeight > 0);"""
+        root = self.in_a_browser(self.page.source, script, "--disable-3d-apis")
+        self.assertIn('data-view="none"', root)
+        self.assertIn('data-seen="true,false,false,false,false"', root)
+        self.assertIn("pictures above", self.page.source)
+        self.assertLess(self.page.source.index("<h2>Pictures"), self.page.source.index("pictures above"))
 
 
 if __name__ == "__main__":
