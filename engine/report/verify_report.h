@@ -6,7 +6,7 @@
 #include "engine/report/resource_meter.h"
 #include "io/json/json.h"
 #include "io/labels/prepared_input.h"
-#include "io/mesh/mesh_promises.h"
+#include "io/mesh/mesh_record.h"
 #include "kernels/audit/audit.h"
 
 namespace mw::report {

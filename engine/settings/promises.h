@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/settings/settings.h"
-#include "io/mesh/mesh_promises.h"
+#include "io/mesh/mesh_record.h"
 
 namespace mw::engine {
 

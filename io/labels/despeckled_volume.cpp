@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/labels/speck_rounds.h"
+#include "io/labels/specks.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {

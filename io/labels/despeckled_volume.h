@@ -3,7 +3,7 @@
 // A volume whose smallest components have taken the labels around them (--drop-specks).
 #pragma once
 
-#include "io/labels/speck_finder.h"
+#include "io/labels/specks.h"
 #include "io/volume/volume_view.h"
 
 namespace mw::io {
@@ -15,7 +15,7 @@ struct SpeckFacts {
   int rounds = 0;
 };
 
-/// The rule: settle_specks() (speck_rounds.h).  The volume is read twice at the start and never
+/// The rule: settle_specks().  The volume is read twice at the start and never
 /// held (plane by plane: a file whose fastest axis is z takes several times as long as others);
 /// what is held are the runs of voxels that change.
 /// Thread safety: as the volume below, which must outlive it.

@@ -22,7 +22,11 @@ class PreparedInput {
  public:
   /// opened must outlive it.  limits: of the search for specks.
   /// ERRORS: those of MergedVolume and DespeckledVolume.
-  PreparedInput(const LabelVolume& opened, const InputSteps& steps, const SpeckLimits& limits = {});
+  PreparedInput(const LabelVolume& opened, const InputSteps& steps, const SpeckLimits& limits = {})
+      : volume_(&opened) {
+    if (!steps.merge.empty()) volume_ = &merged_.emplace(*volume_, steps.merge);
+    if (steps.specks) volume_ = &despeckled_.emplace(*volume_, *steps.specks, limits);
+  }
 
   PreparedInput(const PreparedInput&) = delete;
   PreparedInput& operator=(const PreparedInput&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The runs of the volume again, those of specks known by their place.
-#include "io/labels/speck_contacts.h"
+#include "io/labels/specks.h"
 
 #include <algorithm>
 #include <tuple>
@@ -9,7 +9,6 @@
 
 #include "io/labels/label_runs.h"
 #include "io/labels/label_table.h"
-#include "io/labels/speck_memory.h"
 
 namespace mw::io {
 namespace {

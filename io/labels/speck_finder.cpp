@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Union-find over the runs of two planes; what no later plane can reach is finished.
-#include "io/labels/speck_finder.h"
 
 #include <algorithm>
 #include <deque>
@@ -10,7 +9,7 @@
 
 #include "io/file/text_numbers.h"
 #include "io/labels/label_runs.h"
-#include "io/labels/speck_memory.h"
+#include "io/labels/specks.h"
 
 namespace mw::io {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Rounds over the graph of specks, each from those that the round before has settled.
-#include "io/labels/speck_rounds.h"
+#include "io/labels/specks.h"
 
 #include <algorithm>
 #include <span>

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+
+#include "kernels/core/error.h"
 
 namespace mw::io {
 
@@ -18,7 +21,12 @@ enum class Element : std::uint8_t {
 }
 
 /// "tet4", "tet10".  ERRORS: mw::Error(kUsage).
-[[nodiscard]] Element parse_element(std::string_view text);
+[[nodiscard]] inline Element parse_element(std::string_view text) {
+  if (text == "tet4") return Element::kTet4;
+  if (text == "tet10") return Element::kTet10;
+  throw Error(ErrorKind::kUsage,
+              "'" + std::string(text) + "' is no element; those are tet4 and tet10");
+}
 
 /// Cell types of VTK's files; the ten nodes of theirs are in the order of kTetEdges.
 inline constexpr std::uint8_t kVtkTetra = 10;

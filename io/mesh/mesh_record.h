@@ -3,15 +3,37 @@
 // What a mesh file tells of the run that made it, as a line of JSON.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "io/mesh/mesh_box.h"
-#include "io/mesh/mesh_promises.h"
 #include "kernels/core/label.h"
 
 namespace mw::io {
+
+using Position = std::array<double, 3>;  ///< physical units
+
+/// A box in the world: a corner and three edges from there, along x, y and z of the array.  The
+/// edges are at right angles, not always along the world's axes.
+struct MeshBox {
+  Position origin{};
+  std::array<Position, 3> edges{};
+
+  friend bool operator==(const MeshBox&, const MeshBox&) = default;
+};
+
+/// Settings of the run that `verify` asks about: what is checked later is what was promised.
+struct MeshPromises {
+  std::optional<double> max_distance;  ///< voxels of the lattice; empty: no bound
+  double quality_floor = 0;            ///< radius ratio
+  bool interfaces = false;             ///< --topology interfaces
+  bool smooth = true;                  ///< --surface smooth: thick slices were cut into layers
+  bool optimised = true;               ///< not --optimizer none
+
+  friend bool operator==(const MeshPromises&, const MeshPromises&) = default;
+};
 
 /// Where formats that have names for arrays and groups keep it.
 inline constexpr const char* kRecordName = "mwmesh";

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "io/file/errors.h"
 #include "io/mesh/mesh_record.h"
 #include "io/names/label_names.h"
 #include "kernels/core/label.h"
@@ -40,5 +41,13 @@ class MeshSink {
   /// The most that it holds in memory between begin() and finish(); 0 of one that is no file.
   [[nodiscard]] virtual std::uint64_t buffer_bytes() const { return 0; }
 };
+
+/// What every sink checks before a file gets its name.
+/// ERRORS: mw::Error(kInternal) when the tets written are not those the header promised.
+inline void check_sink_counts(std::string_view file, const MeshHeader& header, std::uint64_t tets) {
+  if (tets == header.tets) return;
+  throw Error(ErrorKind::kInternal,
+              text(file, ": ", tets, " tets were written, ", header.tets, " were announced"));
+}
 
 }  // namespace mw::io

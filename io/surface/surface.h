@@ -3,7 +3,7 @@
 // Facets of a mesh as a surface with vertices of its own.
 #pragma once
 
-#include "io/surface/shell_facets.h"
+#include "io/surface/shell_plan.h"
 
 namespace mw::io {
 

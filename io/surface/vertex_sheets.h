@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "io/surface/shell_facets.h"
+#include "io/surface/shell_plan.h"
 
 namespace mw::io {
 

@@ -5,11 +5,10 @@
 #include <bit>
 
 #include "io/file/source/file_source.h"
-#include "io/mesh/gmsh/msh_reader.h"
-#include "io/mesh/medit/medit_reader.h"
-#include "io/mesh/pieces/pvtu_reader.h"
-#include "io/mesh/vtu/vtu_reader.h"
-#include "io/mesh/vtu/vtu_sink.h"
+#include "io/mesh/gmsh/msh.h"
+#include "io/mesh/medit/medit.h"
+#include "io/mesh/pieces/pvtu.h"
+#include "io/mesh/vtu/vtu.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/byte_file.h"
 #include "tests/fuzz/file_tree.h"

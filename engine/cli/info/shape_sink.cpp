@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "io/mesh/tet_volume.h"
+#include "io/mesh/grouped/grouped_mesh.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {

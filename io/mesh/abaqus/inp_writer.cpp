@@ -6,7 +6,7 @@
 #include "io/file/errors.h"
 #include "io/file/scratch/external_sort.h"
 #include "io/mesh/grouped/group_names.h"
-#include "io/mesh/medit/medit_names.h"
+#include "io/mesh/medit/medit.h"
 
 namespace mw::io {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads a .msh file of Gmsh.
-#include "io/mesh/gmsh/msh_reader.h"
+#include "io/mesh/gmsh/msh.h"
 
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes a grouped mesh as Gmsh's .msh 4.1.
-#include "io/mesh/gmsh/msh_writer.h"
+#include "io/mesh/gmsh/msh.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "io/mesh/mesh_box.h"
+#include "io/mesh/mesh_record.h"
 
 namespace mw::io {
 

@@ -41,4 +41,73 @@ std::array<std::uint64_t, 3> GroupedMesh::facet_middles(const Facet& facet) {
   return out;
 }
 
+namespace {
+
+/// Of the length of a box, of what lies on its side.
+constexpr double kTolerance = 1e-9;
+
+/// Of a point along an edge of the box: 0 at its beginning, 1 at its end.
+double share_along(const MeshBox& box, std::size_t axis, const Position& p) {
+  double along = 0;
+  double length = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    along += box.edges[axis][k] * (p[k] - box.origin[k]);
+    length += box.edges[axis][k] * box.edges[axis][k];
+  }
+  return along / length;
+}
+
+constexpr std::uint64_t kBatchRows = 4096;
+
+void write_nodes(GroupedMesh& mesh, MeshSink& sink) {
+  std::vector<Position> batch;
+  for (std::uint64_t at = 0; at < mesh.node_count(); at += batch.size()) {
+    batch.resize(std::min(kBatchRows, mesh.node_count() - at));
+    for (std::size_t i = 0; i < batch.size(); ++i) batch[i] = mesh.node(at + i);
+    sink.write_vertices(batch);
+  }
+}
+
+void write_cells(GroupedMesh& mesh, Label rank, TenNodeSink& sink) {
+  const RowRange range = mesh.label_tets()[rank];
+  std::vector<TenRows> batch;
+  std::vector<RawLabel> labels;
+  for (std::uint64_t at = range.begin; at < range.end; at += batch.size()) {
+    batch.resize(std::min(kBatchRows, range.end - at));
+    labels.assign(batch.size(), mesh.table().raw(rank));
+    for (std::size_t i = 0; i < batch.size(); ++i) batch[i] = ten_rows(mesh, at + i);
+    sink.write_ten_nodes(batch, labels);
+  }
+}
+
+}  // namespace
+
+Side BoxSides::side_of(const std::array<Position, 3>& corners) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const bool on_side = std::all_of(corners.begin(), corners.end(), [&](const Position& p) {
+        return std::abs(share_along(box_, axis, p) - static_cast<double>(end)) <= kTolerance;
+      });
+      if (on_side) return static_cast<Side>(1 + 2 * axis + end);
+    }
+  }
+  return Side::kOuter;
+}
+
+TenRows ten_rows(GroupedMesh& mesh, std::uint64_t tet) {
+  TenRows out{};
+  const TetRows corners = mesh.tet(tet);
+  const std::array<std::uint64_t, 6> middles = mesh.middles(tet);
+  std::copy(corners.begin(), corners.end(), out.begin());
+  std::copy(middles.begin(), middles.end(), out.begin() + corners.size());
+  return out;
+}
+
+void TenNodeWriter::write(GroupedMesh& mesh) {
+  sink_->begin(mesh.header());
+  write_nodes(mesh, *sink_);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) write_cells(mesh, rank, *sink_);
+  sink_->finish();
+}
+
 }  // namespace mw::io

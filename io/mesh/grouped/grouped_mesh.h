@@ -11,6 +11,7 @@
 #include "io/labels/label_table.h"
 #include "io/mesh/element.h"
 #include "io/mesh/grouped/box_sides.h"
+#include "io/mesh/mesh_record.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
@@ -106,6 +107,42 @@ class GroupedWriter {
   virtual ~GroupedWriter() = default;
   /// Writes and commits.  Called once.  ERRORS: as MeshSink.
   virtual void write(GroupedMesh& mesh) = 0;
+};
+
+/// Six times the signed volume: positive when d is where the normal of a b c points.
+[[nodiscard]] inline double volume6(const Position& a, const Position& b, const Position& c,
+                                    const Position& d) {
+  std::array<Position, 3> e{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    e[0][k] = b[k] - a[k];
+    e[1][k] = c[k] - a[k];
+    e[2][k] = d[k] - a[k];
+  }
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+using TenRows = std::array<std::uint64_t, 10>;  ///< corners, then the middles of kTetEdges
+
+/// A sink that writes tets of one kind or the other.
+class TenNodeSink : public MeshSink {
+ public:
+  /// In the place of write_tets().  REQUIRES: as that; the sink was made for kTet10.
+  virtual void write_ten_nodes(std::span<const TenRows> tets, std::span<const RawLabel> labels) = 0;
+};
+
+/// The corners of a tet and the middles of its edges.
+[[nodiscard]] TenRows ten_rows(GroupedMesh& mesh, std::uint64_t tet);
+
+/// Streams a grouped mesh of kTet10 into such a sink.
+class TenNodeWriter : public GroupedWriter {
+ public:
+  explicit TenNodeWriter(std::unique_ptr<TenNodeSink> sink) : sink_(std::move(sink)) {}
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  std::unique_ptr<TenNodeSink> sink_;
 };
 
 }  // namespace mw::io

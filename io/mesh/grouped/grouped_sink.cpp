@@ -9,8 +9,7 @@
 #include "io/file/scratch/external_sort.h"
 #include "io/labels/label_set.h"
 #include "io/mesh/grouped/grouped_mesh.h"
-#include "io/mesh/sink_counts.h"
-#include "io/mesh/tet_volume.h"
+#include "io/mesh/mesh_sink.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads an ASCII MEDIT .mesh file.
-#include "io/mesh/medit/medit_reader.h"
 
 #include <algorithm>
 #include <charconv>
@@ -13,7 +12,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/source/byte_source.h"
-#include "io/mesh/medit/medit_names.h"
+#include "io/mesh/medit/medit.h"
 
 namespace mw::io {
 namespace {

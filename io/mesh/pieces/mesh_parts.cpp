@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/mesh/pieces/mesh_parts.h"
+#include "io/mesh/pieces/pvtu.h"
 
 #include <algorithm>
 #include <numeric>

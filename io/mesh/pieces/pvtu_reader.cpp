@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/mesh/pieces/pvtu_reader.h"
+#include "io/mesh/pieces/pvtu.h"
 
 #include <algorithm>
 #include <numeric>
@@ -8,8 +8,8 @@
 #include "io/file/errors.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
+#include "io/mesh/vtu/vtu.h"
 #include "io/mesh/vtu/vtu_layout.h"
-#include "io/mesh/vtu/vtu_reader.h"
 #include "io/vtk_xml/vtk_document.h"
 
 namespace mw::io {

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/mesh/pieces/pvtu_sink.h"
 
 #include <algorithm>
 #include <cstdio>
 
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
-#include "io/mesh/pieces/mesh_parts.h"
-#include "io/mesh/sink_counts.h"
+#include "io/mesh/mesh_sink.h"
+#include "io/mesh/pieces/pvtu.h"
 #include "io/mesh/vtu/vtu_layout.h"
 #include "io/mesh/xml_text.h"
 

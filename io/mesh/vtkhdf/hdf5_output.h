@@ -45,21 +45,37 @@ class Hdf5Output : public PlacedOutput {
 
   [[nodiscard]] Hdf5Rooms& rooms() { return rooms_; }
   [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes) { return rooms_.reserve(bytes); }
-  void write_at(std::uint64_t address, std::span<const std::byte> bytes) override;
+  void write_at(std::uint64_t address, std::span<const std::byte> bytes) override {
+    file_.write_at(address, bytes);
+  }
   /// The file gets the size of what is reserved.
   void extend() { file_.resize(rooms_.next()); }
   /// Where it is until the commit.
   [[nodiscard]] const std::filesystem::path& partial() const { return file_.partial(); }
 
   /// A data set of these bytes.
-  [[nodiscard]] Hdf5DataSet add(Hdf5DataSet set, std::span<const std::byte> bytes);
+  [[nodiscard]] Hdf5DataSet add(Hdf5DataSet set, std::span<const std::byte> bytes) {
+    set.address = reserve(bytes.size());
+    write_at(set.address, bytes);
+    return set;
+  }
   /// A data set of kText.
-  [[nodiscard]] Hdf5DataSet add_texts(const std::string& name, std::span<const std::string> texts);
+  [[nodiscard]] Hdf5DataSet add_texts(const std::string& name, std::span<const std::string> texts) {
+    const Hdf5Texts all = hdf5_texts(texts, rooms_.next());
+    write_at(reserve(all.heap.size()), std::as_bytes(std::span(all.heap)));
+    return add({.name = name, .kind = Hdf5Kind::kText, .shape = {texts.size()}},
+               std::as_bytes(std::span(all.positions)));
+  }
 
   /// REQUIRES: the data of all sets are written.
   void commit(const Hdf5Group& root) { finish(root).commit(); }
   /// The same up to the commit, which may be one with other files (commit_together.h).
-  [[nodiscard]] AtomicFile& finish(const Hdf5Group& root);
+  [[nodiscard]] AtomicFile& finish(const Hdf5Group& root) {
+    const Hdf5Metadata metadata = hdf5_metadata(root, rooms_.next());
+    write_at(rooms_.next(), std::as_bytes(std::span(metadata.tail)));
+    write_at(0, std::as_bytes(std::span(metadata.head)));
+    return file_;
+  }
 
  private:
   std::string name_;

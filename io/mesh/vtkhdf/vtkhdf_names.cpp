@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Names of labels, and the record of the run, in a .vtkhdf file.
-#include "io/mesh/vtkhdf/vtkhdf_names.h"
+#include "io/mesh/vtkhdf/vtkhdf.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads a tetrahedral .vtkhdf file.
-#include "io/mesh/vtkhdf/vtkhdf_reader.h"
+#include "io/mesh/vtkhdf/vtkhdf.h"
 
 #include <algorithm>
 #include <optional>
@@ -13,7 +13,6 @@
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/vtkhdf/hdf5_array.h"
-#include "io/mesh/vtkhdf/vtkhdf_names.h"
 
 namespace mw::io {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Streams a mesh into a .vtkhdf file, of one process or of several that write it together.
-#include "io/mesh/vtkhdf/vtkhdf_sink.h"
 
 #include "io/file/errors.h"
-#include "io/mesh/sink_counts.h"
-#include "io/mesh/vtkhdf/vtkhdf_names.h"
+#include "io/mesh/mesh_sink.h"
+#include "io/mesh/vtkhdf/vtkhdf.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads a tetrahedral .vtu file.
-#include "io/mesh/vtu/vtu_reader.h"
+#include "io/mesh/vtu/vtu.h"
 
 #include <cmath>
 

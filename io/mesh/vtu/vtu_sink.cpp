@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Streams a mesh into a .vtu file.
-#include "io/mesh/vtu/vtu_sink.h"
+#include "io/mesh/vtu/vtu.h"
 
 #include "io/file/byte_order.h"
-#include "io/mesh/sink_counts.h"
+#include "io/mesh/mesh_sink.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {

@@ -5,7 +5,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
-#include "io/mesh/grouped/ten_node_writer.h"
+#include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
 #include "io/mesh/xml_text.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "io/file/errors.h"
-#include "io/mesh/medit/medit_names.h"
+#include "io/mesh/medit/medit.h"
 #include "io/surface/surface_sink.h"
 
 namespace mw::io {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Meshes in pieces come back as one; indices and pieces that are damaged or of others do not.
-#include "io/mesh/pieces/pvtu_reader.h"
+#include "io/mesh/pieces/pvtu.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/mesh/pieces/pvtu_sink.h"
+#include "io/mesh/pieces/pvtu.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,27 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Writes a grouped mesh as Gmsh's .msh 4.1.
+// Gmsh's .msh files: 4.1 and 2.2 in, 4.1 out.
 #pragma once
+
+#include <filesystem>
 
 #include "io/file/sink/partial_file.h"
 #include "io/mesh/gmsh/msh_encoder.h"
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/label_numbers.h"
+#include "io/mesh/mesh_data.h"
 
 namespace mw::io {
+
+/// Versions 4.1 and 2.2, text and binary of either byte order; may be gzipped.  Takes tets of every
+/// order, of which corners alone, and skips other elements.  Rows are nodes by their tags.  The
+/// label is the first physical group of the tet's volume, or the volume's tag where it is in none:
+/// of that number, or what the table beside the file says (append_label_table).  Without a table,
+/// names are those of physical volumes.
+/// ERRORS: mw::Error(kInput) with file and place; also for other versions, partitioned meshes, and
+/// elements of which none is a tet.
+[[nodiscard]] MeshData read_msh(const std::filesystem::path& path);
 
 /// A volume a label, whose tag and physical group are the label's number (LabelNumbers: 1 to
 /// 2^31 - 1), and a surface a facet group, tagged from 1 on, with normals out of the lower label.

@@ -1,14 +1,18 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Streams a mesh into a .vtkhdf file, of one process or of several that write it together.
+// Tetrahedral .vtkhdf files: in; out, by one process or by several that write together.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "io/file/sink/partial_file.h"
+#include "io/hdf5/hdf5_file.h"
 #include "io/mesh/element.h"
-#include "io/mesh/grouped/ten_node_writer.h"
+#include "io/mesh/field_names.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/mesh/shared_mesh.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
 
@@ -72,7 +76,7 @@ void commit_vtkhdf(Hdf5Output& output, const VtkhdfPlaces& places, Element eleme
 ///     Offsets            Int64 [tets + 1]
 ///     Types              UInt8 [tets], all 10; of ten nodes 24
 ///     CellData/label     UInt64 or Int64 [tets]
-///     FieldData          names of labels, where there are any, as in /mwmesh (vtkhdf_names.h)
+///     FieldData          names of labels, where there are any, as in /mwmesh (add_vtkhdf_facts())
 /// No time stamps: equal meshes are equal bytes.
 /// Cost: 4 MiB of buffers.  Thread safety: none.
 class VtkhdfSink : public TenNodeSink {
@@ -129,5 +133,30 @@ class VtkhdfShared : public SharedMesh {
   std::optional<JoinedPartial> part_;  ///< what rows are written through
   VtkhdfColumns columns_;
 };
+
+/// VTKHDF of type UnstructuredGrid, version 1 or 2 (one time step); partitions are put one after
+/// the other.  The label is the cell array `label`, else `Label`, `labels`, `material` or
+/// `medit:ref`, else the only integer cell array.
+/// The HDF5 library reads in a child process: damaged files crash it.
+/// Of tets with ten nodes the corners are read; the middles of edges go.
+/// Memory: batches of 65,536 rows, whatever the size of the mesh; of one with ten-node tets a
+/// quarter of a byte a node as well.
+/// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
+/// tetrahedra, without label, or when a row does not exist; what the sink throws.
+void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink);
+
+/// Writes what VTK reads, in a group FieldData of `grid`: the arrays of field_names.h.  Strings
+/// have a variable length and are declared ASCII, though they are UTF-8: VTK 9.1 reads no others.
+/// What we read: the numbers there, and in `file` the names once more, `mwmesh/label_name`, bytes
+/// with a NUL behind each.  The HDF5 library does not survive damaged strings of variable length.
+/// Nothing without names.  The record is `mwmesh/record`, bytes too.
+/// ENSURES: file and grid have the groups that there are.  ERRORS: as Hdf5Output.
+void add_vtkhdf_facts(Hdf5Output& output, const MeshHeader& header, Hdf5Group& file,
+                      Hdf5Group& grid);
+
+/// Nothing when the file has no such arrays.  `name` is what errors call it.
+/// ERRORS: mw::Error(kInput) naming file and data set when they are damaged.
+[[nodiscard]] LabelNames read_vtkhdf_names(hid_t file, hid_t grid, const std::string& name);
+[[nodiscard]] MeshRecord read_vtkhdf_record(hid_t file, const std::string& name);
 
 }  // namespace mw::io

@@ -1,20 +1,31 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Streams a mesh into an ASCII MEDIT .mesh file.
+// ASCII MEDIT .mesh files, in and out.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/file/scratch/scratch_file.h"
 #include "io/file/sink/atomic_file.h"
+#include "io/file/source/byte_source.h"
+#include "io/mesh/mesh_data.h"
 #include "io/mesh/mesh_sink.h"
+#include "io/names/label_names.h"
 
 namespace mw::io {
 
+/// Takes Vertices and Tetrahedra and skips every other section; labels are signed when one of them
+/// is negative.
+/// ERRORS: mw::Error(kInput) with file and line when truncated, not of dimension 3, without
+/// vertices or tetrahedra, or when a row does not exist.
+[[nodiscard]] MeshData read_medit(const ByteSource& source);
+
 /// Coordinates are printed with the fewest digits that give back the same double; the reference of
 /// a tet is its label, of a vertex 0; rows count from 1.  Names of labels are comments
-/// (medit_names.h).  The lines of the tets, which come last in the file, wait in a temporary file
+/// (medit_comment()).  The lines of the tets, which come last in the file, wait in a temporary file
 /// in the same folder.
 class MeditSink : public MeshSink {
  public:
@@ -38,5 +49,13 @@ class MeditSink : public MeshSink {
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;
 };
+
+/// The line `# label 7 "name" 255 0 0 255`, with its end; without the four numbers where the colour
+/// is unknown.  In the name `"` and `\` have a `\` in front.
+[[nodiscard]] std::string medit_comment(const LabelName& row, bool is_signed);
+
+/// What medit_comment() wrote, from behind the '#' to the end of the line; empty for any other
+/// comment.
+[[nodiscard]] std::optional<LabelName> parse_medit_comment(std::string_view comment);
 
 }  // namespace mw::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Streams a mesh into a .vtu file.
+// Tetrahedral .vtu files, in and out.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,28 @@
 #include <vector>
 
 #include "io/file/sink/atomic_file.h"
-#include "io/mesh/grouped/ten_node_writer.h"
+#include "io/file/source/byte_source.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/mesh_data.h"
 #include "io/mesh/vtu/vtu_layout.h"
 
 namespace mw::io {
+
+/// Pieces are put one after the other.  Of tets with ten nodes the corners are read; the middles of
+/// edges go.  The label is the cell array `label`, else `Label`,
+/// `labels`, `material` or `medit:ref`, else the only integer cell array.
+/// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
+/// tetrahedra, without label, or when a row does not exist.
+[[nodiscard]] MeshData read_vtu(const ByteSource& source);
+
+/// A mesh that is part of another.
+struct VtuPiece {
+  MeshData mesh;
+  std::vector<std::uint64_t> ids;  ///< of its vertices in the whole: PointData/GlobalNodeIds
+};
+
+/// ERRORS: as read_vtu(); without ids, or with tets of ten nodes.
+[[nodiscard]] VtuPiece read_vtu_piece(const ByteSource& source);
 
 /// One buffered place of a file that is filled from its beginning to its end.
 class FileRegion {
