@@ -9,10 +9,10 @@
 #include "engine/system/tbb_for.h"
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
-#include "kernels/start/coarsen.h"
+#include "kernels/start/coarsen/coarsen.h"
 #include "kernels/start/graded_start.h"
 #include "kernels/synth/synth.h"
-#include "tests/kernels/start/level_maps.h"
+#include "tests/kernels/start/cells/level_maps.h"
 
 namespace mw {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "engine/window/window_grid.h"
 #include "kernels/core/error.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::bench {
 namespace {

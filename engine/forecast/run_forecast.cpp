@@ -3,7 +3,7 @@
 // How long the rest of a run will take.
 #include "engine/forecast/run_forecast.h"
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {

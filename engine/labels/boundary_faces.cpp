@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "io/labels/brick_volume.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "kernels/core/label_box.h"
+#include "kernels/core/label.h"
 
 namespace mw::engine {
 

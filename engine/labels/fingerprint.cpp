@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "engine/labels/reading_tiles.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "engine/labels/tile_bricks.h"
-#include "kernels/start/coarsen.h"
+#include "kernels/start/coarsen/coarsen.h"
 #include "kernels/start/graded_start.h"
 
 namespace mw::engine {

@@ -9,9 +9,9 @@
 #include "engine/labels/reading_tiles.h"
 #include "engine/labels/tile_bricks.h"
 #include "engine/system/tbb_for.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "kernels/start/carrier_faces.h"
-#include "kernels/start/coarsen.h"
+#include "kernels/start/coarsen/coarsen.h"
 
 namespace mw::engine {
 namespace {

@@ -8,10 +8,10 @@
 #include "engine/settings/settings.h"
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
-#include "kernels/core/label_box.h"
+#include "kernels/core/label.h"
 #include "kernels/inner/inner_demand.h"
 #include "kernels/size/size_field.h"
-#include "kernels/start/level_map.h"
+#include "kernels/start/cells/level_map.h"
 
 namespace mw::engine {
 

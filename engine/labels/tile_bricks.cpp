@@ -3,7 +3,7 @@
 // Bricks cut out of larger boxes of labels.
 #include "engine/labels/tile_bricks.h"
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 

@@ -8,7 +8,7 @@
 
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
-#include "kernels/core/label_box.h"
+#include "kernels/core/label.h"
 
 namespace mw::engine {
 

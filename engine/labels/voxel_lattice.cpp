@@ -11,7 +11,7 @@
 #include "kernels/core/face_sample.h"
 #include "kernels/core/lattice.h"
 #include "kernels/core/layers.h"
-#include "kernels/start/start_quality.h"
+#include "kernels/start/cells/cell_template.h"
 
 namespace mw::engine {
 namespace {

@@ -10,10 +10,10 @@
 #include "engine/output/label_selection.h"
 #include "engine/window/window_grid.h"
 #include "io/mesh/mesh_sink.h"
-#include "kernels/audit/quality.h"
-#include "kernels/audit/shape.h"
+#include "kernels/audit/shape/quality.h"
+#include "kernels/audit/shape/shape.h"
 #include "kernels/core/index.h"
-#include "kernels/core/int128.h"
+#include "kernels/core/lattice.h"
 #include "kernels/mesh/block_mesh.h"
 
 namespace mw::engine {

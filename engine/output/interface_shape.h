@@ -11,7 +11,7 @@
 #include "engine/output/label_selection.h"
 #include "engine/output/vertex_rows.h"
 #include "io/volume/label_volume.h"
-#include "kernels/audit/shape.h"
+#include "kernels/audit/shape/shape.h"
 
 namespace mw::engine {
 

@@ -8,7 +8,7 @@
 
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "kernels/picture/cut.h"
-#include "kernels/picture/shade.h"
+#include "kernels/picture/view.h"
 
 namespace mw::picture {
 

@@ -6,7 +6,7 @@
 #include "io/json/json.h"
 #include "io/labels/label_table.h"
 #include "io/names/label_names.h"
-#include "kernels/audit/distance.h"
+#include "kernels/audit/distance/distance.h"
 
 namespace mw::report {
 

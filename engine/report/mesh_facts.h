@@ -10,7 +10,7 @@
 #include "io/json/json.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_data.h"
-#include "kernels/audit/quality.h"
+#include "kernels/audit/shape/quality.h"
 
 namespace mw::report {
 

@@ -13,7 +13,7 @@
 #include "io/json/json.h"
 #include "io/labels/despeckled_volume.h"
 #include "kernels/audit/audit.h"
-#include "kernels/audit/volumes.h"
+#include "kernels/audit/shape/volumes.h"
 
 namespace mw::report {
 

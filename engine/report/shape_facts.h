@@ -6,8 +6,8 @@
 #include "io/json/json.h"
 #include "io/labels/label_table.h"
 #include "io/names/label_names.h"
-#include "kernels/audit/shape.h"
-#include "kernels/audit/volumes.h"
+#include "kernels/audit/shape/shape.h"
+#include "kernels/audit/shape/volumes.h"
 
 namespace mw::report {
 

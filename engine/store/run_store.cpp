@@ -10,7 +10,7 @@
 #include "engine/store/workdir.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
-#include "kernels/mesh/merge_blocks.h"
+#include "kernels/mesh/block_mesh.h"
 
 namespace mw::engine {
 namespace {

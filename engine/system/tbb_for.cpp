@@ -12,7 +12,7 @@
 #include <algorithm>
 
 #include "engine/system/crew.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {

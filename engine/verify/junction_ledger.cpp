@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "kernels/audit/disjoint_sets.h"
+#include "kernels/audit/topology/disjoint_sets.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {

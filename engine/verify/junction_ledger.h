@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "io/file/scratch/external_sort.h"
-#include "kernels/audit/cavities.h"
+#include "kernels/audit/topology/part_graph.h"
 
 namespace mw::engine {
 

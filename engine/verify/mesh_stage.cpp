@@ -7,10 +7,10 @@
 
 #include "engine/verify/in_order.h"
 #include "engine/verify/region_links.h"
-#include "kernels/audit/kept_orientation.h"
-#include "kernels/audit/layered_labels.h"
-#include "kernels/audit/overlap.h"
-#include "kernels/audit/parts_union.h"
+#include "kernels/audit/partition/orientation.h"
+#include "kernels/audit/partition/overlap.h"
+#include "kernels/audit/shape/volumes.h"
+#include "kernels/audit/topology/parts_union.h"
 #include "kernels/core/layers.h"
 
 namespace mw::engine {

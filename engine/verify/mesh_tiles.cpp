@@ -9,7 +9,7 @@
 
 #include "io/mesh/array_axes.h"
 #include "io/volume/volume_space.h"
-#include "kernels/audit/validity.h"
+#include "kernels/audit/partition/validity.h"
 #include "kernels/core/error.h"
 #include "kernels/core/layers.h"
 

@@ -3,7 +3,7 @@
 // From triangles to pieces, tile by tile.
 #include "engine/verify/piece_buckets.h"
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 

@@ -5,7 +5,7 @@
 
 #include "engine/verify/tile_buckets.h"
 #include "engine/verify/tile_grid.h"
-#include "kernels/audit/distance_mesh.h"
+#include "kernels/audit/distance/mesh.h"
 
 namespace mw::engine {
 

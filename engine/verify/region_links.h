@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/verify/part_links.h"
-#include "kernels/audit/regions.h"
+#include "kernels/audit/regions/regions.h"
 
 namespace mw::engine {
 

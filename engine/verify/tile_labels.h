@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "kernels/audit/junctions.h"
-#include "kernels/audit/part_graph.h"
-#include "kernels/audit/regions.h"
+#include "kernels/audit/regions/regions.h"
 #include "kernels/audit/subject.h"
+#include "kernels/audit/topology/junctions.h"
+#include "kernels/audit/topology/part_graph.h"
 
 namespace mw::engine {
 

@@ -5,7 +5,7 @@
 
 #include "engine/verify/mesh_stage.h"
 #include "engine/verify/volume_stage.h"
-#include "kernels/audit/kept_orientation.h"
+#include "kernels/audit/partition/orientation.h"
 
 namespace mw::engine {
 namespace {

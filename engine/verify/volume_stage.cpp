@@ -10,9 +10,9 @@
 #include "engine/verify/in_order.h"
 #include "engine/verify/part_links.h"
 #include "engine/verify/tile_labels.h"
-#include "kernels/audit/distance_tile.h"
-#include "kernels/audit/layered_labels.h"
-#include "kernels/audit/parts_union.h"
+#include "kernels/audit/distance/tile.h"
+#include "kernels/audit/shape/volumes.h"
+#include "kernels/audit/topology/parts_union.h"
 #include "kernels/core/layers.h"
 
 namespace mw::engine {

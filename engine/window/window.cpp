@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "kernels/core/error.h"
-#include "kernels/mesh/merge_blocks.h"
+#include "kernels/mesh/block_mesh.h"
 
 namespace mw::engine {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "kernels/core/lattice.h"
 
 namespace mw::engine {

@@ -7,8 +7,7 @@
 
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
-#include "kernels/core/cells.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::io {
 namespace {

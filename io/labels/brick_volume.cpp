@@ -7,7 +7,7 @@
 #include <array>
 
 #include "kernels/core/assert.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernels/core/assert.h"
-#include "kernels/core/cells.h"
+#include "kernels/core/index.h"
 #include "kernels/core/layers.h"
 
 namespace mw::io {

@@ -10,7 +10,7 @@
 
 #include "io/file/source/byte_source.h"
 #include "io/volume/label_volume.h"
-#include "kernels/core/axis_limit.h"
+#include "kernels/core/index.h"
 
 namespace mw::io {
 

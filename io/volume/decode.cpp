@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "io/file/errors.h"
-#include "kernels/core/int128.h"
+#include "kernels/core/lattice.h"
 
 namespace mw::io {
 namespace {

@@ -8,16 +8,16 @@
 #include <optional>
 #include <vector>
 
-#include "kernels/audit/betti.h"
 #include "kernels/audit/check.h"
-#include "kernels/audit/distance.h"
-#include "kernels/audit/junctions.h"
-#include "kernels/audit/placement.h"
-#include "kernels/audit/quality.h"
-#include "kernels/audit/shape.h"
+#include "kernels/audit/distance/distance.h"
+#include "kernels/audit/partition/placement.h"
+#include "kernels/audit/partition/validity.h"
+#include "kernels/audit/shape/quality.h"
+#include "kernels/audit/shape/shape.h"
+#include "kernels/audit/shape/volumes.h"
 #include "kernels/audit/subject.h"
-#include "kernels/audit/validity.h"
-#include "kernels/audit/volumes.h"
+#include "kernels/audit/topology/betti.h"
+#include "kernels/audit/topology/junctions.h"
 
 namespace mw::audit {
 

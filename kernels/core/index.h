@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Integer positions and boxes in voxels.
+// Integer positions and boxes in voxels, and walks over them.
 #pragma once
 
 #include <algorithm>
@@ -50,5 +50,36 @@ struct Box3 {
 [[nodiscard]] inline Box3 grown(const Box3& box, std::int64_t by) {
   return {box.lo - Index3{by, by, by}, box.hi + Index3{by, by, by}};
 }
+
+/// Calls visit for every index of the box, x fastest.
+template <typename Visit>
+void for_each_index(const Box3& box, Visit visit) {
+  for (Index3 i = box.lo; i.z < box.hi.z; ++i.z) {
+    for (i.y = box.lo.y; i.y < box.hi.y; ++i.y) {
+      for (i.x = box.lo.x; i.x < box.hi.x; ++i.x) visit(i);
+    }
+  }
+}
+
+/// The same for an array of the given shape.
+template <typename Visit>
+void for_each_index(Index3 shape, Visit visit) {
+  for_each_index(Box3{{0, 0, 0}, shape}, visit);
+}
+
+/// The cells that a box meets, cell c being the voxels from c * cell on.
+/// REQUIRES: box.lo not negative, cell positive on every axis.
+[[nodiscard]] inline Box3 cells_of(const Box3& box, Index3 cell) {
+  const auto rounded_up = [](std::int64_t a, std::int64_t b) { return (a + b - 1) / b; };
+  return {
+      {box.lo.x / cell.x, box.lo.y / cell.y, box.lo.z / cell.z},
+      {rounded_up(box.hi.x, cell.x), rounded_up(box.hi.y, cell.y), rounded_up(box.hi.z, cell.z)}};
+}
+
+/// Voxels along an axis of a volume that is made, read or described.  It is twice what one run can
+/// mesh (kMaxSampledVoxels in face_sample.h, where samples number voxels in 19 bits): a run may
+/// take a part of the file (--crop), and says so before any work when its part is too long.
+/// Within it coordinates fit int32 in units of 1/1024 voxel, and no product of extents overflows.
+inline constexpr std::int64_t kMaxAxisVoxels = std::int64_t{1} << 20;
 
 }  // namespace mw

@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Labels (the paper's materials), as files hold them and as the kernels use them.
+// Labels (the paper's materials), as files hold them and as the kernels use them, one or a box.
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include "kernels/core/assert.h"
+#include "kernels/core/index.h"
 
 namespace mw {
 
@@ -27,5 +31,18 @@ struct LabelPair {
 [[nodiscard]] constexpr LabelPair label_pair(Label a, Label b) {
   return a < b ? LabelPair{a, b} : LabelPair{b, a};
 }
+
+/// Labels of the voxels of `box`, x fastest.  The box may reach outside the volume; voxels there
+/// are kExterior.
+struct LabelBox {
+  Box3 box;
+  std::vector<Label> labels;
+
+  /// REQUIRES: box.contains(voxel).
+  [[nodiscard]] Label at(Index3 voxel) const {
+    MW_ASSERT(box.contains(voxel));
+    return labels[static_cast<std::size_t>(box.offset(voxel))];
+  }
+};
 
 }  // namespace mw

@@ -7,6 +7,8 @@
 
 namespace mw {
 
+__extension__ using Int128 = __int128;
+
 inline constexpr std::int32_t kUnitsPerVoxel = 1024;
 /// Six times the volume of a voxel, in cubic lattice units.
 inline constexpr std::int64_t kVoxelVolume6 =

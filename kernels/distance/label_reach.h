@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "kernels/core/label_box.h"
+#include "kernels/core/label.h"
 #include "kernels/core/metric.h"
 
 namespace mw {

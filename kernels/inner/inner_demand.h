@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/mesh/tet_mesh.h"
+#include "kernels/size/size_field.h"
 
 namespace mw {
 
@@ -56,6 +57,11 @@ class InnerFilter {
 
   const TetMesh& mesh_;
   const InnerDemand* demand_;
+};
+
+struct TetDemands {
+  const SizeField* sizes = nullptr;    ///< edges keep to these limits; null: none
+  const InnerDemand* inner = nullptr;  ///< inner vertices that tets keep; null: none
 };
 
 }  // namespace mw

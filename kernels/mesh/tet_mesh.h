@@ -12,10 +12,27 @@
 #include "kernels/core/label.h"
 #include "kernels/core/lattice.h"
 #include "kernels/mesh/block_mesh.h"
-#include "kernels/mesh/vertex_marks.h"
 #include "kernels/quadric/quadric.h"
 
 namespace mw {
+
+class VertexMarks {
+ public:
+  explicit VertexMarks(std::size_t vertices) : marks_(vertices, 0) {}
+
+  void clear() { ++epoch_; }
+  /// True when v was not yet in the set.
+  bool insert(std::uint32_t v) {
+    const bool is_new = marks_[v] != epoch_;
+    marks_[v] = epoch_;
+    return is_new;
+  }
+  [[nodiscard]] bool contains(std::uint32_t v) const { return marks_[v] == epoch_; }
+
+ private:
+  std::vector<std::uint32_t> marks_;
+  std::uint32_t epoch_ = 1;
+};
 
 /// Row of a vertex in its window; ascending with the global id.
 using LocalVertex = std::uint32_t;

@@ -4,7 +4,6 @@
 #include "kernels/odt/replacement.h"
 
 #include "kernels/odt/tet_faces.h"
-#include "kernels/odt/tet_sets.h"
 #include "kernels/quality/mesh_quality.h"
 
 namespace mw {

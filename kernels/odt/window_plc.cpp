@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "kernels/odt/tet_faces.h"
-#include "kernels/odt/tet_sets.h"
 
 namespace mw {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernels/distance/distance_guard.h"
-#include "kernels/inner/tet_demands.h"
+#include "kernels/inner/inner_demand.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/size/edge_limits.h"
 #include "kernels/topology/edge_ring.h"

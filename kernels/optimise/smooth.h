@@ -9,7 +9,6 @@
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/star_batch.h"
 #include "kernels/size/edge_limits.h"
-#include "kernels/surface/curvature_field.h"
 #include "kernels/surface/surface_energy.h"
 #include "kernels/surface/surface_star.h"
 

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "kernels/distance/point_triangle.h"
 #include "kernels/surface/bend.h"
-#include "kernels/surface/foot.h"
 
 namespace mw {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// From where a picture is taken, and where points come to lie in it.
+// From where a picture is taken, where points come to lie in it, and how light falls on labels.
 #pragma once
 
 #include <limits>
 
+#include "kernels/core/label.h"
 #include "kernels/core/metric.h"
 #include "kernels/picture/raster.h"
 
@@ -49,5 +50,19 @@ class Camera {
   double depth_;  ///< of the extent
   double x_, y_;  ///< of the picture's middle
 };
+
+/// The colour of a label that has none of its own: a function of the label alone, the labels
+/// 0 to 15 all different.
+[[nodiscard]] Colour palette_colour(RawLabel label);
+
+/// Twice the area long; its corners are counterclockwise seen from where it points.
+[[nodiscard]] Vec3 normal_of(const std::array<Vec3, 3>& triangle);
+
+/// The colour of a face with that normal of any length, lit from beside the viewer; without a
+/// normal (zero) the colour itself.
+[[nodiscard]] Colour lit(const Colour& colour, const Vec3& normal, const View& view);
+
+/// share 0: one, 1: other.
+[[nodiscard]] Colour mixed(const Colour& one, const Colour& other, double share);
 
 }  // namespace mw::picture

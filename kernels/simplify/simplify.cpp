@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kernels/mesh/failed_pairs.h"
-#include "kernels/mesh/vertex_marks.h"
+#include "kernels/mesh/tet_mesh.h"
 #include "kernels/simplify/bend_filter.h"
 #include "kernels/simplify/contraction.h"
 #include "kernels/simplify/shape_filter.h"

@@ -8,7 +8,7 @@
 
 #include "kernels/core/parallel_for.h"
 #include "kernels/distance/distance_guard.h"
-#include "kernels/inner/tet_demands.h"
+#include "kernels/inner/inner_demand.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/topology/kept_topology.h"
 

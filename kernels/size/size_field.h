@@ -14,6 +14,13 @@
 
 namespace mw {
 
+/// Squared distances from each cube of a grid to the nearest marked one, as closed boxes: 0 for
+/// neighbours too.
+/// squared: x fastest; 0 at marked cubes, else infinity; replaced by the result, infinity when
+/// nothing is marked.  edges: of a cube.
+/// Cost: a few comparisons a cube, whatever is marked; one line of scratch.
+void spread_squared_gaps(Index3 cubes, const Vec3& edges, std::span<float> squared);
+
 /// Limits on the edges of a mesh: for each label that is listed one of its own, and around it one
 /// that grows with the distance.
 ///

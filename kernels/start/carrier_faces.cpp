@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kernels/core/face_sample.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernels/core/face_sample.h"
-#include "kernels/core/label_box.h"
+#include "kernels/core/label.h"
 
 namespace mw {
 

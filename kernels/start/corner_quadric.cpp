@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "kernels/core/for_each_index.h"
-#include "kernels/start/cell.h"
+#include "kernels/core/index.h"
+#include "kernels/start/cells/cell.h"
 
 namespace mw {
 namespace {

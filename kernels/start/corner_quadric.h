@@ -3,7 +3,7 @@
 // The quadric of a voxel corner, from the eight voxels around it (Sec 5.2).
 #pragma once
 
-#include "kernels/core/label_box.h"
+#include "kernels/core/label.h"
 #include "kernels/quadric/quadric.h"
 #include "kernels/start/graded_start.h"
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "kernels/core/error.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "kernels/start/carrier_faces.h"
-#include "kernels/start/cell_template.h"
+#include "kernels/start/cells/cell_template.h"
 #include "kernels/start/corner_quadric.h"
 #include "kernels/start/surface_nodes.h"
 

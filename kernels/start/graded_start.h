@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "kernels/core/label_box.h"
+#include "kernels/core/label.h"
 #include "kernels/mesh/block_mesh.h"
-#include "kernels/start/level_map.h"
+#include "kernels/start/cells/level_map.h"
 
 namespace mw {
 
@@ -25,7 +25,7 @@ struct StartOptions {
   double max_distance = 1.5;  ///< with samples: that bound, in voxels
   QuadricWeights weights;
   Metric metric;                     ///< of the quadrics, and of the shapes of cells
-  double quality_floor = 0.0;        ///< no tet below it, if the metric allows (start_quality.h)
+  double quality_floor = 0.0;        ///< no tet below it, if the metric allows (min_start_ratio)
   const SizeField* sizes = nullptr;  ///< edges keep to these limits, if they are at least the
                                      ///< diagonal of a voxel; null: none
 };

@@ -3,7 +3,7 @@
 // Hanging nodes from the levels of the cells around, or from labels around mixed cells.
 #include "kernels/start/surface_nodes.h"
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw {
 namespace {

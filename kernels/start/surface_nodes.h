@@ -5,9 +5,9 @@
 
 #include <array>
 
-#include "kernels/core/label_box.h"
-#include "kernels/start/cell.h"
-#include "kernels/start/cell_levels.h"
+#include "kernels/core/label.h"
+#include "kernels/start/cells/cell.h"
+#include "kernels/start/cells/cell_levels.h"
 
 namespace mw {
 

@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "kernels/distance/distance_guard.h"
+#include "kernels/distance/point_triangle.h"
 #include "kernels/quality/star_batch.h"
-#include "kernels/surface/curvature_field.h"
-#include "kernels/surface/foot.h"
 #include "kernels/surface/surface_star.h"
 #include "kernels/surface/volume_debts.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The interface triangles at a vertex, and how they meet each other and their neighbours.
+// The interface triangles at a vertex: how they meet each other and their neighbours, and curve.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -106,6 +106,20 @@ class SurfaceStar {
   std::vector<CornerLanes> corners_;  ///< scratch of find_spokes()
   EdgeRing ring_;
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch
+};
+
+/// Mean curvature of interfaces (twice its usual value, 1 / length), where it can be told: at free
+/// vertices between two labels, off the box.  Positive where the smaller label is convex.
+class CurvatureField {
+ public:
+  /// Of all vertices at once, as they are now.
+  void measure(const TetMesh& mesh, const Metric& metric);
+
+  [[nodiscard]] std::optional<double> at(LocalVertex v) const;
+
+ private:
+  SurfaceStar star_;
+  std::vector<double> curvature_;
 };
 
 }  // namespace mw

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "kernels/core/assert.h"
-#include "kernels/core/axis_limit.h"
 #include "kernels/core/error.h"
+#include "kernels/core/index.h"
+#include "kernels/synth/cell_objects.h"
 #include "kernels/synth/counter_hash.h"
-#include "kernels/synth/synth_kinds.h"
 
 namespace mw {
 namespace {

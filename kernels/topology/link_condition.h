@@ -3,11 +3,33 @@
 // The topology test of an edge contraction, in place of the paper's Algorithm 1.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "kernels/topology/edge_ring.h"
 #include "kernels/topology/kept_topology.h"
-#include "kernels/topology/label_pairs.h"
 
 namespace mw {
+
+/// A symmetric relation on at most 64 labels, given by their places in some list.
+class LabelPairs {
+ public:
+  using Mask = std::uint64_t;
+
+  void reset(std::size_t labels) { with_.assign(labels, 0); }
+  /// Nothing happens for a == b.
+  void add(std::size_t a, std::size_t b) {
+    if (a == b) return;
+    with_[a] |= Mask{1} << b;
+    with_[b] |= Mask{1} << a;
+  }
+  /// All labels that are paired with a, by place.
+  [[nodiscard]] Mask with(std::size_t a) const { return with_[a]; }
+
+ private:
+  std::vector<Mask> with_;
+};
 
 /// Decides whether contracting edge (p, q) keeps the homotopy type of the closed region of every
 /// label and of the closure of its complement, exterior included; by duality that fixes the Betti

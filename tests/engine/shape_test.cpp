@@ -6,8 +6,8 @@
 #include <map>
 #include <numbers>
 
-#include "kernels/audit/shape.h"
-#include "kernels/audit/volumes.h"
+#include "kernels/audit/shape/shape.h"
+#include "kernels/audit/shape/volumes.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {

@@ -8,10 +8,10 @@
 
 #include "engine/labels/voxel_lattice.h"
 #include "engine/store/run_identity.h"
-#include "kernels/audit/betti.h"
-#include "kernels/audit/quality.h"
-#include "kernels/audit/validity.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/audit/partition/validity.h"
+#include "kernels/audit/shape/quality.h"
+#include "kernels/audit/topology/betti.h"
+#include "kernels/core/index.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {

@@ -3,7 +3,7 @@
 // Coarsening of labels keeps their topology, by the oracle, and is done once.
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/small_inputs.h"
-#include "tests/kernels/start/coarse_volume.h"
+#include "tests/kernels/start/coarsen/coarse_volume.h"
 
 namespace mw::fuzz {
 

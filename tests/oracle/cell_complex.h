@@ -9,8 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "kernels/audit/betti.h"
 #include "kernels/audit/subject.h"
+#include "kernels/audit/topology/betti.h"
 
 namespace mw::audit::test {
 

@@ -3,8 +3,8 @@
 // One check after the other.
 #include "tests/oracle/whole_audit.h"
 
-#include "kernels/audit/layered_labels.h"
-#include "kernels/audit/region_betti.h"
+#include "kernels/audit/regions/regions.h"
+#include "kernels/audit/shape/volumes.h"
 #include "tests/oracle/whole_junctions.h"
 
 namespace mw::audit::test {

@@ -3,7 +3,7 @@
 // Betti numbers from one piece, and a merge of two lists.
 #include "tests/oracle/whole_junctions.h"
 
-#include "kernels/audit/parts_union.h"
+#include "kernels/audit/topology/parts_union.h"
 
 namespace mw::audit::test {
 namespace {

@@ -3,7 +3,7 @@
 // Junctions of a volume and of a mesh as one tile, held against each other in memory.
 #pragma once
 
-#include "kernels/audit/junctions.h"
+#include "kernels/audit/topology/junctions.h"
 
 namespace mw::audit::test {
 

@@ -3,8 +3,8 @@
 // Promise 4 end to end: no label's boundary ends farther from the input's than the bound.
 #include <gtest/gtest.h>
 
-#include "kernels/audit/distance.h"
-#include "kernels/audit/layered_labels.h"
+#include "kernels/audit/distance/distance.h"
+#include "kernels/audit/shape/volumes.h"
 #include "kernels/core/layers.h"
 #include "tests/engine/memory_run.h"
 

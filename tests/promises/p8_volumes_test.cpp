@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Promise 8 end to end: the volumes that a run reports are exact.
-#include "kernels/audit/volumes.h"
+#include "kernels/audit/shape/volumes.h"
 
 #include <numeric>
 

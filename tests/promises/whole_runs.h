@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/audit/betti.h"
-#include "kernels/audit/quality.h"
-#include "kernels/audit/validity.h"
+#include "kernels/audit/partition/validity.h"
+#include "kernels/audit/shape/quality.h"
+#include "kernels/audit/topology/betti.h"
 #include "tests/engine/memory_run.h"
 #include "tests/oracle/cell_complex.h"
 

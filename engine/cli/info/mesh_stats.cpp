@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "kernels/audit/compensated_sum.h"
-#include "kernels/audit/quality.h"
-#include "kernels/audit/region_betti.h"
+#include "kernels/audit/regions/regions.h"
+#include "kernels/audit/shape/quality.h"
 
 namespace mw::cli {
 namespace {

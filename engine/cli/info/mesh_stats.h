@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/mesh/grouped/grouped_mesh.h"
-#include "kernels/audit/betti.h"
+#include "kernels/audit/topology/betti.h"
 
 namespace mw::cli {
 

@@ -9,7 +9,7 @@
 #include "io/file/scratch/scratch_file.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/audit/compensated_sum.h"
-#include "kernels/audit/shape.h"
+#include "kernels/audit/shape/shape.h"
 
 namespace mw::cli {
 

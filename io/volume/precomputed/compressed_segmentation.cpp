@@ -9,7 +9,7 @@
 
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::io {
 namespace {

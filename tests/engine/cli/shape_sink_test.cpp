@@ -8,7 +8,7 @@
 #include <random>
 
 #include "io/file/scratch/scratch_file.h"
-#include "kernels/audit/volumes.h"
+#include "kernels/audit/shape/volumes.h"
 #include "kernels/core/error.h"
 #include "tests/oracle/small_volumes.h"
 

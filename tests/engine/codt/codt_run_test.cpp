@@ -6,9 +6,9 @@
 
 #include <fstream>
 
-#include "kernels/audit/betti.h"
-#include "kernels/audit/quality.h"
-#include "kernels/audit/validity.h"
+#include "kernels/audit/partition/validity.h"
+#include "kernels/audit/shape/quality.h"
+#include "kernels/audit/topology/betti.h"
 #include "tests/engine/codt/random_plcs.h"
 #include "tests/engine/memory_run.h"
 #include "tests/temp_folder.h"

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {

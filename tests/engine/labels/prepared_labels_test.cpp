@@ -11,8 +11,8 @@
 #include "kernels/start/carrier_faces.h"
 #include "tests/engine/labels/counted_volume.h"
 #include "tests/engine/memory_run.h"
-#include "tests/kernels/start/coarse_volume.h"
-#include "tests/kernels/start/large_cells.h"
+#include "tests/kernels/start/cells/large_cells.h"
+#include "tests/kernels/start/coarsen/coarse_volume.h"
 
 namespace mw::engine {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "engine/labels/label_scan.h"
 #include "io/labels/brick_volume.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "tests/engine/labels/counted_volume.h"
 #include "tests/engine/memory_run.h"
 

@@ -9,7 +9,7 @@
 #include "engine/store/run_store.h"
 #include "engine/window/window_visitor.h"
 #include "io/mesh/digest.h"
-#include "kernels/audit/volumes.h"
+#include "kernels/audit/shape/volumes.h"
 #include "tests/engine/memory_run.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 

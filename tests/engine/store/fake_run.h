@@ -9,7 +9,7 @@
 
 #include "engine/march/march.h"
 #include "engine/store/run_store.h"
-#include "kernels/mesh/merge_blocks.h"
+#include "kernels/mesh/block_mesh.h"
 #include "tests/engine/store/random_blocks.h"
 
 namespace mw::engine::test {

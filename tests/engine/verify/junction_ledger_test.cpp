@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/audit/parts_union.h"
-#include "tests/kernels/audit/mesh_parts_by_owner.h"
+#include "kernels/audit/topology/parts_union.h"
+#include "tests/kernels/audit/topology/mesh_parts_by_owner.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/oracle/whole_junctions.h"
 #include "tests/temp_folder.h"

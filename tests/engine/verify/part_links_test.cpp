@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "kernels/audit/parts_union.h"
+#include "kernels/audit/topology/parts_union.h"
 #include "tests/temp_folder.h"
 
 namespace mw::engine {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gather and scatter: a window's content goes to blocks and comes back the same.
 #include "engine/window/window.h"
-#include "kernels/mesh/merge_blocks.h"
+#include "kernels/mesh/block_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <random>
 
-#include "kernels/core/for_each_index.h"
-#include "kernels/core/label_box.h"
+#include "kernels/core/index.h"
+#include "kernels/core/label.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::io {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/volume/label_volume.h"
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::io {

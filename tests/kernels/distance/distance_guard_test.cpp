@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/kernels/surface/interface_triangles.h"

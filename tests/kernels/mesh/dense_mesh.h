@@ -11,7 +11,7 @@
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/start/graded_start.h"
-#include "tests/kernels/start/level_maps.h"
+#include "tests/kernels/start/cells/level_maps.h"
 #include "tests/oracle/cell_complex.h"
 #include "tests/oracle/small_volumes.h"
 

@@ -11,8 +11,6 @@
 #include <random>
 #include <set>
 
-#include "kernels/picture/shade.h"
-
 namespace mw::picture {
 namespace {
 

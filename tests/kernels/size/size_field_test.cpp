@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::test {

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-#include "kernels/core/for_each_index.h"
+#include "kernels/core/index.h"
 #include "kernels/core/metric.h"
 
 namespace mw::test {

@@ -7,7 +7,7 @@
 
 #include <map>
 
-#include "tests/kernels/start/coarse_volume.h"
+#include "tests/kernels/start/coarsen/coarse_volume.h"
 
 namespace mw::test {
 namespace {

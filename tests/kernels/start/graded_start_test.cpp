@@ -8,8 +8,8 @@
 #include "kernels/distance/point_triangle.h"
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/start/carrier_faces.h"
-#include "tests/kernels/start/coarse_volume.h"
-#include "tests/kernels/start/large_cells.h"
+#include "tests/kernels/start/cells/large_cells.h"
+#include "tests/kernels/start/coarsen/coarse_volume.h"
 
 namespace mw::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Curvature of balls and of planes, and where there is none to be told.
-#include "kernels/surface/curvature_field.h"
+#include "kernels/surface/surface_star.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The report on distances, and a whole volume as one tile.
+#include "kernels/audit/distance/distance.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "kernels/audit/check.h"
+#include "kernels/audit/distance/tile.h"
+
+namespace mw::audit {
+namespace {
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+class Conclusion {
+ public:
+  Conclusion(std::span<const LabelDistances> rows, double limit, double reach)
+      : rows_(rows), reach_(reach) {
+    report_.limit = limit;
+  }
+
+  DistanceReport run() {
+    for (std::size_t row = 0; row < rows_.size(); ++row) conclude(row);
+    report_.max_voxels = report_.is_finite() ? all_.largest : kEndless;
+    report_.mean_voxels = report_.is_finite() ? all_.mean() : kEndless;
+    return std::move(report_);
+  }
+
+ private:
+  void conclude(std::size_t row) {
+    const LabelDistances& found = rows_[row];
+    const std::size_t gap = rows_.size() - 1;
+    if (!found.in_volume && !found.in_mesh) return;
+    if (row == gap && !found.in_mesh) return;
+    const Label label = row == gap ? kLeftOut : row + 1 == gap ? kUnknown : static_cast<Label>(row);
+    if (!found.in_volume || !found.in_mesh) {
+      report_.per_label.push_back({label, kEndless, kEndless, kEndless, kEndless});
+      (found.in_volume ? report_.only_in_volume : report_.only_in_mesh).push_back(label);
+      return;
+    }
+    // Nothing is asked the other way round of what was left out.
+    const DistanceTally to_mesh = row == gap ? DistanceTally{} : with_far(found.to_mesh);
+    const DistanceTally to_input = with_far(found.to_input);
+    report_.per_label.push_back(
+        {label, to_mesh.largest, to_mesh.mean(), to_input.largest, to_input.mean()});
+    all_.add(to_mesh);
+    all_.add(to_input);
+  }
+
+  [[nodiscard]] DistanceTally with_far(DistanceTally tally) {
+    if (tally.far > 0) tally.largest = std::max(tally.largest, reach_);
+    report_.far_samples += tally.far;
+    return tally;
+  }
+
+  std::span<const LabelDistances> rows_;
+  double reach_;
+  DistanceTally all_;
+  DistanceReport report_;
+};
+
+}  // namespace
+
+double DistanceReport::PerLabel::max() const {
+  return std::max(input_to_mesh_max, mesh_to_input_max);
+}
+
+bool DistanceReport::PerLabel::is_finite() const {
+  return max() < kEndless;
+}
+
+const DistanceReport::PerLabel* DistanceReport::farthest() const {
+  const PerLabel* found = nullptr;
+  for (const PerLabel& row : per_label) {
+    if (row.is_finite() && (found == nullptr || row.max() > found->max())) found = &row;
+  }
+  return found;
+}
+
+DistanceReport conclude_distances(std::span<const LabelDistances> rows, double limit,
+                                  double reach) {
+  return Conclusion(rows, limit, reach).run();
+}
+
+DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
+                                const AuditMesh& mesh, const Frame& frame, const KeptLabels& kept,
+                                double limit) {
+  const auto triangles =
+      interface_triangles(MeshStars(mesh), label_count, frame, volume.shape, !kept.empty());
+  const double max = piece_radius(total_estimates(triangles));
+  std::vector<InterfaceTriangle> pieces;
+  for (const InterfaceTriangle& t : triangles) {
+    for_each_piece(t.corners, max, [&](const VoxelTriangle& piece) {
+      pieces.push_back({piece, t.labels});
+    });
+  }
+  const auto rows = measure_distances({.voxels = whole(volume),
+                                       .pieces = pieces,
+                                       .label_count = label_count,
+                                       .kept = kept,
+                                       .samples = {{0, 0, 0}, volume.shape},
+                                       .limit = limit});
+  return conclude_distances(rows, limit, kEndless);
+}
+
+std::string sampling_text(const DistanceReport& report) {
+  std::string out =
+      "sampled to " + number(kCoveringRadius) + " where it may be above " + number(report.limit);
+  if (report.far_samples > 0) {
+    out += "; " + std::to_string(report.far_samples) + " samples are farther than was looked";
+  }
+  return out;
+}
+
+}  // namespace mw::audit

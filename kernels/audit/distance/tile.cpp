@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Both directions of the distance, from the centre of each face and piece inwards.
+#include "kernels/audit/distance/tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "kernels/audit/distance/input.h"
+#include "kernels/audit/distance/trees.h"
+
+namespace mw::audit {
+namespace {
+
+/// Asks for the nearest item of a label.  Samples come in an order in which the last answer is a
+/// good first guess.
+template <class SquaredDistance>
+class Finder {
+ public:
+  Finder(const LabelTrees& trees, std::size_t label_count, SquaredDistance squared_distance)
+      : trees_(trees), squared_distance_(squared_distance), last_(label_count, kNone) {}
+
+  /// Infinite when the label has none.  Another item will do that is near enough.
+  [[nodiscard]] LabelTrees::Nearest nearest(Label label, const VoxelPoint& p, double enough = -1) {
+    const auto to_item = [&](std::uint32_t item) { return squared_distance_(p, item); };
+    LabelTrees::Nearest guess;
+    if (last_[label] != kNone) guess = {to_item(last_[label]), last_[label]};
+    const double square = enough < 0 ? -1 : enough * enough;
+    const LabelTrees::Nearest found = trees_.nearest(label, p, guess, to_item, square);
+    if (!trees_.empty(label)) last_[label] = found.item;
+    return found;
+  }
+  [[nodiscard]] double distance(Label label, const VoxelPoint& p, double enough = -1) {
+    return std::sqrt(nearest(label, p, enough).squared);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+
+  const LabelTrees& trees_;
+  SquaredDistance squared_distance_;
+  std::vector<std::uint32_t> last_;
+};
+
+/// One face in so many counts for means.
+constexpr std::uint32_t kWeighed = 4;
+
+/// A square on a voxel face, by its centre.
+struct Square {
+  VoxelPoint centre{};
+  std::uint32_t axis = 0;  ///< of the normal
+  double half = 0.5;       ///< of its edge
+
+  [[nodiscard]] double reach() const { return half * std::numbers::sqrt2; }
+  [[nodiscard]] std::array<Square, 4> quarters() const {
+    std::array<Square, 4> out;
+    for (unsigned i = 0; i < 4; ++i) {
+      out[i] = {centre, axis, half / 2};
+      for (unsigned k = 0; k < 2; ++k) {
+        out[i].centre[(axis + 1 + k) % 3] += (i >> k & 1U) != 0 ? half / 2 : -half / 2;
+      }
+    }
+    return out;
+  }
+};
+
+class TileDistances {
+ public:
+  explicit TileDistances(const DistanceTask& task)
+      : task_(task),
+        lo_(task.voxels.loaded.lo),
+        gap_(static_cast<Label>(task.label_count + 1)),
+        rows_(task.label_count + 2) {
+    pieces_.reserve(task.pieces.size());
+    for (const InterfaceTriangle& piece : task.pieces) pieces_.push_back(moved(piece));
+    sort_along_curve(pieces_, {{0, 0, 0}, task.voxels.loaded.shape()});
+  }
+
+  std::vector<LabelDistances> run() {
+    measure_pieces();
+    measure_faces();
+    return std::move(rows_);
+  }
+
+ private:
+  [[nodiscard]] const VoxelLabels& voxels() const { return task_.voxels.voxels; }
+
+  /// From the first voxel loaded: exact, as only leading digits go.
+  [[nodiscard]] InterfaceTriangle moved(InterfaceTriangle piece) const {
+    const std::array<double, 3> by{static_cast<double>(lo_.x), static_cast<double>(lo_.y),
+                                   static_cast<double>(lo_.z)};
+    for (VoxelPoint& p : piece.corners) {
+      for (std::size_t k = 0; k < 3; ++k) p[k] -= by[k];
+    }
+    return piece;
+  }
+
+  /// Each piece is measured in one tile, also those that are outside of the volume.
+  [[nodiscard]] bool is_measured(const InterfaceTriangle& piece) const {
+    const VoxelPoint p = centroid(piece.corners);
+    const Index3 s = task_.voxels.shape;
+    const auto voxel = [](double at, std::int64_t lo, std::int64_t count) {
+      const double whole = std::floor(at) + static_cast<double>(lo);
+      return static_cast<std::int64_t>(std::clamp(whole, 0.0, static_cast<double>(count - 1)));
+    };
+    return task_.samples.contains(
+        {voxel(p[0], lo_.x, s.x), voxel(p[1], lo_.y, s.y), voxel(p[2], lo_.z, s.z)});
+  }
+
+  /// Distances of points so far around tell nothing new where this one's is no larger: they are not
+  /// above the largest so far, or the limit.
+  [[nodiscard]] double enough(const DistanceTally& tally, double around) const {
+    return std::max(tally.largest, task_.limit) - around;
+  }
+
+  /// Returns whether something is in reach.
+  bool take(DistanceTally& tally, double distance) const {
+    if (distance > task_.reach) {
+      ++tally.far;
+      return false;
+    }
+    tally.largest = std::max(tally.largest, distance);
+    return true;
+  }
+
+  static void weigh(DistanceTally& tally, double distance, double weight) {
+    tally.sum.add(weight * distance);
+    tally.weight.add(weight);
+  }
+
+  // ---- from the mesh to the input
+
+  void measure_pieces() {
+    for (const InterfaceTriangle& piece : pieces_) {
+      if (!is_measured(piece)) continue;
+      const VoxelPoint middle = centroid(piece.corners);
+      const std::array<CloseFaces::Near, 2> near = to_faces(piece.labels, middle);
+      const double weight = area(piece.corners);
+      for (std::size_t i = 0; i < 2; ++i) {
+        DistanceTally& tally = rows_[piece.labels[i]].to_input;
+        rows_[piece.labels[i]].in_mesh = true;
+        look_around(piece.corners, piece.labels[i], near[i], tally);
+        const double distance = std::sqrt(near[i].squared);
+        if (distance <= task_.reach) weigh(tally, distance, weight);
+      }
+    }
+  }
+
+  /// near: the face nearest to the centroid.
+  void look_around(const VoxelTriangle& t, Label label, const CloseFaces::Near& near,
+                   DistanceTally& tally) {
+    const double distance = std::sqrt(near.squared);
+    if (!take(tally, distance)) return;
+    const double around = radius(t);
+    if (around <= kCoveringRadius || distance <= enough(tally, around)) return;
+    if (farthest_corner(t, near.face) <= enough(tally, 0)) return;
+    for (const VoxelTriangle& half : halves(t)) {
+      look_around(half, label, to_faces({label, label}, centroid(half))[0], tally);
+    }
+  }
+
+  /// No point of the triangle is farther from the face, which is convex.
+  static double farthest_corner(const VoxelTriangle& t, const Extent& face) {
+    double squared = 0;
+    for (const VoxelPoint& corner : t) squared = std::max(squared, squared_distance(corner, face));
+    return std::sqrt(squared);
+  }
+
+  /// Of each label.
+  [[nodiscard]] std::array<CloseFaces::Near, 2> to_faces(const LabelPair& labels,
+                                                         const VoxelPoint& p) {
+    std::array<CloseFaces::Near, 2> near = CloseFaces(voxels()).nearest(p, labels);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bool is_close = near[i].squared <= CloseFaces::kReach * CloseFaces::kReach;
+      if (is_close && labels[i] != gap_) continue;
+      if (!face_finder_) make_face_finder();
+      const LabelTrees::Nearest found = face_finder_->nearest(labels[i], p);
+      near[i].squared = found.squared;
+      if (std::isfinite(found.squared)) near[i].face = extent_of(faces_[found.item]);
+    }
+    return near;
+  }
+
+  /// Most tiles have a few samples that need it; some have none.
+  void make_face_finder() {
+    faces_ = interface_faces(voxels());
+    face_trees_.emplace(
+        rows_.size(), faces_.size(), [&](std::size_t i) { return rows_of(faces_[i]); },
+        [&](std::size_t i) { return extent_of(faces_[i]); });
+    face_finder_.emplace(*face_trees_, rows_.size(), ToFace{&faces_});
+  }
+
+  /// All labels that were left out share a row, faces between two of them included.
+  [[nodiscard]] LabelPair rows_of(const VoxelFace& face) const {
+    LabelPair labels = labels_of(face, voxels());
+    for (Label& label : labels) {
+      if (!keeps(task_.kept, label)) label = gap_;
+    }
+    return labels;
+  }
+
+  // ---- from the input to the mesh
+
+  void measure_faces() {
+    const LabelTrees trees(
+        rows_.size(), pieces_.size(), [&](std::size_t i) { return pieces_[i].labels; },
+        [&](std::size_t i) { return extent_of(pieces_[i].corners); });
+    Finder finder(trees, rows_.size(), [&](const VoxelPoint& p, std::uint32_t piece) {
+      return squared_distance(p, pieces_[piece].corners);
+    });
+    const Box3 corners{task_.samples.lo - lo_, task_.samples.hi - lo_};
+    visit_interface_faces(voxels(), corners, [&](const VoxelFace& face, const LabelPair& labels) {
+      const Square square = square_of(face);
+      for (const Label label : labels) {
+        const bool is_kept = keeps(task_.kept, label);
+        rows_[is_kept ? label : gap_].in_volume = true;
+        if (!is_kept) continue;
+        DistanceTally& tally = rows_[label].to_mesh;
+        if (!is_weighed(face)) {
+          look_from(square, label, finder, tally);
+          continue;
+        }
+        const double distance = finder.distance(label, square.centre);
+        look_around(square, label, distance, finder, tally);
+        if (distance <= task_.reach) weigh(tally, distance, 1);
+      }
+    });
+  }
+
+  /// Means are of some of the faces, spread evenly: of the others it is enough to know that they
+  /// are near.
+  [[nodiscard]] bool is_weighed(const VoxelFace& face) const {
+    const auto [x, y, z] = face.upper;
+    const auto first = static_cast<std::uint32_t>(lo_.x + lo_.y + lo_.z);
+    return (first + x + y + z) % kWeighed == 0;
+  }
+
+  static Square square_of(const VoxelFace& face) {
+    Square out{.axis = face.axis};
+    for (std::size_t k = 0; k < 3; ++k) {
+      out.centre[k] = face.upper[k] + (k == face.axis ? 0.0 : 0.5);
+    }
+    return out;
+  }
+
+  template <class PieceFinder>
+  void look_from(const Square& square, Label label, PieceFinder& finder, DistanceTally& tally) {
+    const bool is_last = square.reach() <= kCoveringRadius;
+    const double near = enough(tally, is_last ? 0 : square.reach());
+    const double distance = finder.distance(label, square.centre, near);
+    if (distance > near) look_around(square, label, distance, finder, tally);
+  }
+
+  /// distance: of the centre.
+  template <class PieceFinder>
+  void look_around(const Square& square, Label label, double distance, PieceFinder& finder,
+                   DistanceTally& tally) {
+    if (!take(tally, distance)) return;
+    if (square.reach() <= kCoveringRadius || distance <= enough(tally, square.reach())) return;
+    for (const Square& quarter : square.quarters()) look_from(quarter, label, finder, tally);
+  }
+
+  struct ToFace {
+    const std::vector<VoxelFace>* faces;
+    double operator()(const VoxelPoint& p, std::uint32_t face) const {
+      return squared_distance(p, extent_of((*faces)[face]));
+    }
+  };
+
+  const DistanceTask& task_;
+  Index3 lo_;
+  Label gap_;  ///< the row of what was left out
+  std::vector<LabelDistances> rows_;
+  std::vector<InterfaceTriangle> pieces_;
+  std::vector<VoxelFace> faces_;
+  std::optional<LabelTrees> face_trees_;
+  std::optional<Finder<ToFace>> face_finder_;
+};
+
+}  // namespace
+
+void DistanceTally::add(const DistanceTally& other) {
+  largest = std::max(largest, other.largest);
+  sum.add(other.sum);
+  weight.add(other.weight);
+  far += other.far;
+}
+
+void LabelDistances::add(const LabelDistances& other) {
+  to_input.add(other.to_input);
+  to_mesh.add(other.to_mesh);
+  in_volume = in_volume || other.in_volume;
+  in_mesh = in_mesh || other.in_mesh;
+}
+
+std::vector<LabelDistances> measure_distances(const DistanceTask& task) {
+  return TileDistances(task).run();
+}
+
+}  // namespace mw::audit

@@ -1,0 +1,358 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The checks of P2, one function each.
+#include "kernels/audit/partition/validity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "kernels/audit/partition/box_planes.h"
+#include "kernels/audit/partition/orientation.h"
+#include "kernels/audit/partition/overlap.h"
+#include "kernels/core/error.h"
+
+namespace mw::audit {
+namespace {
+
+constexpr double kVolumeTolerance = 1e-9;
+
+class TileAudit {
+ public:
+  TileAudit(const MeshStars& stars, const ValidityTask& task)
+      : stars_(stars), task_(task), box_(task.frame, task.shape) {
+    tally_.label_volumes.resize(task.wanted.size() + 1);
+    tally_.in_mesh.resize(task.wanted.size() + 1);
+  }
+
+  ValidityTally run() {
+    take_orientations();
+    check_vertices();
+    check_tets();
+    check_faces();
+    check_box();
+    measure_labels();
+    return std::move(tally_);
+  }
+
+ private:
+  [[nodiscard]] const AuditMesh& mesh() const { return stars_.mesh(); }
+  [[nodiscard]] const MeshTile& tile() const { return stars_.tile(); }
+  [[nodiscard]] std::string tet_name(std::size_t tet) const {
+    return std::to_string(tile().tet_id(tet));
+  }
+  [[nodiscard]] std::string vertex_name(std::uint64_t vertex) const {
+    return std::to_string(tile().vertex_id(vertex));
+  }
+
+  /// Fills sign_ with the exact orientation of every tet.
+  void take_orientations() {
+    sign_.reserve(mesh().tets.size());
+    for (std::size_t t = 0; t < mesh().tets.size(); ++t) {
+      const TetRow& row = mesh().tets[t];
+      const auto corner = [&](std::size_t i) -> const Position& { return mesh().vertices[row[i]]; };
+      std::optional<int> sign = filtered_orientation(corner(0), corner(1), corner(2), corner(3));
+      const bool is_exact = !sign;
+      if (is_exact) sign = exact_orientation(corner(0), corner(1), corner(2), corner(3));
+      sign_.push_back(static_cast<std::int8_t>(*sign));
+      if (!tile().owns_tet(t)) continue;
+      if (is_exact) ++tally_.exact_decisions;
+      ++count_of(*sign);
+      if (*sign != 1) tally_.turned.add([&] { return tet_name(t); });
+    }
+  }
+
+  std::uint64_t& count_of(int sign) {
+    if (sign == 0) return tally_.flat_tets;
+    return sign > 0 ? tally_.positive_tets : tally_.negative_tets;
+  }
+
+  /// Vertices at one position are owned by one tile.
+  void check_vertices() {
+    struct Placed {
+      Position at;
+      std::uint32_t vertex;
+      auto operator<=>(const Placed&) const = default;
+    };
+    std::vector<Placed> placed;
+    for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (!stars_.owns(v)) continue;
+      placed.push_back({mesh().vertices[v], v});
+      if (stars_.star(v).empty()) tally_.unused.add([&] { return vertex_name(v); });
+    }
+    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a < b; });
+    for (std::size_t i = 1; i < placed.size(); ++i) {
+      if (placed[i].at != placed[i - 1].at) continue;
+      tally_.same.add([&] { return vertex_name(placed[i].vertex); });
+    }
+  }
+
+  void check_tets() {
+    std::vector<std::pair<TetRow, std::uint32_t>> at_smallest;
+    for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (!stars_.owns(v)) continue;
+      at_smallest.clear();
+      for (const std::uint32_t id : stars_.star(v)) {
+        TetRow tet = mesh().tets[id];
+        std::sort(tet.begin(), tet.end());
+        if (tet[0] == v) at_smallest.emplace_back(tet, id);
+      }
+      std::sort(at_smallest.begin(), at_smallest.end());
+      for (std::size_t i = 1; i < at_smallest.size(); ++i) {
+        if (at_smallest[i].first != at_smallest[i - 1].first) continue;
+        tally_.twice.add([&] { return tet_name(at_smallest[i].second); });
+      }
+    }
+  }
+
+  void check_faces() {
+    for_each_face(stars_, [&](const MeshFace& face) {
+      ++tally_.faces;
+      const auto name = [&] {
+        return vertex_name(face.vertices[0]) + "-" + vertex_name(face.vertices[1]) + "-" +
+               vertex_name(face.vertices[2]);
+      };
+      if (face.sides.size() > 2) tally_.crowded.add(name);
+      if (face.sides.size() == 2 && !on_opposite_sides(face)) tally_.folded.add(name);
+      if (face.sides.size() != 1) return;
+      ++tally_.box_faces;
+      if (!task_.has_gaps && !on_box(face)) tally_.open.add(name);
+    });
+  }
+
+  /// Where a tet lies is its orientation times the parity with which it names the triangle.  Flat
+  /// tets lie on no side; orientation has failed then.
+  [[nodiscard]] bool on_opposite_sides(const MeshFace& face) const {
+    const auto side = [&](const FaceSide& s) { return s.odd ? -sign_[s.tet] : +sign_[s.tet]; };
+    const int product = side(face.sides[0]) * side(face.sides[1]);
+    return product <= 0;
+  }
+
+  [[nodiscard]] bool on_box(const MeshFace& face) const {
+    const auto& at = mesh().vertices;
+    return box_.share_plane({&at[face.vertices[0]], &at[face.vertices[1]], &at[face.vertices[2]]});
+  }
+
+  void check_box() {
+    for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (!stars_.owns(v)) continue;
+      const Position& p = mesh().vertices[v];
+      if (!box_.contains(p)) tally_.outside.add([&] { return vertex_name(v); });
+      if (const auto corner = box_.corner_at(p)) tally_.corners[*corner] = true;
+    }
+  }
+
+  void measure_labels() {
+    const std::size_t unknown = task_.wanted.size();
+    for (std::size_t t = 0; t < mesh().tets.size(); ++t) {
+      if (!tile().owns_tet(t)) continue;
+      const double volume = std::abs(volume_of(mesh().tets[t]));
+      const std::size_t label = std::min<std::size_t>(mesh().labels[t], unknown);
+      tally_.volume.add(volume);
+      tally_.label_volumes[label].add(volume);
+      tally_.in_mesh[label] = true;
+      if (label == unknown || !task_.wanted[label]) tally_.strange.add([&] { return tet_name(t); });
+    }
+  }
+
+  [[nodiscard]] double volume_of(const TetRow& t) const {
+    const Position& a = mesh().vertices[t[0]];
+    std::array<Position, 3> r{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) r[i][k] = mesh().vertices[t[i + 1]][k] - a[k];
+    }
+    return (r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) +
+            r[0][1] * (r[1][2] * r[2][0] - r[1][0] * r[2][2]) +
+            r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0])) /
+           6;
+  }
+
+  const MeshStars& stars_;
+  const ValidityTask& task_;
+  BoxPlanes box_;
+  ValidityTally tally_;
+  std::vector<std::int8_t> sign_;
+};
+
+/// Puts the verdict into words.
+class Judgement {
+ public:
+  Judgement(const ValidityTally& tally, const ValidityTask& task)
+      : tally_(tally), task_(task), box_(task.frame, task.shape) {}
+
+  ValidityReport run() {
+    take_numbers();
+    judge_orientation();
+    conclude("vertices", {&tally_.same, &tally_.unused}, "", "; ");
+    conclude("tets", {&tally_.twice}, "", "");
+    conclude("faces", {&tally_.open, &tally_.crowded, &tally_.folded},
+             std::to_string(tally_.faces) + " triangles, " + std::to_string(tally_.box_faces) +
+                 " of one tet; ",
+             ", ");
+    judge_box();
+    judge_volume();
+    judge_labels();
+    return std::move(report_);
+  }
+
+ private:
+  void add(const char* name, bool passed, std::string detail) {
+    report_.checks.push_back({std::string("P2 ") + name, passed, std::move(detail)});
+  }
+
+  void conclude(const char* name, std::initializer_list<const Offenders*> offenders,
+                std::string detail, const char* separator) {
+    bool passed = true;
+    for (const Offenders* o : offenders) {
+      passed = passed && o->count() == 0;
+      detail += (o == *offenders.begin() ? "" : separator) + o->text();
+    }
+    add(name, passed, std::move(detail));
+  }
+
+  void take_numbers() {
+    report_.positive_tets = tally_.positive_tets;
+    report_.negative_tets = tally_.negative_tets;
+    report_.flat_tets = tally_.flat_tets;
+    report_.exact_decisions = tally_.exact_decisions;
+    report_.unused_vertices = tally_.unused.count();
+    report_.faces = tally_.faces;
+    report_.box_faces = tally_.box_faces;
+    report_.volume = tally_.volume.value();
+    report_.box_volume = box_.volume();
+    for (const CompensatedSum& sum : tally_.label_volumes) {
+      report_.label_volumes.push_back(sum.value());
+    }
+  }
+
+  void judge_orientation() {
+    const std::uint64_t tets = tally_.positive_tets + tally_.negative_tets + tally_.flat_tets;
+    if (tally_.positive_tets == tets && tets > 0) report_.orientation = 1;
+    if (tally_.negative_tets == tets && tets > 0) report_.orientation = -1;
+    conclude("orientation", {&tally_.turned},
+             std::to_string(tally_.positive_tets) + " positive, " +
+                 std::to_string(tally_.negative_tets) + " negative, " +
+                 std::to_string(tally_.flat_tets) + " flat; ",
+             "");
+  }
+
+  void judge_box() {
+    const auto corners = std::count(tally_.corners.begin(), tally_.corners.end(), true);
+    add("box", tally_.outside.count() == 0 && (corners == 8 || task_.has_gaps),
+        tally_.outside.text() + "; " + std::to_string(corners) + " of 8 corners");
+  }
+
+  void judge_volume() {
+    const double excess = report_.volume - report_.box_volume;
+    const double error = task_.has_gaps ? excess : std::abs(excess);
+    add("volume", error <= kVolumeTolerance * report_.box_volume + box_.volume_rounding(),
+        "tets " + number(report_.volume) + ", box " + number(report_.box_volume));
+  }
+
+  void judge_labels() {
+    Offenders strange(task_.has_gaps ? "tets whose label is not one of those kept"
+                                     : "tets whose label is not in the volume");
+    strange.add(tally_.strange);
+    Offenders lost(task_.has_gaps ? "labels that are kept and not in the mesh"
+                                  : "labels of the volume that are not in the mesh");
+    for (std::size_t l = 0; l < task_.wanted.size(); ++l) {
+      if (task_.wanted[l] && !tally_.in_mesh[l]) {
+        lost.add([l] { return "dense " + std::to_string(l); });
+      }
+    }
+    conclude("labels", {&strange, &lost}, "", ", ");
+  }
+
+  const ValidityTally& tally_;
+  const ValidityTask& task_;
+  BoxPlanes box_;
+  ValidityReport report_;
+};
+
+/// Empty when the input is no mesh; the check tells.
+std::optional<MeshStars> check_input(const AuditMesh& mesh, Check& check) {
+  check.name = "P2 input";
+  std::optional<MeshStars> stars;
+  try {
+    stars.emplace(mesh);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    check.detail = error.what();
+    return std::nullopt;
+  }
+  Offenders endless("vertices that are not finite");
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Position& p = mesh.vertices[v];
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
+    endless.add([v] { return std::to_string(v); });
+  }
+  check = input_check(mesh.vertices.size(), mesh.tets.size(), endless);
+  return check.passed ? std::move(stars) : std::nullopt;
+}
+
+ValidityTask task_of(const VoxelLabels& volume, const Frame& frame, std::size_t label_count,
+                     const KeptLabels& kept) {
+  ValidityTask task{frame, volume.shape, std::vector<bool>(label_count), !kept.empty()};
+  for (const Label l : volume.labels) {
+    if (l < label_count && keeps(kept, l)) task.wanted[l] = true;
+  }
+  return task;
+}
+
+}  // namespace
+
+void ValidityTally::add(const ValidityTally& other, std::span<const Label> labels) {
+  const std::pair<Offenders&, const Offenders&> offenders[] = {
+      {turned, other.turned}, {unused, other.unused},   {same, other.same},
+      {twice, other.twice},   {open, other.open},       {crowded, other.crowded},
+      {folded, other.folded}, {outside, other.outside}, {strange, other.strange}};
+  for (const auto& [mine, its] : offenders) mine.add(its);
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = corners[i] || other.corners[i];
+  positive_tets += other.positive_tets;
+  negative_tets += other.negative_tets;
+  flat_tets += other.flat_tets;
+  exact_decisions += other.exact_decisions;
+  faces += other.faces;
+  box_faces += other.box_faces;
+  volume.add(other.volume);
+  for (std::size_t l = 0; l < other.in_mesh.size(); ++l) {
+    const std::size_t row = l < labels.size() ? labels[l] : in_mesh.size() - 1;
+    label_volumes[row].add(other.label_volumes[l]);
+    in_mesh[row] = in_mesh[row] || other.in_mesh[l];
+  }
+}
+
+ValidityTally tally_validity(const MeshStars& stars, const ValidityTask& task) {
+  return TileAudit(stars, task).run();
+}
+
+ValidityReport judge_validity(const ValidityTally& tally, const ValidityTask& task) {
+  return Judgement(tally, task).run();
+}
+
+Check input_check(std::uint64_t vertices, std::uint64_t tets, const Offenders& endless) {
+  return {
+      "P2 input", endless.count() == 0 && tets > 0,
+      std::to_string(vertices) + " vertices, " + std::to_string(tets) + " tets; " + endless.text()};
+}
+
+bool ValidityReport::passed() const {
+  return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed; });
+}
+
+ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume, const Frame& frame,
+                              std::size_t label_count, const KeptLabels& kept) {
+  Check input;
+  const std::optional<MeshStars> stars = check_input(mesh, input);
+  ValidityReport report;
+  if (stars) {
+    const ValidityTask task = task_of(volume, frame, label_count, kept);
+    report = judge_validity(tally_validity(*stars, task), task);
+    if (task.has_gaps) report.checks.push_back(check_overlap(*stars, frame, volume.shape));
+  }
+  report.checks.insert(report.checks.begin(), std::move(input));
+  return report;
+}
+
+}  // namespace mw::audit

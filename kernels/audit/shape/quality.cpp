@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Radius ratios and dihedral angles.
+#include "kernels/audit/shape/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "kernels/audit/subject.h"
+
+namespace mw::audit {
+namespace {
+
+/// What both measures need: edges from a, and normals of the faces opposite to a, b, c, d, as long
+/// as twice the face's area, all outward or all inward.
+struct TetShape {
+  TetShape(const Position& a, const Position& b, const Position& c, const Position& d)
+      : edges{minus(b, a), minus(c, a), minus(d, a)} {
+    normals[1] = cross(edges[2], edges[1]);
+    normals[2] = cross(edges[0], edges[2]);
+    normals[3] = cross(edges[1], edges[0]);
+    normals[0] = cross(minus(c, b), minus(d, b));
+    for (std::size_t i = 0; i < 4; ++i) lengths[i] = norm(normals[i]);
+  }
+
+  [[nodiscard]] double radius_ratio() const;
+
+  std::array<Position, 3> edges;
+  std::array<Position, 4> normals;
+  std::array<double, 4> lengths{};
+};
+
+/// With D = 6 volume, S = total area and n = 2 D (circumcentre - a):
+/// r_in = D / (2 S), r_circ = |n| / (2 |D|), hence 3 r_in / r_circ = 3 D^2 / (S |n|).
+double TetShape::radius_ratio() const {
+  const double det = -dot(edges[0], normals[1]);
+  Position n{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double square = dot(edges[i], edges[i]);
+    for (std::size_t k = 0; k < 3; ++k) n[k] += square * normals[i + 1][k];
+  }
+  const double area = (lengths[0] + lengths[1] + lengths[2] + lengths[3]) / 2;
+  const double below = area * norm(n);
+  const double ratio = 3 * det * det / below;
+  return below > 0 && ratio > 0 ? std::min(ratio, 1.0) : 0;  // 0 also where squares overflow
+}
+
+/// Bin of an angle by its cosine.  Lattices are full of right angles and the like, which rounding
+/// must not put on either side.
+std::size_t dihedral_bin(double cosine) {
+  using Bins = decltype(QualityReport::dihedral_histogram);
+  static const std::array<double, std::tuple_size_v<Bins> - 1> ends = [] {
+    std::array<double, std::tuple_size_v<Bins> - 1> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double share = static_cast<double>(i + 1) / static_cast<double>(out.size() + 1);
+      out[i] = std::cos(share * std::numbers::pi) + 1e-9;
+    }
+    return out;
+  }();
+  return static_cast<std::size_t>(
+      std::lower_bound(ends.begin(), ends.end(), cosine, std::greater<>()) - ends.begin());
+}
+
+/// For the report only, so a last bit that depends on the C library does no harm.
+double degrees_of_cosine(double cosine) {
+  return std::acos(cosine) * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
+double radius_ratio(const Position& a, const Position& b, const Position& c, const Position& d) {
+  return TetShape(a, b, c, d).radius_ratio();
+}
+
+void QualityMeter::add(const Position& a, const Position& b, const Position& c, const Position& d) {
+  add(tets_, {a, b, c, d});
+}
+
+void QualityMeter::take_worst(std::uint64_t tet, double ratio) {
+  const bool is_tie = ratio == report_.radius_ratio_min && tet < report_.worst_tet;
+  if (tets_ > 0 && ratio >= report_.radius_ratio_min && !is_tie) return;
+  report_.radius_ratio_min = ratio;
+  report_.worst_tet = tet;
+}
+
+void QualityMeter::add(const QualityMeter& other) {
+  if (other.tets_ == 0) return;
+  take_worst(other.report_.worst_tet, other.report_.radius_ratio_min);
+  tets_ += other.tets_;
+  slivers_ += other.slivers_;
+  ratios_ += other.ratios_;
+  largest_cosine_ = std::max(largest_cosine_, other.largest_cosine_);
+  smallest_cosine_ = std::min(smallest_cosine_, other.smallest_cosine_);
+  const auto add_bins = [](const auto& from, auto& to) {
+    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
+  };
+  add_bins(other.report_.radius_ratio_histogram, report_.radius_ratio_histogram);
+  add_bins(other.report_.dihedral_histogram, report_.dihedral_histogram);
+}
+
+void QualityMeter::add(std::uint64_t number, const std::array<Position, 4>& corners) {
+  const TetShape tet(corners[0], corners[1], corners[2], corners[3]);
+  const double ratio = tet.radius_ratio();
+  take_worst(number, ratio);
+  ++tets_;
+  ratios_ += static_cast<Int128>(std::round(ratio * kUnits));
+  if (ratio < kSliverRadiusRatio) ++slivers_;
+  const auto bins = report_.radius_ratio_histogram.size();
+  const auto bin = static_cast<std::size_t>(ratio * static_cast<double>(bins));
+  ++report_.radius_ratio_histogram[std::min(bin, bins - 1)];
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = i + 1; k < 4; ++k) {
+      const double lengths = tet.lengths[i] * tet.lengths[k];
+      if (lengths == 0) continue;
+      const double cosine = std::clamp(-dot(tet.normals[i], tet.normals[k]) / lengths, -1., 1.);
+      largest_cosine_ = std::max(largest_cosine_, cosine);
+      smallest_cosine_ = std::min(smallest_cosine_, cosine);
+      ++report_.dihedral_histogram[dihedral_bin(cosine)];
+    }
+  }
+}
+
+QualityReport QualityMeter::report() const {
+  QualityReport report = report_;
+  if (tets_ == 0) return report;
+  const auto count = static_cast<double>(tets_);
+  report.radius_ratio_mean = static_cast<double>(ratios_) / kUnits / count;
+  report.sliver_fraction = static_cast<double>(slivers_) / count;
+  if (largest_cosine_ < -1) return report;
+  report.dihedral_min_deg = degrees_of_cosine(largest_cosine_);
+  report.dihedral_max_deg = degrees_of_cosine(smallest_cosine_);
+  return report;
+}
+
+QualityMeter tally_quality(const MeshTile& tile) {
+  QualityMeter meter;
+  const auto& at = tile.mesh.vertices;
+  for (std::size_t t = 0; t < tile.mesh.tets.size(); ++t) {
+    if (!tile.owns_tet(t)) continue;
+    const auto& [a, b, c, d] = tile.mesh.tets[t];
+    meter.add(tile.tet_id(t), {at[a], at[b], at[c], at[d]});
+  }
+  return meter;
+}
+
+QualityReport measure_quality(const AuditMesh& mesh) {
+  return tally_quality({.mesh = mesh}).report();
+}
+
+}  // namespace mw::audit

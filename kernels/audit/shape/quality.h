@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Shape of a mesh's tets (promise P3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "kernels/audit/subject.h"
+#include "kernels/core/lattice.h"
+
+namespace mw::audit {
+
+/// Radius ratios below this are called slivers (paper, Table 3).
+inline constexpr double kSliverRadiusRatio = 0.1;
+
+/// Figures over all tets, in physical units.
+struct QualityReport {
+  double radius_ratio_min = 0;
+  std::uint64_t worst_tet = 0;  ///< first tet with the least radius ratio
+  double radius_ratio_mean = 0;
+  std::array<std::uint64_t, 20> radius_ratio_histogram{};  ///< equal bins over [0, 1]
+  /// Of the dihedral angles of all tets, in bins of 5 degrees.
+  std::array<std::uint64_t, 36> dihedral_histogram{};
+  double sliver_fraction = 0;
+  double dihedral_min_deg = 0;
+  double dihedral_max_deg = 0;
+};
+
+/// 3 r_in / r_circ: 1 for a regular tet, 0 for a flat one, whatever its orientation.
+[[nodiscard]] double radius_ratio(const Position& a, const Position& b, const Position& c,
+                                  const Position& d);
+
+/// Takes tets one after the other.  Sums are of whole numbers (radius ratios in units of 2^-40), so
+/// that parts of a mesh may be measured apart, in any order.
+class QualityMeter {
+ public:
+  /// REQUIRES: finite coordinates.
+  void add(const Position& a, const Position& b, const Position& c, const Position& d);
+  /// The same of a tet that has another number than that of the tets before it.
+  void add(std::uint64_t tet, const std::array<Position, 4>& corners);
+  /// Adds what another one has taken, whose tets have numbers of their own.
+  void add(const QualityMeter& other);
+  /// Of all tets so far.
+  [[nodiscard]] QualityReport report() const;
+
+ private:
+  static constexpr double kUnits = 1099511627776.0;
+
+  void take_worst(std::uint64_t tet, double ratio);
+
+  QualityReport report_;  ///< without the figures that need the number of tets
+  std::uint64_t tets_ = 0;
+  std::uint64_t slivers_ = 0;
+  Int128 ratios_ = 0;           ///< sum in units of 1 / kUnits
+  double largest_cosine_ = -2;  ///< of the sharpest dihedral angle
+  double smallest_cosine_ = 2;  ///< of the bluntest
+};
+
+/// The same of the tets that a tile owns, by their numbers in the whole mesh.
+[[nodiscard]] QualityMeter tally_quality(const MeshTile& tile);
+
+/// P3.  An empty mesh gives zeros.  Flat tets count as radius ratio 0; faces without area are left
+/// out of the dihedral angles.
+/// REQUIRES: vertex rows in range, finite coordinates.  Cost: O(tets), no allocation.
+[[nodiscard]] QualityReport measure_quality(const AuditMesh& mesh);
+
+}  // namespace mw::audit

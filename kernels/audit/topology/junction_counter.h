@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Counts cells and components of junctions where labels meet.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "kernels/audit/topology/disjoint_sets.h"
+#include "kernels/audit/topology/junctions.h"
+
+namespace mw::audit {
+
+/// The vertices that a tile has to do with, by row.
+struct JunctionVertices {
+  std::vector<bool> owned;
+  std::vector<bool> shared;        ///< other tiles have to do with it; all that are not owned
+  std::vector<std::uint64_t> ids;  ///< in the whole; ascending
+
+  [[nodiscard]] std::size_t count() const { return ids.size(); }
+};
+
+/// A list that is given the same values again and again.  Memory: at most twice the distinct ones,
+/// or kFirstLimit if that is more.
+template <class T>
+class DistinctList {
+ public:
+  void add(const T& value) {
+    if (values_.size() == limit_) compact();
+    values_.push_back(value);
+  }
+  /// Ascending.
+  [[nodiscard]] const std::vector<T>& sorted() {
+    compact();
+    return values_;
+  }
+
+ private:
+  static constexpr std::size_t kFirstLimit = std::size_t{1} << 16;
+
+  void compact() {
+    std::sort(values_.begin(), values_.end());
+    values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
+    limit_ = std::max(kFirstLimit, 2 * values_.size());
+  }
+
+  std::vector<T> values_;
+  std::size_t limit_ = kFirstLimit;
+};
+
+/// Collects the cells of the junctions of one kind.  Labels are ascending and distinct.
+class JunctionCounter {
+ public:
+  /// vertices outlive this.
+  explicit JunctionCounter(const JunctionVertices& vertices) : vertices_(vertices) {}
+
+  /// Vertices and edges may come again; faces, of two labels, may not.
+  /// REQUIRES: v, and the face, are owned; v < w.
+  void add_vertex(const JunctionLabels& junction, std::uint64_t v);
+  void add_edge(const JunctionLabels& junction, std::uint64_t v, std::uint64_t w);
+  void add_face(const JunctionLabels& pair);
+
+  /// Adds all junctions to the piece, ascending.
+  void take(JunctionKind kind, JunctionsPiece& out);
+
+ private:
+  struct Link {
+    std::uint64_t a = 0;
+    std::uint64_t b = 0;
+    friend auto operator<=>(const Link&, const Link&) = default;
+  };
+
+  [[nodiscard]] std::uint64_t id(const JunctionLabels& junction);
+  [[nodiscard]] std::uint64_t node(const JunctionLabels& junction, std::uint64_t v) {
+    return id(junction) * vertices_.count() + v;
+  }
+  /// Connected sets of all nodes, ascending; counts vertices and edges.
+  [[nodiscard]] DisjointSets link(const std::vector<std::uint64_t>& nodes);
+
+  const JunctionVertices& vertices_;
+  std::map<JunctionLabels, std::uint64_t> ids_;
+  JunctionLabels last_junction_{};  ///< what id() was asked for last
+  std::uint64_t last_id_ = 0;
+  DistinctList<std::uint64_t> nodes_;  ///< a vertex in a junction
+  DistinctList<Link> links_;
+  std::vector<std::int64_t> euler_;  ///< by id
+};
+
+/// The two kinds of junctions of a tile, fed by cells with all labels around them.
+class JunctionSweep {
+ public:
+  explicit JunctionSweep(JunctionVertices vertices) : vertices_(std::move(vertices)) {}
+  JunctionSweep(const JunctionSweep&) = delete;
+  JunctionSweep& operator=(const JunctionSweep&) = delete;
+
+  [[nodiscard]] bool owns(std::uint64_t v) const { return vertices_.owned[v]; }
+
+  /// Vertices and edges whose smaller vertex the tile owns.
+  /// Labels ascending, distinct; nothing happens for a single one.
+  void add_vertex(std::span<const Label> labels, std::uint64_t v);
+  void add_edge(std::span<const Label> labels, std::uint64_t v, std::uint64_t w);
+  /// All faces with a vertex that the tile owns; vertices in cyclic order.
+  void add_face(std::span<const Label> labels, std::span<const std::uint64_t> vertices);
+
+  [[nodiscard]] JunctionsPiece take();
+
+ private:
+  JunctionVertices vertices_;
+  JunctionCounter interfaces_{vertices_};
+  JunctionCounter meetings_{vertices_};
+};
+
+}  // namespace mw::audit

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Junctions of a mesh: every vertex, edge and triangle with all labels around it.
+#include <algorithm>
+#include <utility>
+
+#include "kernels/audit/topology/junction_counter.h"
+#include "kernels/audit/topology/mesh_parts.h"
+
+namespace mw::audit {
+namespace {
+
+/// Other tiles have to do with the vertices of tets that they have too.
+JunctionVertices vertices_of(const MeshStars& stars) {
+  JunctionVertices out;
+  for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
+    out.owned.push_back(stars.owns(v));
+    out.shared.push_back(!stars.owns(v));
+    out.ids.push_back(stars.tile().vertex_id(v));
+  }
+  for (const TetRow& tet : stars.mesh().tets) {
+    const bool is_shared =
+        !std::all_of(tet.begin(), tet.end(), [&](std::uint64_t v) { return stars.owns(v); });
+    if (!is_shared) continue;
+    for (const std::uint64_t v : tet) out.shared[v] = true;
+  }
+  return out;
+}
+
+class MeshJunctionSweep {
+ public:
+  MeshJunctionSweep(const MeshStars& stars, Label exterior)
+      : stars_(stars), exterior_(exterior), box_(box_cells(stars)), sweep_(vertices_of(stars)) {}
+
+  JunctionsPiece run() {
+    for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
+      if (!stars_.owns(v)) continue;
+      add_vertex(v);
+      add_edges(v);
+    }
+    visit_whole_faces(stars_, [this](const MeshFace& face) { add_face(face); });
+    return sweep_.take();
+  }
+
+ private:
+  [[nodiscard]] Label class_of(std::uint32_t tet) const {
+    return class_of_tet(stars_, exterior_, tet);
+  }
+
+  [[nodiscard]] std::span<const Label> distinct_labels() {
+    std::sort(labels_.begin(), labels_.end());
+    labels_.erase(std::unique(labels_.begin(), labels_.end()), labels_.end());
+    return labels_;
+  }
+
+  void add_vertex(std::uint32_t v) {
+    labels_.clear();
+    if (box_.vertices[v]) labels_.push_back(exterior_);
+    for (const std::uint32_t tet : stars_.star(v)) labels_.push_back(class_of(tet));
+    sweep_.add_vertex(distinct_labels(), v);
+  }
+
+  /// Edges from v to a larger vertex; those of the box are read along, as v ascends.
+  void add_edges(std::uint32_t v) {
+    edges_.clear();
+    for (const std::uint32_t tet : stars_.star(v)) {
+      for (const std::uint64_t other : stars_.mesh().tets[tet]) {
+        if (other > v) edges_.push_back({other, class_of(tet)});
+      }
+    }
+    for (; next_box_edge_ < box_.edges.size() && box_.edges[next_box_edge_] >> 32 <= v;
+         ++next_box_edge_) {
+      if (box_.edges[next_box_edge_] >> 32 < v) continue;
+      edges_.push_back({box_.edges[next_box_edge_] & 0xffffffffU, exterior_});
+    }
+    std::sort(edges_.begin(), edges_.end());
+    for (std::size_t i = 0; i < edges_.size();) {
+      const std::uint64_t other = edges_[i].first;
+      labels_.clear();
+      for (; i < edges_.size() && edges_[i].first == other; ++i) {
+        labels_.push_back(edges_[i].second);
+      }
+      sweep_.add_edge(distinct_labels(), v, other);
+    }
+  }
+
+  void add_face(const MeshFace& face) {
+    labels_.clear();
+    if (face.sides.size() == 1) labels_.push_back(exterior_);
+    for (const FaceSide& side : face.sides) labels_.push_back(class_of(side.tet));
+    const auto& v = face.vertices;
+    sweep_.add_face(distinct_labels(), std::array<std::uint64_t, 3>{v[0], v[1], v[2]});
+  }
+
+  const MeshStars& stars_;
+  Label exterior_;
+  BoxCells box_;
+  JunctionSweep sweep_;
+  std::size_t next_box_edge_ = 0;
+  std::vector<FaceSide> sides_;
+  std::vector<Label> labels_;
+  std::vector<std::pair<std::uint64_t, Label>> edges_;
+};
+
+}  // namespace
+
+JunctionsPiece mesh_junctions(const MeshStars& stars, std::size_t label_count) {
+  return MeshJunctionSweep(stars, static_cast<Label>(label_count)).run();
+}
+
+}  // namespace mw::audit

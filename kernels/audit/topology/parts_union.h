@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Betti numbers from the parts that tiles see, each for itself.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kernels/audit/mesh_stars.h"
+#include "kernels/audit/topology/betti.h"
+#include "kernels/audit/topology/disjoint_sets.h"
+#include "kernels/audit/topology/part_graph.h"
+
+namespace mw::audit {
+
+/// A tile of a mesh.
+struct MeshParts {
+  PartsPiece piece;
+  std::vector<std::uint32_t> part_of_tet;  ///< by row, and one more for the exterior
+};
+
+/// Parts, their pairs and the cells of a tile.  A tet that another tile has as well, in which it is
+/// in another part, says that the two are one.
+/// REQUIRES, errors and cost: as mesh_betti.
+[[nodiscard]] MeshParts mesh_parts(const MeshStars& stars, std::size_t label_count);
+
+/// Voxels along x that several tiles have loaded, in one part.
+struct SharedRun {
+  std::uint64_t first = 0;  ///< x fastest in the whole volume
+  std::uint32_t count = 0;
+  std::uint32_t part = 0;
+};
+
+/// A tile of a volume.  shared: all voxels that another tile has loaded, and perhaps more.
+struct VoxelParts {
+  PartsPiece piece;
+  std::vector<SharedRun> shared;
+};
+
+/// REQUIRES, errors and cost: as voxel_betti.
+[[nodiscard]] VoxelParts voxel_parts(const VoxelTile& tile, std::size_t label_count);
+
+/// Joins the pieces of all tiles of a volume, or of a mesh.
+class PartsUnion {
+ public:
+  explicit PartsUnion(std::size_t label_count) : label_count_(label_count) {}
+
+  /// Returns the number of its part 0; the others follow.  Labels are those of the whole.
+  std::uint32_t add(PartsPiece piece);
+  /// These two, numbered through all pieces, are one.  REQUIRES: all pieces were added.
+  void unite(std::uint32_t a, std::uint32_t b);
+
+  /// label_count + 1 rows; the last is the exterior.  Nothing is united afterwards.
+  [[nodiscard]] std::vector<RegionBetti> betti_of_volume();
+  [[nodiscard]] std::vector<RegionBetti> betti_of_mesh();
+  /// Of all interfaces.  Nothing is united afterwards.
+  [[nodiscard]] Cavities cavities();
+
+ private:
+  /// Numbers parts that are one by one number.
+  void join();
+  /// The exterior is one cell that no tile has counted.
+  [[nodiscard]] std::vector<RegionBetti> betti(const EulerSums& euler);
+  [[nodiscard]] EulerSums sums() const;
+  DisjointSets& sets();
+
+  std::size_t label_count_;
+  std::vector<Label> part_class_;
+  std::vector<PartPair> face_pairs_;
+  std::vector<PartPair> vertex_pairs_;
+  std::vector<ClassCells> cells_;
+  std::int64_t total_ = 0;
+  std::optional<DisjointSets> sets_;
+  bool is_joined_ = false;
+};
+
+}  // namespace mw::audit

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Cubes by colour; candidates by count; flips until none is left; undo when the guard says no.
+#include "kernels/start/coarsen/coarsen.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "kernels/core/index.h"
+#include "kernels/start/carrier_faces.h"
+#include "kernels/start/coarsen/simple_voxel.h"
+
+namespace mw {
+namespace {
+
+constexpr std::int64_t kReachPerColour = 2;
+
+Index3 cube_voxel(Index3 cube, unsigned i) {
+  return cube + Index3{i & 1U, i >> 1 & 1U, i >> 2 & 1U};
+}
+
+class Coarsener {
+ public:
+  Coarsener(const LabelBox& original, LabelBox& labels, double max_distance)
+      : original_(original), labels_(labels), carriers_(max_distance) {
+    const double reach = std::min(max_distance, kMaxCoarseDistance);
+    for_each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 o) {
+      if (static_cast<double>(o.x * o.x + o.y * o.y + o.z * o.z) <= reach * reach) {
+        displacements_.push_back(o);
+      }
+    });
+  }
+
+  /// True when the cube was mixed; uniform tells what became of it.
+  bool visit(Index3 cube, bool& uniform) {
+    std::array<Label, 8> before;
+    for (unsigned i = 0; i < 8; ++i) before[i] = labels_.at(cube_voxel(cube, i));
+    if (std::count(before.begin(), before.end(), before[0]) == 8) return false;
+    uniform = false;
+    for (Label to : candidates(before)) {
+      if (flip_all(cube, to) && keeps_carriers(cube, before)) {
+        uniform = true;
+        return true;
+      }
+      for (unsigned i = 0; i < 8; ++i) at(cube_voxel(cube, i)) = before[i];
+    }
+    return true;
+  }
+
+ private:
+  Label& at(Index3 v) { return labels_.labels[static_cast<std::size_t>(labels_.box.offset(v))]; }
+
+  /// Labels of the cube, the most frequent first, then by label.
+  static std::vector<Label> candidates(std::array<Label, 8> labels) {
+    std::sort(labels.begin(), labels.end());
+    std::vector<std::pair<std::ptrdiff_t, Label>> counted;
+    for (auto i = labels.begin(); i != labels.end();) {
+      const auto end = std::upper_bound(i, labels.end(), *i);
+      counted.emplace_back(i - end, *i);
+      i = end;
+    }
+    std::sort(counted.begin(), counted.end());
+    std::vector<Label> out;
+    for (const auto& [count, label] : counted) out.push_back(label);
+    return out;
+  }
+
+  bool flip_all(Index3 cube, Label to) {
+    std::array<Index3, 8> left;
+    std::size_t count = 0;
+    for (unsigned i = 0; i < 8; ++i) {
+      const Index3 v = cube_voxel(cube, i);
+      if (labels_.at(v) == to) continue;
+      if (!was_near(v, to)) return false;
+      left[count++] = v;
+    }
+    for (bool changed = true; changed && count > 0;) {
+      changed = false;
+      for (std::size_t i = 0; i < count;) {
+        if (!relabel_keeps_topology(neighbourhood(left[i]), to)) {
+          ++i;
+          continue;
+        }
+        at(left[i]) = to;
+        std::move(left.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                  left.begin() + static_cast<std::ptrdiff_t>(count),
+                  left.begin() + static_cast<std::ptrdiff_t>(i));
+        --count;
+        changed = true;
+      }
+    }
+    return count == 0;
+  }
+
+  /// Output to input: all of voxel v is within D of an input voxel of the label.
+  [[nodiscard]] bool was_near(Index3 v, Label label) const {
+    return std::any_of(displacements_.begin(), displacements_.end(),
+                       [&](Index3 o) { return original_.at(v + o) == label; });
+  }
+
+  [[nodiscard]] Neighbourhood neighbourhood(Index3 v) const {
+    Neighbourhood out;
+    const Index3 shape = labels_.box.shape();
+    const Label* row = labels_.labels.data() + labels_.box.offset(v - Index3{1, 1, 1});
+    for (std::size_t z = 0; z < 3; ++z) {
+      for (std::size_t y = 0; y < 3; ++y) {
+        const Label* from =
+            row + (static_cast<std::int64_t>(z) * shape.y + static_cast<std::int64_t>(y)) * shape.x;
+        for (std::size_t x = 0; x < 3; ++x) out[z * 9 + y * 3 + x] = from[x];
+      }
+    }
+    return out;
+  }
+
+  /// Input to output: each input face whose carrier may have been a face of the cube's voxels
+  /// still has one.
+  bool keeps_carriers(Index3 cube, const std::array<Label, 8>& before) {
+    const Label now = labels_.at(cube);
+    const auto label_before = [&](Index3 v) {
+      const Index3 i = v - cube;
+      const bool in_cube = ((i.x | i.y | i.z) & ~std::int64_t{1}) == 0;
+      return in_cube ? before[static_cast<std::size_t>(i.x + 2 * i.y + 4 * i.z)] : labels_.at(v);
+    };
+    for (unsigned i = 0; i < 8; ++i) {
+      if (before[i] == now) continue;
+      const Index3 v = cube_voxel(cube, i);
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        const Index3 step{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
+        for (const VoxelFace& face : {VoxelFace{v, axis}, VoxelFace{v - step, axis}}) {
+          const LabelPair pair = label_pair(label_before(face.lower), label_before(face.upper()));
+          if (pair.low == pair.high || pair.high == kExterior) continue;
+          if (!others_carry(face, pair, cube)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool others_carry(const VoxelFace& lost, LabelPair labels, Index3 cube) const {
+    for (const VoxelFace& f : carriers_.carried_by(lost.axis)) {
+      const VoxelFace face{lost.lower + f.lower, f.axis};
+      if (labels_beside(original_, face) != labels) continue;
+      if (!has_carrier(face, cube)) return false;
+    }
+    return true;
+  }
+
+  /// Faces farther from the cube than its colour may see do not count.
+  [[nodiscard]] bool has_carrier(const VoxelFace& face, Index3 cube) const {
+    const Box3 seen{cube - Index3{kReachPerColour, kReachPerColour, kReachPerColour},
+                    cube + Index3{2 + kReachPerColour, 2 + kReachPerColour, 2 + kReachPerColour}};
+    for (const VoxelFace& c : carriers_.of(face.axis)) {
+      const VoxelFace carrier{face.lower + c.lower, c.axis};
+      if (seen.contains(carrier.lower) && seen.contains(carrier.upper()) &&
+          may_carry(labels_, carrier, original_, face)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const LabelBox& original_;
+  LabelBox& labels_;
+  CarrierFaces carriers_;
+  std::vector<Index3> displacements_;
+};
+
+/// Cubes of one colour in a box with even low corner.
+template <typename Visit>
+void each_cube(const Box3& box, unsigned colour, Visit visit) {
+  const auto first = [](std::int64_t lo, std::int64_t parity) {
+    return lo + ((lo >> 1 ^ parity) & 1) * 2;
+  };
+  for (Index3 c{0, 0, first(box.lo.z, colour >> 2 & 1U)}; c.z + 2 <= box.hi.z; c.z += 4) {
+    for (c.y = first(box.lo.y, colour >> 1 & 1U); c.y + 2 <= box.hi.y; c.y += 4) {
+      for (c.x = first(box.lo.x, colour & 1U); c.x + 2 <= box.hi.x; c.x += 4) visit(c);
+    }
+  }
+}
+
+}  // namespace
+
+CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
+                     double max_distance) {
+  MW_ASSERT(((tile.lo.x | tile.lo.y | tile.lo.z) & 1) == 0);
+  Coarsener coarsener(original, labels, max_distance);
+  CoarsenStats stats;
+  for (unsigned colour = 0; colour < 8; ++colour) {
+    const Box3 box =
+        intersection(grown(tile, kReachPerColour * (7 - static_cast<std::int64_t>(colour))),
+                     {{0, 0, 0}, volume});
+    each_cube(box, colour, [&](Index3 cube) {
+      bool uniform = true;
+      if (!coarsener.visit(cube, uniform) || !tile.contains(cube)) return;
+      ++stats.mixed_cubes;
+      stats.made_uniform += uniform ? 1U : 0U;
+    });
+  }
+  return stats;
+}
+
+}  // namespace mw

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Label coarsening: voxels change labels, one proven flip at a time, until small cubes are uniform.
+#pragma once
+
+#include "kernels/core/label.h"
+
+namespace mw {
+
+/// Voxels around a tile that its coarsened labels depend on.
+inline constexpr std::int64_t kCoarsenHalo = 16;
+
+struct CoarsenStats {
+  std::uint64_t mixed_cubes = 0;
+  std::uint64_t made_uniform = 0;
+
+  CoarsenStats& operator+=(const CoarsenStats& other) {
+    mixed_cubes += other.mixed_cubes;
+    made_uniform += other.made_uniform;
+    return *this;
+  }
+};
+
+/// Relabels voxels so that most cubes of 2^3 voxels at even positions become uniform: then the
+/// octree of the start mesh can begin one level coarser at interfaces, with a quarter of the
+/// vertices.  Shape is not lost, because quadrics and samples still come from the input's labels.
+///
+/// A cube takes the label that most of its voxels have, or the next, when every voxel gets there by
+/// changes of label that keep topology (simple_voxel.h), and when afterwards
+///  - each of its voxels lies within D of an input voxel of that label (output to input), and
+///  - each input face between two labels that loses its carrier finds another (input to output,
+///    carrier_faces.h).
+/// Otherwise it stays as it was.
+///
+/// Cubes are visited in eight colours, by the parity of their position; cubes of one colour do not
+/// see each other, so the result is a local function: it depends on labels nearer than
+/// kCoarsenHalo.
+///
+/// `labels` holds the input's labels on entry, the coarsened ones of `tile` on return; the halo is
+/// scratch.
+/// REQUIRES: original and labels are equal and cover the tile with its halo; tile inside the volume
+///           with even low corner, and even high corner where that is not the volume's side.
+/// ENSURES: topology of every label kept; tiles fit together; statistics count cubes in the tile.
+CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
+                     double max_distance);
+
+}  // namespace mw
