@@ -68,7 +68,7 @@ enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 
 /// world = origin + sum over i of axes[i] * spacing[i] * corner[i], corners of voxels counted from
 /// the first corner of the first voxel.  Axes have unit length and are at right angles.
 struct Space {
-  Vector spacing{1, 1, 1};  ///< edges of a voxel
+  Vector spacing{1, 1, 1};  ///< edges of a voxel, positive
   Vector origin{0, 0, 0};   ///< first corner of the first voxel
   std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   std::string unit;           ///< "mm", "um", "nm" and so on; empty: unknown
@@ -83,8 +83,13 @@ struct Space {
 
 struct LabelName {
   std::uint64_t label = 0;
-  std::string name;
+  std::string name;  ///< may be empty
+  /// Red, green, blue and opacity; empty: unknown.
+  std::optional<std::array<std::uint8_t, 4>> colour{};
 };
+
+/// Names and colours of a file as `--names` takes it.  ERRORS: kInput naming file and line.
+[[nodiscard]] std::vector<LabelName> read_names(const std::filesystem::path& path);
 
 /// Voxels in memory, which must stay there, unchanged, as long as the Volume and its copies live.
 struct ArrayVolume {
@@ -137,7 +142,7 @@ class Volume {
   [[nodiscard]] Space space() const;
   [[nodiscard]] bool labels_are_signed() const;
   [[nodiscard]] std::vector<LabelName> names() const;
-  /// REQUIRES: box inside the volume; out.size() is the number of its voxels.
+  /// ERRORS: kUsage unless the box is in the volume and out.size() the number of its voxels.
   void read(const Box& box, std::span<std::uint64_t> out) const;
 
  private:
@@ -148,6 +153,11 @@ class Volume {
 
   std::shared_ptr<const Content> content_;
 };
+
+/// The label with this number or name, "7", "-1", "Liver".
+/// ERRORS: kUsage for a number that no label of the volume can be, and for a name that none of them
+/// has, or several have.
+[[nodiscard]] std::uint64_t find_label(const Volume& volume, std::string_view text);
 
 /// A random volume of a kind "voronoi", "tubes", "spheres", "noise" or "checkerboard", x fastest.
 [[nodiscard]] std::vector<std::uint64_t> synth(std::string_view kind, const Index& shape,
@@ -196,7 +206,7 @@ struct Options {
   /// The labels of the mesh; the others are meshed but left out.  Empty: all.
   std::vector<std::uint64_t> labels;
   std::optional<std::uint64_t> background;  ///< the only one that is left out
-  int threads = 0;                          ///< 0: all cores
+  int threads = 0;                          ///< 1 to 1,024; 0: all cores
   /// Bytes that the run may take; the mesh in memory, and the volume's arrays, come on top.
   /// 0: half of what the machine has to spare.
   std::uint64_t memory = 0;
@@ -267,6 +277,11 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                 std::string_view element = "tet4");
+/// As of a volume.
+[[nodiscard]] std::uint64_t find_label(const Mesh& mesh, std::string_view text);
+/// A PNG of all labels but the one around them, as `mwmesh picture` draws it.
+/// ERRORS: kUsage unless from 16 to 8,192 pixels; kInput when there is nothing to see.
+[[nodiscard]] std::string picture(const Mesh& mesh, int width = 1200, int height = 900);
 /// "sha256:...", the same for every format, order of rows and machine.
 [[nodiscard]] std::string digest(const Mesh& mesh);
 

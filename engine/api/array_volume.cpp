@@ -3,9 +3,10 @@
 // Voxels of a caller's array as a volume.
 #include "engine/api/array_volume.h"
 
+#include <algorithm>
 #include <bit>
 
-#include "engine/api/spaces.h"
+#include "engine/api/types.h"
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
 #include "io/volume/decode.h"
@@ -77,6 +78,9 @@ void ArrayReader::read(const Box3& box, std::span<RawLabel> out) const {
 RegionReader::RegionReader(const mwmesh::RegionVolume& region)
     : read_(region.read), info_(info_of(region)) {
   if (!read_) throw Error(ErrorKind::kUsage, "volume: there is no read()");
+  if (*std::min_element(region.chunk.begin(), region.chunk.end()) < 0) {
+    throw Error(ErrorKind::kUsage, "chunk must not be negative");
+  }
   info_.chunk = {region.chunk[0], region.chunk[1], region.chunk[2]};
 }
 

@@ -49,6 +49,12 @@ std::string library_words(std::string message) {
   return message;
 }
 
+const std::filesystem::path& checked_path(const std::filesystem::path& path, const char* name) {
+  if (path.native().find('\0') == path.native().npos) return path;
+  throw Error(ErrorKind::kUsage,
+              std::string(name) + " " + path.c_str() + ": has a zero byte in it");
+}
+
 mwmesh::Error library_error(const Error& error) {
   return {kind_of(error.kind()), library_words(error.what())};
 }

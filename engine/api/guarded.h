@@ -16,6 +16,10 @@ namespace mw::api {
 
 [[nodiscard]] mwmesh::Error library_error(const Error& error);
 
+/// ERRORS: mw::Error(kUsage) for a path that the system would read to a zero byte only.
+[[nodiscard]] const std::filesystem::path& checked_path(const std::filesystem::path& path,
+                                                        const char* name = "path");
+
 /// Calls work(); its errors become mwmesh::Error.
 template <class Work>
 auto guarded(const Work& work) {

@@ -6,8 +6,7 @@
 #include <algorithm>
 
 #include "engine/api/guarded.h"
-#include "engine/api/mesh_settings.h"
-#include "engine/settings/bytes_text.h"
+#include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"
 #include "engine/system/machine_memory.h"
 #include "io/file/scratch/scratch_file.h"
@@ -30,9 +29,9 @@ io::Json value_json(const engine::Setting& setting, const std::string& text) {
 }
 
 engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& hooks) {
-  engine::RunHooks out{.threads = options.threads};
+  engine::RunHooks out{.threads = threads_of(options)};
   out.store.memory = memory_of(options);
-  out.store.workdir = options.workdir;
+  out.store.workdir = checked_path(options.workdir, "workdir");
   out.store.resume = options.resume;
   if (hooks.progress) {
     out.progress = [&hooks](const engine::RunProgress& at) {
@@ -68,13 +67,17 @@ engine::LabelChoice label_choice(const mwmesh::Options& options) {
   return choice;
 }
 
+int threads_of(const mwmesh::Options& options) {
+  engine::check_threads(options.threads);
+  return options.threads;
+}
+
 std::uint64_t memory_of(const mwmesh::Options& options) {
   return options.memory > 0 ? options.memory : engine::default_memory_budget();
 }
 
 engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options& options,
                          const mwmesh::Hooks& hooks) {
-  if (options.threads < 0) throw Error(ErrorKind::kUsage, "--threads: must not be negative");
   if (options.resume && options.workdir.empty()) {
     throw Error(ErrorKind::kUsage, "--resume: needs the --workdir of the run that ended early");
   }
@@ -114,7 +117,7 @@ io::Json settings_json(const engine::MeshJob& job) {
 namespace mwmesh {
 
 std::uint64_t bytes_of_text(std::string_view text) {
-  return mw::api::guarded([&] { return mw::engine::parse_size(text); });
+  return mw::api::guarded([&] { return mw::engine::parse_bytes(text); });
 }
 
 }  // namespace mwmesh

@@ -5,13 +5,18 @@
 
 #include "engine/job/mesh_job.h"
 #include "engine/mwmesh.h"
+#include "engine/settings/settings.h"
 #include "io/json/json.h"
 
 namespace mw::api {
 
+/// ERRORS: mw::Error(kUsage).
+[[nodiscard]] engine::MeshSettings mesh_settings(const mwmesh::Settings& settings);
 [[nodiscard]] io::InputSteps input_steps(const mwmesh::Options& options);
 /// ERRORS: mw::Error(kUsage).
 [[nodiscard]] engine::LabelChoice label_choice(const mwmesh::Options& options);
+/// ERRORS: mw::Error(kUsage).
+[[nodiscard]] int threads_of(const mwmesh::Options& options);
 /// Bytes, the default included.
 [[nodiscard]] std::uint64_t memory_of(const mwmesh::Options& options);
 /// hooks outlives the result.  ERRORS: mw::Error(kUsage).

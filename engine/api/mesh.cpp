@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Volumes to meshes.
+// Volumes to meshes, and meshes held against volumes.
 
 #include "engine/api/guarded.h"
 #include "engine/api/jobs.h"
-#include "engine/api/meshes.h"
+#include "engine/api/types.h"
 #include "engine/api/volume_access.h"
-#include "engine/system/resident_memory.h"
+#include "engine/job/verify_job.h"
 #include "engine/version.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
@@ -60,6 +61,15 @@ std::string run_into(io::MeshSink& sink, const std::filesystem::path& path, cons
   return report_text(run, path, job);
 }
 
+Verdict library_verdict(const mw::report::Verdict& verdict) {
+  Verdict out{.passed = verdict.audit.passed(), .checks = {}, .report = {}};
+  for (const mw::audit::Check& check : verdict.audit.checks) {
+    out.checks.push_back({.name = check.name, .passed = check.passed, .detail = check.detail});
+  }
+  out.report = mw::report::verdict_json(verdict).dump_indented();
+  return out;
+}
+
 }  // namespace
 
 const char* version() {
@@ -90,9 +100,24 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
                          std::string_view element) {
   return mw::api::guarded([&] {
     engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
-    job.folder = path.parent_path();
+    job.folder = mw::api::checked_path(path).parent_path();
     const auto sink = io::open_mesh_sink(path, io::parse_element(element));
     return run_into(*sink, path, volume, job);
+  });
+}
+
+Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, const Hooks& hooks) {
+  return mw::api::guarded([&] {
+    const std::function<void()> stop = mw::api::stop_function(hooks);
+    const engine::VerifyJob job{.volume = VolumeAccess::labels(volume),
+                                .steps = mw::api::input_steps(options),
+                                .choice = mw::api::label_choice(options),
+                                .threads = mw::api::threads_of(options),
+                                .memory = mw::api::memory_of(options),
+                                .folder = mw::io::scratch_folder(),
+                                .between = stop};
+    return library_verdict(
+        engine::verify(job, [&](mw::io::MeshSink& sink) { mw::api::deliver(mesh, sink); }));
   });
 }
 

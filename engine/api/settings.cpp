@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/api/guarded.h"
-#include "engine/api/mesh_settings.h"
+#include "engine/api/jobs.h"
 #include "engine/settings/setting_table.h"
 
 namespace mw::api {
@@ -26,11 +26,24 @@ const engine::Setting& find(std::string_view name) {
   throw Error(ErrorKind::kUsage, std::string(name) + ": no such setting; there are " + all);
 }
 
+/// Errors name the setting as the library does.
+void set(std::string_view name, engine::MeshSettings& settings, const std::string& text) {
+  const engine::Setting& setting = find(name);
+  try {
+    engine::set(setting, settings, text);
+  } catch (const Error& error) {
+    std::string reason = error.what();
+    if (reason.starts_with(setting.name + " ")) reason.erase(0, setting.name.size() + 1);
+    throw Error(error.kind(), std::string(name) + ": " + reason);
+  }
+}
+
 constexpr const char* kPreset = "preset";
 
 const engine::Preset& find_preset(const std::string& name) {
   if (const engine::Preset* preset = engine::find_preset(name)) return *preset;
-  throw Error(ErrorKind::kUsage, name + ": no such preset; there are draft, default and fine");
+  throw Error(ErrorKind::kUsage,
+              "preset: there is no '" + name + "'; there are draft, default and fine");
 }
 
 }  // namespace
@@ -41,11 +54,11 @@ engine::MeshSettings mesh_settings(const mwmesh::Settings& settings) {
   const auto preset = changed.find(kPreset);
   if (preset != changed.end()) {
     for (const auto& [name, text] : find_preset(preset->second).values) {
-      engine::set(find(library_name(name)), out, text);
+      set(library_name(name), out, text);
     }
   }
   for (const auto& [name, text] : changed) {
-    if (name != kPreset) engine::set(find(name), out, text);
+    if (name != kPreset) set(name, out, text);
   }
   engine::check(out);
   return out;
@@ -62,9 +75,8 @@ Settings& Settings::set(std::string_view name, std::string_view text) {
       return;
     }
     mw::engine::MeshSettings tried;
-    const mw::engine::Setting& setting = mw::api::find(name);
-    mw::engine::set(setting, tried, std::string(text));
-    changed_[std::string(name)] = setting.text(tried);
+    mw::api::set(name, tried, std::string(text));
+    changed_[std::string(name)] = mw::api::find(name).text(tried);
   });
   return *this;
 }

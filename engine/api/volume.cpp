@@ -3,8 +3,9 @@
 // Volumes of the library.
 #include "engine/api/array_volume.h"
 #include "engine/api/guarded.h"
-#include "engine/api/spaces.h"
+#include "engine/api/types.h"
 #include "engine/api/volume_access.h"
+#include "engine/settings/number_text.h"
 #include "io/names/read_names.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
@@ -19,24 +20,6 @@ io::FrameChoice frame_choice(const std::string& name) {
   if (const auto choice = io::parse_frame_choice(name)) return *choice;
   throw mw::Error(mw::ErrorKind::kUsage, "frame " + name + ": expected file, ras, lps or voxel");
 }
-
-/// A volume of which somebody else may hold a part.
-class SharedVolume : public io::LabelVolume {
- public:
-  SharedVolume(std::shared_ptr<const io::LabelVolume> volume) : volume_(std::move(volume)) {}
-
-  [[nodiscard]] const io::VolumeInfo& info() const override { return volume_->info(); }
-  void read(const mw::Box3& box, std::span<mw::RawLabel> out) const override {
-    volume_->read(box, out);
-  }
-  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override {
-    return volume_->buffer_bytes(threads);
-  }
-  void drop_buffers() const override { volume_->drop_buffers(); }
-
- private:
-  std::shared_ptr<const io::LabelVolume> volume_;
-};
 
 }  // namespace
 
@@ -58,14 +41,14 @@ Volume Volume::open(const VolumeFile& file) {
                             .dataset = file.dataset,
                             .scale = file.scale};
     if (file.crop) options.crop = mw::api::io_box(*file.crop);
-    return VolumeAccess::wrap(io::open_volume(file.path, options));
+    return VolumeAccess::wrap(io::open_volume(mw::api::checked_path(file.path), options));
   });
 }
 
 Volume Volume::with_names(const std::vector<LabelName>& names) const {
   return mw::api::guarded([&] {
-    return VolumeAccess::wrap(std::make_shared<io::NamedVolume>(
-        std::make_unique<SharedVolume>(VolumeAccess::shared(*this)), mw::api::io_names(names)));
+    return VolumeAccess::wrap(
+        std::make_shared<io::NamedVolume>(VolumeAccess::shared(*this), mw::api::io_names(names)));
   });
 }
 
@@ -91,7 +74,28 @@ std::vector<LabelName> Volume::names() const {
 }
 
 void Volume::read(const Box& box, std::span<std::uint64_t> out) const {
-  mw::api::guarded([&] { VolumeAccess::labels(*this).read(mw::api::io_box(box), out); });
+  mw::api::guarded([&] {
+    const io::LabelVolume& labels = VolumeAccess::labels(*this);
+    const mw::Box3 wanted = mw::api::io_box(box);
+    const mw::Box3 common = mw::intersection(wanted, {{0, 0, 0}, labels.info().shape});
+    if (common != wanted || static_cast<std::uint64_t>(wanted.voxels()) != out.size()) {
+      throw mw::Error(mw::ErrorKind::kUsage,
+                      "read: expected a box in the volume, and room for its voxels");
+    }
+    labels.read(wanted, out);
+  });
+}
+
+std::uint64_t find_label(const Volume& volume, std::string_view text) {
+  return mw::api::guarded([&] {
+    const io::VolumeInfo& info = VolumeAccess::labels(volume).info();
+    return mw::engine::find_label(text, info.names, io::has_signed_labels(info));
+  });
+}
+
+std::vector<LabelName> read_names(const std::filesystem::path& path) {
+  return mw::api::guarded(
+      [&] { return mw::api::library_names(io::read_names(mw::api::checked_path(path))); });
 }
 
 std::vector<std::uint64_t> synth(std::string_view kind, const Index& shape, std::uint64_t labels,

@@ -10,7 +10,6 @@
 namespace mw::cli {
 namespace {
 
-constexpr int kMaxSide = 8192;  // pixels
 constexpr const char* kShownGroup = "What to show";
 
 [[noreturn]] void fail_expected(const std::string& what) {
@@ -18,15 +17,12 @@ constexpr const char* kShownGroup = "What to show";
 }
 
 std::array<int, 2> parse_pixels(const std::string& text) {
-  const std::string expected = "pixels from 16x16 to 8192x8192, e.g. 1200x900";
   const std::size_t cross = text.find('x');
-  if (cross == std::string::npos) fail_expected(expected);
-  const auto side = [&](const std::string& digits) {
-    const std::int64_t pixels = parse_integer(digits);
-    if (pixels < 16 || pixels > kMaxSide) fail_expected(expected);
-    return static_cast<int>(pixels);
-  };
-  return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
+  if (cross == std::string::npos) fail_expected("pixels, as 1200x900");
+  const std::int64_t width = parse_integer(text.substr(0, cross));
+  const std::int64_t height = parse_integer(text.substr(cross + 1));
+  picture::check_sides(width, height);
+  return {static_cast<int>(width), static_cast<int>(height)};
 }
 
 picture::Lines parse_lines(const std::string& text) {

@@ -79,6 +79,12 @@ int band_rows(const PictureStyle& style) {
 
 }  // namespace
 
+void check_sides(std::int64_t width, std::int64_t height) {
+  constexpr std::int64_t kMin = 16, kMax = 8192;
+  if (std::min(width, height) >= kMin && std::max(width, height) <= kMax) return;
+  throw Error(ErrorKind::kUsage, "expected pixels from 16x16 to 8192x8192, e.g. 1200x900");
+}
+
 std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBytes& take) {
   const Measured measured = measure(scene, style.view);
   const Painter painter(measured, style);

@@ -22,6 +22,9 @@ struct PictureStyle {
   bool transparent = false;  ///< what shows nothing; else white
 };
 
+/// ERRORS: mw::Error(kUsage) unless from 16 to 8,192 pixels.
+void check_sides(std::int64_t width, std::int64_t height);
+
 /// Returns how many triangles it drew, hidden ones too.
 /// Memory: 64 MiB of samples, and for one row; the scene is drawn once for each band of rows that
 /// fits there, and once more before to see how large it is.

@@ -5,7 +5,6 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <cstring>
 #include <utility>
@@ -78,10 +77,12 @@ HeldVolume volume_of_region(const py::object& fetch, const py::dtype& type, cons
   return {Volume::of(told), held};
 }
 
-/// A view of one of the lists of a mesh, which stays alive as long as the view.
+/// A view of one of the lists of a mesh, not to be written to; the mesh lives as long as it.
 template <class T>
 py::array_t<T> view(const py::object& owner, const void* data, std::vector<py::ssize_t> shape) {
-  return py::array_t<T>(std::move(shape), static_cast<const T*>(data), owner);
+  py::array_t<T> array(std::move(shape), static_cast<const T*>(data), owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
 }
 
 template <class T>
@@ -101,6 +102,9 @@ void require_columns(const py::array& array, py::ssize_t columns, const char* wh
 Mesh mesh_of_arrays(const Points& points, const Rows& tets, const Rows& labels, bool is_signed) {
   require_columns(points, 3, "points");
   require_columns(tets, 4, "tets");
+  if (labels.ndim() != 1 || labels.size() != tets.shape(0)) {
+    throw Error(ErrorKind::kUsage, "labels: there must be one label a tet");
+  }
   Mesh mesh;
   mesh.points.resize(static_cast<std::size_t>(points.shape(0)));
   std::memcpy(mesh.points.data(), points.data(), mesh.points.size() * sizeof(Vector));
@@ -121,11 +125,14 @@ void add_space(py::module_& module) {
       .def_readwrite("frame", &Space::frame);
   module.def("space_of_affine", &space_of_affine, py::arg("affine"), py::arg("frame"));
   py::class_<LabelName>(module, "LabelName")
-      .def(py::init([](std::uint64_t label, std::string name) {
-        return LabelName{.label = label, .name = std::move(name)};
+      .def(py::init([](std::uint64_t label, std::string name,
+                       std::optional<std::array<std::uint8_t, 4>> colour) {
+        return LabelName{.label = label, .name = std::move(name), .colour = colour};
       }))
       .def_readonly("label", &LabelName::label)
-      .def_readonly("name", &LabelName::name);
+      .def_readonly("name", &LabelName::name)
+      .def_readonly("colour", &LabelName::colour);
+  module.def("read_names", [](const std::string& path) { return read_names(path); });
 }
 
 void add_volume(py::module_& module) {
@@ -137,22 +144,25 @@ void add_volume(py::module_& module) {
       .def("with_names", [](const HeldVolume& v, const std::vector<LabelName>& names) {
         return HeldVolume{v.volume.with_names(names), v.array};
       });
+  module.def("find_label", [](const HeldVolume& v, const std::string& text) {
+    return find_label(v.volume, text);
+  });
   module.def("volume_of_array", &volume_of_array);
   module.def("volume_of_region", &volume_of_region);
-  module.def("open_volume", [](const std::filesystem::path& path, const std::string& dataset,
-                               std::optional<int> scale, std::optional<Vector> spacing,
-                               std::optional<Vector> origin, const std::string& frame,
-                               std::optional<std::pair<Index, Index>> crop) {
-    VolumeFile file{.path = path,
-                    .dataset = dataset,
-                    .scale = scale,
-                    .spacing = spacing,
-                    .origin = origin,
-                    .frame = frame};
-    if (crop) file.crop = Box{crop->first, crop->second};
-    const py::gil_scoped_release no_gil;
-    return HeldVolume{Volume::open(file), nullptr};
-  });
+  module.def("open_volume",
+             [](const std::string& path, const std::string& dataset, std::optional<int> scale,
+                std::optional<Vector> spacing, std::optional<Vector> origin,
+                const std::string& frame, std::optional<std::pair<Index, Index>> crop) {
+               VolumeFile file{.path = path,
+                               .dataset = dataset,
+                               .scale = scale,
+                               .spacing = spacing,
+                               .origin = origin,
+                               .frame = frame};
+               if (crop) file.crop = Box{crop->first, crop->second};
+               const py::gil_scoped_release no_gil;
+               return HeldVolume{Volume::open(file), nullptr};
+             });
 }
 
 void add_options(py::module_& module) {
@@ -169,7 +179,8 @@ void add_options(py::module_& module) {
       .def_readwrite("background", &Options::background)
       .def_readwrite("threads", &Options::threads)
       .def_readwrite("memory", &Options::memory)
-      .def_readwrite("workdir", &Options::workdir)
+      .def_property("workdir", nullptr,
+                    [](Options& o, const std::string& path) { o.workdir = path; })
       .def_readwrite("resume", &Options::resume)
       .def_readwrite("certify", &Options::certify)
       .def_readwrite("report", &Options::report);
@@ -191,7 +202,7 @@ void add_runs(py::module_& module) {
       return mwmesh::mesh(volume.volume, chosen, options, hooks);
     });
   });
-  module.def("mesh_to_file", [](const std::filesystem::path& path, const HeldVolume& volume,
+  module.def("mesh_to_file", [](const std::string& path, const HeldVolume& volume,
                                 const Values& settings, const Options& options,
                                 const py::object& progress, const std::string& element) {
     return watched_run(progress, [&, chosen = settings_of(settings)](const Hooks& hooks) {
@@ -241,12 +252,20 @@ void add_mesh(py::module_& module) {
         const py::gil_scoped_release no_gil;
         return digest(mesh);
       });
-  module.def("read_mesh", [](const std::filesystem::path& path) {
+  module.def("find_label",
+             [](const Mesh& mesh, const std::string& text) { return find_label(mesh, text); });
+  module.def("picture", [](const Mesh& mesh, int width, int height) {
+    return py::bytes([&] {
+      const py::gil_scoped_release no_gil;
+      return picture(mesh, width, height);
+    }());
+  });
+  module.def("read_mesh", [](const std::string& path) {
     const py::gil_scoped_release no_gil;
     return read_mesh(path);
   });
   module.def("write_mesh",
-             [](const Mesh& mesh, const std::filesystem::path& path, const std::string& element) {
+             [](const Mesh& mesh, const std::string& path, const std::string& element) {
                const py::gil_scoped_release no_gil;
                write_mesh(mesh, path, element);
              });

@@ -1,13 +1,73 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers and labels of settings and options from text and back.
+// Numbers, labels and amounts of memory of settings and options from text and back.
 #include "engine/settings/number_text.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "io/file/errors.h"
 
 namespace mw::engine {
+namespace {
+
+/// Of "", "K", "kib", "KB" and so on.
+std::optional<std::uint64_t> bytes_of_unit(std::string_view unit) {
+  constexpr std::string_view kLetters = "kmgt";
+  std::string name;
+  for (const char c : unit) {
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  if (name.empty()) return 1;
+  const std::size_t power = kLetters.find(name.front());
+  const std::string rest = name.substr(1);
+  if (power == kLetters.npos || (!rest.empty() && rest != "b" && rest != "ib")) return {};
+  std::uint64_t bytes = 1;
+  for (std::size_t i = 0; i <= power; ++i) bytes *= rest == "b" ? 1000U : 1024U;
+  return bytes;
+}
+
+/// number: digits, with a point between them or not.
+std::optional<std::uint64_t> bytes_of(std::string_view number, std::uint64_t unit) {
+  const std::size_t point = std::min(number.find('.'), number.size());
+  std::uint64_t whole = 0;
+  double part = 0;
+  if (!read_all(number.substr(0, point), whole)) return {};
+  if (point < number.size() && !read_all("0" + std::string(number.substr(point)), part)) return {};
+  const auto more = static_cast<std::uint64_t>(part * static_cast<double>(unit));
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+  if (whole > (kMax - more) / unit) return {};
+  return whole * unit + more;
+}
+
+/// The labels of that name, as "2, 5".
+std::string labels_called(const std::string& name, const io::LabelNames& names, bool is_signed) {
+  std::string out;
+  for (const io::LabelName& row : names.rows()) {
+    if (row.name != name) continue;
+    out += (out.empty() ? "" : ", ") +
+           (is_signed ? io::text(static_cast<std::int64_t>(row.label)) : io::text(row.label));
+  }
+  return out;
+}
+
+/// What the user may have meant.
+std::string all_names(const io::LabelNames& names) {
+  constexpr std::size_t kMost = 12;
+  std::string out;
+  std::size_t listed = 0;
+  for (const io::LabelName& row : names.rows()) {
+    if (row.name.empty()) continue;
+    if (listed++ == kMost) return out + " and more";
+    out += (listed == 1 ? "" : ", ") + row.name;
+  }
+  return out;
+}
+
+}  // namespace
 
 void fail_expected(std::string_view expected, std::string_view text) {
   throw Error(ErrorKind::kUsage, io::text("expected ", expected, ", got '", text, "'"));
@@ -33,10 +93,43 @@ RawLabel parse_label(std::string_view text) {
   return static_cast<RawLabel>(negative);
 }
 
+RawLabel find_label(std::string_view text, const io::LabelNames& names, bool is_signed) {
+  const std::size_t sign = text.starts_with('-') ? 1 : 0;
+  const bool is_number =
+      text.size() > sign && text.find_first_not_of("0123456789", sign) == text.npos;
+  if (is_number) {
+    const RawLabel label = parse_label(text);
+    const bool is_high = label >> 63U != 0;
+    if (!is_high || is_signed == (sign > 0)) return label;
+    throw Error(ErrorKind::kUsage, io::text("label ", text, ": labels are ",
+                                            is_signed ? "signed, below 2^63" : "not negative"));
+  }
+  const std::string name = io::clean_name(text);
+  const std::string found = labels_called(name, names, is_signed);
+  if (found.empty()) {
+    const std::string known = all_names(names);
+    throw Error(ErrorKind::kUsage,
+                io::text("no label is called '", name, "'; ",
+                         known.empty() ? "none has a name" : "there are ", known));
+  }
+  if (found.find(',') == found.npos) return parse_label(found);
+  throw Error(ErrorKind::kUsage,
+              io::text("labels ", found, " are called '", name, "': give the number"));
+}
+
 bool parse_switch(std::string_view text) {
   if (text == "true" || text == "1") return true;
   if (text == "false" || text == "0") return false;
   fail_expected("true or false", text);
+}
+
+std::uint64_t parse_bytes(std::string_view text) {
+  const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
+  const std::optional<std::uint64_t> unit = bytes_of_unit(text.substr(end));
+  const std::optional<std::uint64_t> bytes =
+      unit ? bytes_of(text.substr(0, end), *unit) : std::nullopt;
+  if (!bytes || *bytes == 0) fail_expected("a size such as 512M, 1.5G or 4GiB", text);
+  return *bytes;
 }
 
 std::string format_number(double value) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers and labels of settings and options from text and back.
+// Numbers, labels and amounts of memory of settings and options from text and back.
 #pragma once
 
 #include <charconv>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "kernels/core/label.h"
+#include "io/names/label_names.h"
 
 namespace mw::engine {
 
@@ -25,6 +25,16 @@ template <class T>
 [[nodiscard]] double parse_number(std::string_view text);   ///< finite
 [[nodiscard]] RawLabel parse_label(std::string_view text);  ///< negative: two's complement
 [[nodiscard]] bool parse_switch(std::string_view text);     ///< "true", "false", "1", "0"
+/// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
+/// B of 1000.  A fraction of a byte is left off.
+[[nodiscard]] std::uint64_t parse_bytes(std::string_view text);
+
+/// A label by its number or its name; what is a number is no name.  is_signed: whether the labels
+/// may be negative, in two's complement.
+/// ERRORS: mw::Error(kUsage) for a number that none of them can be, and for a name that no label
+/// has, or several have.
+[[nodiscard]] RawLabel find_label(std::string_view text, const io::LabelNames& names,
+                                  bool is_signed);
 
 /// Shortest decimal that reads back as the same double.
 [[nodiscard]] std::string format_number(double value);

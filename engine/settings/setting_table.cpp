@@ -303,4 +303,10 @@ void set(const Setting& setting, MeshSettings& settings, const std::string& text
   check(setting, settings);
 }
 
+void check_threads(std::int64_t threads) {
+  constexpr int kMax = 1024;
+  if (threads >= 0 && threads <= kMax) return;
+  throw Error(ErrorKind::kUsage, "threads must be " + range_text(1, kMax) + ", or 0 for all cores");
+}
+
 }  // namespace mw::engine

@@ -3,6 +3,7 @@
 // The settings one by one: what each is called, what it may be, and its text.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,9 @@ void check(const Setting& setting, const MeshSettings& settings);
 
 /// Takes the value over.  ERRORS: those of Setting::read and check(); settings is then spoilt.
 void set(const Setting& setting, MeshSettings& settings, const std::string& text);
+
+/// ERRORS: mw::Error(kUsage) unless from 1 to 1,024, or 0 for all cores.
+void check_threads(std::int64_t threads);
 
 /// A row of values of the table under one name (--preset).
 struct Preset {

@@ -29,7 +29,7 @@ inline constexpr std::uint64_t kMaxNamesBytes = 64 << 20;
 /// Thread safety: as the volume below.
 class NamedVolume : public LabelVolume {
  public:
-  NamedVolume(std::unique_ptr<LabelVolume> volume, const LabelNames& names)
+  NamedVolume(std::shared_ptr<const LabelVolume> volume, const LabelNames& names)
       : volume_(std::move(volume)), info_(volume_->info()) {
     info_.names = info_.names.merged_with(names);
   }
@@ -42,7 +42,7 @@ class NamedVolume : public LabelVolume {
   void drop_buffers() const override { volume_->drop_buffers(); }
 
  private:
-  std::unique_ptr<LabelVolume> volume_;
+  std::shared_ptr<const LabelVolume> volume_;
   VolumeInfo info_;
 };
 

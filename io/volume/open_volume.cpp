@@ -3,6 +3,7 @@
 // Opens a labelled volume of any format that is read here.
 #include "io/volume/open_volume.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -136,17 +137,6 @@ void check_understood(const VolumeFormat& format, const std::filesystem::path& p
   if (options.scale && !format.has_scales) fail("--scale", "scales", formats_with_scales());
 }
 
-void check_options(const OpenOptions& options) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (options.spacing && !(std::isfinite((*options.spacing)[i]) && (*options.spacing)[i] > 0)) {
-      throw Error(ErrorKind::kUsage, "--spacing: not three finite positive numbers");
-    }
-    if (options.origin && !std::isfinite((*options.origin)[i])) {
-      throw Error(ErrorKind::kUsage, "--origin: not three finite numbers");
-    }
-  }
-}
-
 std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
                                         const OpenOptions& options) {
   if (options.raw) {
@@ -189,9 +179,23 @@ std::string formats_with_scales() {
   return names_of([](const VolumeFormat& format) { return format.has_scales; });
 }
 
+void check_place(const std::optional<Vector3>& spacing, const std::optional<Vector3>& origin) {
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  const auto is_length = [](double x) { return std::isfinite(x) && x > 0; };
+  if (spacing && !std::ranges::all_of(*spacing, is_length)) {
+    throw Error(ErrorKind::kUsage, "spacing must be finite and positive");
+  }
+  if (origin && !std::ranges::all_of(*origin, is_finite)) {
+    throw Error(ErrorKind::kUsage, "origin must be finite");
+  }
+}
+
 std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {
-  check_options(options);
+  check_place(options.spacing, options.origin);
+  if (options.scale && *options.scale < 0) {
+    throw Error(ErrorKind::kUsage, "--scale: levels count from 0, the finest");
+  }
   return cropped(open_whole(path, options), path.string(), options);
 }
 

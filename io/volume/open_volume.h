@@ -17,6 +17,10 @@ namespace mw::io {
 [[nodiscard]] std::string formats_with_datasets();
 [[nodiscard]] std::string formats_with_scales();
 
+/// What a caller says of the place, instead of the file.
+/// ERRORS: mw::Error(kUsage) unless spacing is finite and positive, and origin finite.
+void check_place(const std::optional<Vector3>& spacing, const std::optional<Vector3>& origin);
+
 /// Tells the format of a file by content, then by extension, whether it is gzipped or not, and that
 /// of a folder by what is in it; raw when options.raw is given.  The numbers of the options are
 /// checked like the file's.

@@ -86,7 +86,7 @@ std::string canonical_text(ValueKind kind, const std::string& text) {
       (void)parse_labels(text);
       return text;
     case ValueKind::kSize:
-      (void)parse_size(text);
+      (void)parse_bytes(text);
       return text;
     case ValueKind::kSwitch:
       return parse_switch(text) ? "true" : "false";
@@ -109,6 +109,8 @@ std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) 
     case ValueKind::kNumberOrAuto:
       return string_of_toml(node) == word_of(kind) ? word_of(kind) : number_of_toml(node);
     case ValueKind::kNumbers:
+      if (const auto one = number_of_toml(node)) return one;
+      return list_of_toml(node);
     case ValueKind::kShape:
     case ValueKind::kBox:
       return list_of_toml(node);
@@ -135,7 +137,7 @@ const char* toml_type(ValueKind kind) {
     case ValueKind::kNumberOrAuto:
       return "a number or \"auto\"";
     case ValueKind::kNumbers:
-      return "three numbers [X, Y, Z]";
+      return "three numbers [X, Y, Z], or one";
     case ValueKind::kShape:
       return "three integers [X, Y, Z]";
     case ValueKind::kBox:

@@ -13,8 +13,6 @@ namespace {
 
 using engine::SettingKind;
 
-constexpr int kMaxThreads = 1024;
-
 ValueKind value_kind(SettingKind kind) {
   switch (kind) {
     case SettingKind::kInteger:
@@ -49,9 +47,8 @@ Option preset_option() {
 
 int parse_threads(const std::string& text) {
   const std::int64_t threads = parse_integer(text);
-  if (threads >= 0 && threads <= kMaxThreads) return static_cast<int>(threads);
-  throw Error(ErrorKind::kUsage,
-              "must be from 1 to " + std::to_string(kMaxThreads) + ", or 0 for all cores");
+  engine::check_threads(threads);
+  return static_cast<int>(threads);
 }
 
 }  // namespace
@@ -78,7 +75,7 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
                .help = budget + ", as 512MiB, 4GB [half of what is free]",
                .group = kRunGroup,
                .kind = ValueKind::kSize,
-               .assign = into(memory, parse_size)});
+               .assign = into(memory, parse_bytes)});
   options.add({.name = "threads",
                .value = "N",
                .help = "worker threads; 0: all cores",

@@ -27,9 +27,9 @@ std::vector<std::string_view> split(std::string_view text) {
 
 std::array<double, 3> parse_numbers(std::string_view text) {
   const std::vector<std::string_view> parts = split(text);
-  if (parts.size() != 3) fail_expected("three numbers X,Y,Z", text);
+  if (parts.size() != 1 && parts.size() != 3) fail_expected("three numbers X,Y,Z, or one", text);
   std::array<double, 3> out{};
-  for (std::size_t i = 0; i < 3; ++i) out[i] = parse_number(parts[i]);
+  for (std::size_t i = 0; i < 3; ++i) out[i] = parse_number(parts[i % parts.size()]);
   return out;
 }
 

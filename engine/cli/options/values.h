@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "engine/report/figures.h"
-#include "engine/settings/bytes_text.h"
 #include "engine/settings/number_text.h"
 #include "io/mesh/element.h"
 #include "kernels/core/index.h"
@@ -20,10 +19,10 @@
 namespace mw::cli {
 
 using engine::format_number;
+using engine::parse_bytes;
 using engine::parse_integer;
 using engine::parse_label;
 using engine::parse_number;
-using engine::parse_size;
 using engine::parse_switch;
 using io::parse_element;
 using report::format_bytes;
@@ -33,7 +32,7 @@ using report::format_label;
 using report::format_volume;
 
 /// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.
-[[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z"
+[[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z", or one
 [[nodiscard]] Index3 parse_shape(std::string_view text);                   ///< "X,Y,Z", each >= 1
 [[nodiscard]] Box3 parse_box(std::string_view text);  ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"

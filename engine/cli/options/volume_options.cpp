@@ -19,8 +19,8 @@ namespace {
 
 std::array<double, 3> parse_spacing(const std::string& text) {
   const std::array<double, 3> spacing = parse_numbers(text);
-  if (*std::min_element(spacing.begin(), spacing.end()) > 0) return spacing;
-  throw Error(ErrorKind::kUsage, "spacing must be positive");
+  io::check_place(spacing, {});
+  return spacing;
 }
 
 io::MergeRule parse_rule(const std::string& text) {
@@ -95,7 +95,7 @@ int parse_scale(const std::string& text) {
 
 void add_place_options(OptionSet& options, VolumeRequest& request) {
   options.add({.name = "spacing",
-               .value = "X,Y,Z",
+               .value = "X,Y,Z|H",
                .help = "spacing of voxels in physical units [the file's]",
                .group = kInputGroup,
                .kind = ValueKind::kNumbers,

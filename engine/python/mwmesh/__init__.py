@@ -11,66 +11,80 @@ True
 True
 """
 
+import difflib
 import json
-import os
 import sys
+
+import numpy as np
 
 from . import _core
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
-                      ResourceError, UsageError)
+                      MissingPackageError, ResourceError, UsageError)
 from ._mesh import Mesh, Surface, Verdict
-from ._volume import as_volume
+from ._values import (count, label, naming, numbers, path_bytes, switch, text, unexpected,
+                      whole)
+from ._volume import PLACE, as_volume
 
 __version__ = _core.__version__
 __all__ = [
     "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Mesh",
-    "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
+    "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
     "read", "settings", "synth",
 ]
 
 
-def _setting_text(value):
+def __dir__():
+    return [*__all__, "__version__", "__doc__"]
+
+
+def _setting_text(volume, value):
     if value is None:
         return "none"
-    if isinstance(value, bool):
+    if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
-    if isinstance(value, dict):  # sizes by label
-        return ",".join(f"{label}={_setting_text(size)}" for label, size in value.items())
-    if isinstance(value, float):
-        return repr(value)
-    return str(value)
+    if isinstance(value, dict):
+        return ",".join(f"{_size_place(volume, key)}={_setting_text(volume, size)}"
+                        for key, size in value.items())
+    return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)
 
 
-def _label(label):
-    """As the library has them: 64 bits, negative ones in two's complement."""
-    return int(label) & (2**64 - 1)
+def _size_place(volume, key):
+    """Sizes are of a label, of an interface (a, b), or, "*", of what is not listed."""
+    if key == "*":
+        return key
+    return "|".join(str(label(volume, k, "size"))
+                    for k in (key if isinstance(key, tuple) else (key,)))
 
 
-def _options(threads=0, memory=None, labels=None, background=None, merge=None, drop_specks=None,
-             workdir=None, resume=False, certify="auto", report=True):
+def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
+             drop_specks=None, workdir=None, resume=False, certify="auto", report=True):
     options = _core.Options()
-    options.threads = threads
+    options.threads = whole(threads, "threads", 32)
     if memory is not None:
-        options.memory = memory if isinstance(memory, int) else _core.bytes_of_text(memory)
+        size = memory if isinstance(memory, str) else str(whole(memory, "memory", 80))
+        with naming("memory"):
+            options.memory = _core.bytes_of_text(size)
     if labels is not None:
-        options.labels = [_label(label) for label in labels]
+        wanted = [labels] if isinstance(labels, str) or np.ndim(labels) == 0 else labels
+        options.labels = [label(volume, value, "labels") for value in wanted]
         if not options.labels:
             raise UsageError("labels: the list is empty")
     if background is not None:
-        options.background = _label(background)
-    options.merge = {_label(a): _label(b) for a, b in (merge or {}).items()}
+        options.background = label(volume, background, "background")
+    options.merge = {label(volume, a, "merge"): label(volume, b, "merge")
+                     for a, b in (merge or {}).items()}
     specks, corners = drop_specks if isinstance(drop_specks, tuple) else (drop_specks, 6)
-    options.drop_specks = specks or 0
+    options.drop_specks = count(specks or 0, "drop_specks")
     if corners not in (6, 26):
-        raise UsageError("drop_specks: expected voxels, or (voxels, 26)")
+        raise unexpected("drop_specks", "voxels, or (voxels, 26)", drop_specks)
     options.specks_joined_by_corners = corners == 26
-    options.workdir = os.fspath(workdir) if workdir is not None else ""
-    options.resume = resume
+    options.workdir = path_bytes(workdir, "workdir") if workdir is not None else ""
+    options.resume = switch(resume, "resume")
     known = {"auto": _core.Certify.auto, "on": _core.Certify.on, "off": _core.Certify.off}
-    if certify not in known:
-        raise UsageError(f"certify {certify}: expected auto, on or off")
+    if not isinstance(certify, str) or certify not in known:
+        raise unexpected("certify", "auto, on or off", certify)
     options.certify = known[certify]
-    options.report = report
+    options.report = switch(report, "report")
     return options
 
 
@@ -103,19 +117,29 @@ def _progress(wanted):
     return _Bar(tqdm)
 
 
-_PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "names", "dataset", "scale",
-          "crop")
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
             "resume", "certify", "report")
 
 
+def _check_known(arguments):
+    known = settings()
+    for name in arguments:
+        if name in known:
+            continue
+        near = difflib.get_close_matches(name, [*PLACE, "names", *_OPTIONS, "progress", *known], 1)
+        guess = f"did you mean {near[0]}?" if near else "there are " + ", ".join(known)
+        raise UsageError(f"{name}: no such argument or setting; {guess}")
+
+
 def _run(call, volume, arguments, progress):
-    place = {k: arguments.pop(k) for k in _PLACE if k in arguments}
+    place = {k: arguments.pop(k) for k in (*PLACE, "names") if k in arguments}
     options = {k: arguments.pop(k) for k in _OPTIONS if k in arguments}
-    settings_text = {k: _setting_text(v) for k, v in arguments.items()}
+    _check_known(arguments)
+    volume = as_volume(volume, **place)
+    settings_text = {k: _setting_text(volume, v) for k, v in arguments.items()}
     bar = _progress(progress)
     try:
-        return call(as_volume(volume, **place), settings_text, _options(**options), bar)
+        return call(volume, settings_text, _options(volume, **options), bar)
     finally:
         if isinstance(bar, _Bar):
             bar.close()
@@ -129,14 +153,16 @@ def mesh(volume, *, progress=None, **arguments):
         nibabel image; or what has shape, dtype and slices (h5py, Zarr, dask), which is read box by
         box.  Labels are integers, or floats that are whole numbers.
     spacing, origin
-        (x, y, z): edges of a voxel, and the first corner of the first voxel.
+        (x, y, z), or one number for all: edges of a voxel, and the first corner of the first voxel.
     affine
         4 x 4, from indices of voxels (x, y, z), at their centres, to the world, instead of both.
     axes
         how arrays are indexed: "zyx" (as in .npy, HDF5, Zarr, TIFF), or "xyz" (as in NIfTI; the
         default with an affine and for nibabel images).
     frame, unit, names
-        "ras" or "lps"; "mm", "um" and so on; {label: name}.
+        "ras" or "lps"; "mm", "um" and so on; {label: name}, a list of the names of labels 0, 1, 2
+        and so on, or a file of ``mwmesh mesh --names``, which may have colours.  Labels are given
+        by number or by name, wherever they are.
     dataset, scale, crop
         of files: the array within, the level of a pyramid, ((x0, y0, z0), (x1, y1, z1)).
     merge, drop_specks
@@ -157,7 +183,7 @@ def mesh(volume, *, progress=None, **arguments):
         of the seconds left (or None).
     others
         the settings of ``mwmesh mesh``, listed by :func:`settings`: max_distance=1.5,
-        quality_floor=0.2, surface="voxel", topology="interfaces", size={3: 0.5}, ...
+        quality_floor=0.2, surface="voxel", topology="interfaces", size={"Liver": 3}, ...
 
     Returns a :class:`Mesh`.  The same volume and settings give the same mesh for any number of
     threads, memory and workdir.  Ctrl-C ends the run.
@@ -169,8 +195,10 @@ def mesh_to_file(volume, path, *, element="tet4", progress=None, **arguments):
     """As :func:`mesh`, into a file, so that the mesh is never whole in memory.  Returns the report.
     element: "tet4" or "tet10"."""
 
+    file = path_bytes(path, "path")
+
     def call(*run):
-        return _core.mesh_to_file(os.fspath(path), *run, element)
+        return _core.mesh_to_file(file, *run, text(element, "element"))
 
     report = _run(call, volume, arguments, progress)
     return json.loads(report) if report else None
@@ -178,7 +206,7 @@ def mesh_to_file(volume, path, *, element="tet4", progress=None, **arguments):
 
 def read(path):
     """A mesh from a file of any format of ``mwmesh convert``."""
-    return Mesh._of(_core.read_mesh(os.fspath(path)))
+    return Mesh._of(_core.read_mesh(path_bytes(path, "path")))
 
 
 def synth(kind, shape, labels=2, seed=0):
@@ -189,7 +217,9 @@ def synth(kind, shape, labels=2, seed=0):
     >>> mwmesh.synth("noise", (4, 3, 2), labels=2, seed=1).shape
     (2, 3, 4)
     """
-    return _core.synth(kind, [int(n) for n in shape], labels, seed)
+    extents = numbers(shape, "shape", "(x, y, z)", (3,))
+    return _core.synth(text(kind, "kind"), [whole(n, "shape") for n in extents],
+                       count(labels, "labels"), count(seed, "seed"))
 
 
 def settings():

@@ -11,7 +11,7 @@ import numpy.typing as npt
 __version__: str
 __all__ = [
     "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Mesh",
-    "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
+    "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
     "read", "settings", "synth",
 ]
 
@@ -23,8 +23,11 @@ _Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
 _Certify: TypeAlias = Literal["auto", "on", "off"]
 _Axes: TypeAlias = Literal["zyx", "xyz"]
 _Element: TypeAlias = Literal["tet4", "tet10"]
+#: By number or by name.
+_Label: TypeAlias = int | str
+_Names: TypeAlias = Mapping[int, str] | Sequence[str | None] | _Path
 #: None is "none"; a dictionary has sizes by label.
-_Setting: TypeAlias = str | float | bool | Mapping[int, float] | None
+_Setting: TypeAlias = str | float | bool | Mapping[Any, float] | None
 
 class _RegionArray(Protocol):
     """What is read box by box: h5py, Zarr, dask."""
@@ -62,6 +65,7 @@ class InputError(Error, ValueError): ...
 class ResourceError(Error): ...
 class CheckFailedError(Error): ...
 class CancelledError(Error): ...
+class MissingPackageError(Error, ImportError): ...
 
 class Surface(NamedTuple):
     points: npt.NDArray[np.float64]
@@ -75,17 +79,20 @@ class Verdict:
     def __bool__(self) -> bool: ...
 
 class Mesh:
-    points: npt.NDArray[np.float64]
-    tets: npt.NDArray[np.int64]
-    labels: npt.NDArray[np.int64] | npt.NDArray[np.uint64]
     report: dict[str, Any] | None
     def __init__(
         self,
         points: npt.ArrayLike,
         tets: npt.ArrayLike,
         labels: npt.ArrayLike,
-        names: Mapping[int, str] | None = None,
+        names: _Names | None = None,
     ) -> None: ...
+    @property
+    def points(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def tets(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def labels(self) -> npt.NDArray[np.int64] | npt.NDArray[np.uint64]: ...
     @property
     def names(self) -> dict[int, str]: ...
     @property
@@ -93,8 +100,8 @@ class Mesh:
     def label_list(self) -> npt.NDArray[np.int64] | npt.NDArray[np.uint64]: ...
     def tet_volumes(self) -> npt.NDArray[np.float64]: ...
     def volumes(self) -> dict[int, float]: ...
-    def facets(self, a: int, b: int) -> npt.NDArray[np.int64]: ...
-    def surface(self, label: int, closed: bool = True) -> Surface: ...
+    def facets(self, a: _Label, b: _Label) -> npt.NDArray[np.int64]: ...
+    def surface(self, label: _Label, closed: bool = True) -> Surface: ...
     def contacts(self) -> dict[tuple[int, int], float]: ...
     def save(self, path: _Path, element: _Element = "tet4") -> None: ...
     def verify(
@@ -103,12 +110,13 @@ class Mesh:
         *,
         threads: int = 0,
         memory: int | str | None = None,
-        labels: Iterable[int] | None = None,
-        background: int | None = None,
-        merge: Mapping[int, int] | None = None,
+        labels: _Label | Iterable[_Label] | None = None,
+        background: _Label | None = None,
+        merge: Mapping[_Label, _Label] | None = None,
         drop_specks: _Specks | None = None,
         **place: Any,
     ) -> Verdict: ...
+    def plot(self, labels: Iterable[_Label] | None = None, **arguments: Any) -> Any: ...
     def to_meshio(self) -> Any: ...
     def to_vtk(self) -> Any: ...
     def to_pyvista(self) -> Any: ...
@@ -117,12 +125,12 @@ def as_volume(
     source: _Source,
     *,
     spacing: float | _Three | None = None,
-    origin: _Three | None = None,
+    origin: float | _Three | None = None,
     affine: npt.ArrayLike | None = None,
     frame: str | None = None,
     unit: str | None = None,
     axes: _Axes | None = None,
-    names: Mapping[int, str] | None = None,
+    names: _Names | None = None,
     dataset: str | None = None,
     scale: int | None = None,
     crop: _Box | None = None,
@@ -132,20 +140,20 @@ def mesh(
     *,
     progress: _Progress | None = None,
     spacing: float | _Three | None = ...,
-    origin: _Three | None = ...,
+    origin: float | _Three | None = ...,
     affine: npt.ArrayLike | None = ...,
     frame: str | None = ...,
     unit: str | None = ...,
     axes: _Axes | None = ...,
-    names: Mapping[int, str] | None = ...,
+    names: _Names | None = ...,
     dataset: str | None = ...,
     scale: int | None = ...,
     crop: _Box | None = ...,
     threads: int = ...,
     memory: int | str | None = ...,
-    labels: Iterable[int] | None = ...,
-    background: int | None = ...,
-    merge: Mapping[int, int] | None = ...,
+    labels: _Label | Iterable[_Label] | None = ...,
+    background: _Label | None = ...,
+    merge: Mapping[_Label, _Label] | None = ...,
     drop_specks: _Specks | None = ...,
     workdir: _Path | None = ...,
     resume: bool = ...,

@@ -31,6 +31,10 @@ class CancelledError(Error):
     """The run was cancelled."""
 
 
+class MissingPackageError(Error, ImportError):
+    """What was asked for needs a package that is not there."""
+
+
 _KINDS = {
     1: InternalError,
     2: UsageError,

@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """A tetrahedral mesh of labels in memory."""
 
+import importlib
 import json
-import os
 from typing import NamedTuple
 
 import numpy as np
 
 from . import _core
-from ._errors import UsageError
+from ._errors import MissingPackageError, UsageError
+from ._values import label as label_bits
+from ._values import name_rows, numbers, path_bytes, text, whole_numbers
 
 #: The corners of a tet's faces, seen counterclockwise from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -30,8 +32,48 @@ class _Facets(NamedTuple):
     other: np.ndarray  # index of the label outside; -1: none
 
 
-def _three_corners(points, triangles):
-    return points[triangles[:, 0]], points[triangles[:, 1]], points[triangles[:, 2]]
+def _areas(points, triangles):
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def _restored(points, tets, labels, names, record):
+    """A mesh from its pickle."""
+    mesh = Mesh(points, tets, labels)
+    mesh._core.names = [_core.LabelName(*row) for row in names]
+    mesh._core.record = record
+    return mesh
+
+
+def _package(name):
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        raise MissingPackageError(
+            f"this needs the package {name.removesuffix('modules')}, which is not there: "
+            f"pip install {name.removesuffix('modules')}") from None
+
+
+def _window(grid):
+    """An interactor of vtk that shows the grid when it is started."""
+    importlib.import_module("vtkmodules.vtkInteractionStyle")
+    importlib.import_module("vtkmodules.vtkRenderingOpenGL2")
+    from vtkmodules.vtkRenderingCore import (vtkActor, vtkDataSetMapper, vtkRenderer,
+                                             vtkRenderWindow, vtkRenderWindowInteractor)
+    mapper = vtkDataSetMapper()
+    mapper.SetInputData(grid)
+    mapper.SetScalarRange(grid.GetCellData().GetScalars().GetRange())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    renderer = vtkRenderer()
+    renderer.AddActor(actor)
+    renderer.SetBackground(1, 1, 1)
+    window = vtkRenderWindow()
+    window.SetSize(1000, 800)
+    window.AddRenderer(renderer)
+    interactor = vtkRenderWindowInteractor()
+    interactor.SetRenderWindow(window)
+    return interactor
 
 
 class Verdict:
@@ -67,12 +109,13 @@ class Mesh:
     def __init__(self, points, tets, labels, names=None):
         """A mesh from arrays, which are copied: (n, 3) coordinates, (m, 4) rows of points with
         positive orientation, m labels."""
-        labels = np.asarray(labels)
-        is_signed = labels.dtype.kind == "i"
-        self._core = _core.Mesh(points, np.asarray(tets), labels.astype(np.int64).view(np.uint64)
-                                if is_signed else labels, is_signed)
-        if names:
-            self._core.names = [_core.LabelName(int(k) & (2**64 - 1), v) for k, v in names.items()]
+        points = numbers(points, "points", "rows of three numbers", (None, 3), (0,))
+        points = points.reshape(-1, 3)
+        tets, labels = whole_numbers(tets, "tets"), whole_numbers(labels, "labels")
+        if tets.size and (tets.min() < 0 or tets.max() >= len(points)):
+            raise UsageError(f"tets: rows of points are 0 to {len(points) - 1}")
+        self._core = _core.Mesh(points, tets, labels.view(np.uint64), labels.dtype.kind == "i")
+        self._core.names = name_rows(self._core, names)
         self._begin()
 
     @classmethod
@@ -83,16 +126,30 @@ class Mesh:
         return mesh
 
     def _begin(self):
-        #: (n, 3) world coordinates.
-        self.points = self._core.points
-        #: (m, 4) rows of points; orientation is positive.
-        self.tets = self._core.tets
-        #: m labels, int64 where the volume's are signed, else uint64.
-        self.labels = self._core.labels
         report = self._core.report
         #: The keys of ``mwmesh mesh --report``; None where there is none.
         self.report = json.loads(report) if report else None
         self._known = {}
+
+    def __reduce__(self):
+        rows = [(row.label, row.name, row.colour) for row in self._core.names]
+        arrays = self.points, self.tets, self.labels
+        return _restored, (*arrays, rows, self._core.record), {"report": self.report}
+
+    @property
+    def points(self):
+        """(n, 3) world coordinates, as all arrays here a view of the mesh, which does not change."""
+        return self._core.points
+
+    @property
+    def tets(self):
+        """(m, 4) rows of points; orientation is positive."""
+        return self._core.tets
+
+    @property
+    def labels(self):
+        """m labels, int64 where the volume's are signed, else uint64."""
+        return self._core.labels
 
     def __repr__(self):
         return (f"<mwmesh.Mesh: {len(self.points)} points, {len(self.tets)} tets, "
@@ -102,7 +159,8 @@ class Mesh:
     def names(self):
         """{label: name} of labels that have one."""
         kind = self.labels.dtype.type
-        return {int(np.uint64(row.label).astype(kind)): row.name for row in self._core.names}
+        return {int(np.uint64(row.label).astype(kind)): row.name
+                for row in self._core.names if row.name}
 
     @property
     def digest(self):
@@ -116,6 +174,7 @@ class Mesh:
     def _ranks(self):
         if "ranks" not in self._known:
             self._known["ranks"] = np.unique(self.labels, return_inverse=True)
+            self._known["ranks"][0].flags.writeable = False
         return self._known["ranks"]
 
     def tet_volumes(self):
@@ -155,10 +214,10 @@ class Mesh:
         return facets
 
     def _rank(self, label):
-        labels = self.label_list()
-        found = np.flatnonzero(labels == label)
+        bits = np.uint64(label_bits(self._core, label, "label"))
+        found = np.flatnonzero(self.label_list().view(np.uint64) == bits)
         if len(found) == 0:
-            raise UsageError(f"label {label}: the mesh has none of that number")
+            raise UsageError(f"label {label}: the mesh has none of it")
         return int(found[0])
 
     def facets(self, a, b):
@@ -192,8 +251,7 @@ class Mesh:
         labels = self.label_list()
         facets = self._facets()
         touch = facets.other >= 0
-        a, b, c = _three_corners(self.points, facets.triangles[touch])
-        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+        areas = _areas(self.points, facets.triangles[touch])
         pairs = facets.label[touch] * len(labels) + facets.other[touch]
         known, rows = np.unique(pairs, return_inverse=True)
         sums = np.bincount(rows, weights=areas, minlength=len(known))
@@ -203,7 +261,7 @@ class Mesh:
     def save(self, path, element="tet4"):
         """Writes a file of any format of ``mwmesh convert``; nothing is under its name before it is
         whole.  element: "tet4" or "tet10"."""
-        _core.write_mesh(self._core, os.fspath(path), element)
+        _core.write_mesh(self._core, path_bytes(path, "path"), text(element, "element"))
 
     def verify(self, volume, *, threads=0, memory=None, labels=None, background=None, merge=None,
                drop_specks=None, **place):
@@ -215,19 +273,50 @@ class Mesh:
         True
         """
         from . import _options, as_volume
-        options = _options(threads=threads, memory=memory, labels=labels, background=background,
-                           merge=merge, drop_specks=drop_specks)
-        return Verdict(_core.verify(self._core, as_volume(volume, **place), options))
+        volume = as_volume(volume, **{"names": self.names, **place})
+        options = _options(volume, threads=threads, memory=memory, labels=labels,
+                           background=background, merge=merge, drop_specks=drop_specks)
+        return Verdict(_core.verify(self._core, volume, options))
+
+    def _inner(self):
+        """Ranks of all labels but the one around them: two thirds of the box are at that."""
+        facets = self._facets()
+        box = facets.other < 0
+        sums = np.bincount(facets.label[box], _areas(self.points, facets.triangles[box]),
+                           len(self.label_list()))
+        inner = 3 * sums <= 2 * sums.sum()
+        return np.flatnonzero(inner if inner.any() else ~inner)
+
+    def plot(self, labels=None, **arguments):
+        """Shows labels in a window, without a list all but the one around them; by pyvista, whose
+        plot() takes the arguments, else by vtk."""
+        ranks = self._inner() if labels is None else [self._rank(label) for label in labels]
+        seen = np.isin(self._ranks()[1], ranks)
+        grid = Mesh(self.points, self.tets[seen], self.labels[seen], self.names).to_vtk()
+        try:
+            import pyvista
+        except ImportError:
+            return _window(grid).Start()
+        return pyvista.wrap(grid).plot(**{"scalars": "label", **arguments})
+
+    def _repr_png_(self):
+        """What a notebook shows, unless it would take long."""
+        most = 2_000_000
+        return _core.picture(self._core, 800, 600) if 0 < len(self.tets) <= most else None
 
     def to_meshio(self):
-        """A meshio.Mesh with the cell data "label"."""
-        import meshio
-        return meshio.Mesh(self.points, [("tetra", self.tets)], cell_data={"label": [self.labels]})
+        """A meshio.Mesh with the cell data "label" and names as field data {name: [label, 3]}."""
+        meshio = _package("meshio")
+        return meshio.Mesh(self.points, [("tetra", self.tets)], cell_data={"label": [self.labels]},
+                           field_data={name: np.array([label, 3])
+                                       for label, name in self.names.items()})
 
     def to_vtk(self):
-        """A vtkUnstructuredGrid with the cell array "label"."""
+        """A vtkUnstructuredGrid with the cell array "label"; names and colours are the field arrays
+        "label_id", "label_name" and "label_colour", a row for each."""
+        _package("vtkmodules")
         from vtkmodules.util import numpy_support
-        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
         from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkUnstructuredGrid
         points = vtkPoints()
         points.SetData(numpy_support.numpy_to_vtk(self.points, deep=True))
@@ -242,9 +331,21 @@ class Mesh:
         labels = numpy_support.numpy_to_vtk(self.labels, deep=True)
         labels.SetName("label")
         grid.GetCellData().SetScalars(labels)
+        rows = self._core.names
+        if not rows:
+            return grid
+        ids = np.array([row.label for row in rows], np.uint64).view(self.labels.dtype)
+        names = vtkStringArray()
+        for row in rows:
+            names.InsertNextValue(row.name)
+        colours = np.array([row.colour or (0, 0, 0, 0) for row in rows], np.uint8)
+        for key, array in (("label_id", numpy_support.numpy_to_vtk(ids, deep=True)),
+                           ("label_name", names),
+                           ("label_colour", numpy_support.numpy_to_vtk(colours, deep=True))):
+            array.SetName(key)
+            grid.GetFieldData().AddArray(array)
         return grid
 
     def to_pyvista(self):
         """A pyvista.UnstructuredGrid with the cell data "label"."""
-        import pyvista
-        return pyvista.wrap(self.to_vtk())
+        return _package("pyvista").wrap(self.to_vtk())

@@ -8,9 +8,13 @@ import numpy as np
 
 from . import _core
 from ._errors import UsageError
+from ._values import (name_rows, numbers, path_bytes, text, three, unexpected, whole,
+                      whole_numbers)
 
 #: Arrays are indexed [z, y, x], as .npy, HDF5, Zarr and TIFF have them, unless told otherwise.
 AXES = ("zyx", "xyz")
+#: What says where and what of a source the volume is.
+PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop")
 
 
 def _is_image(source):
@@ -36,26 +40,17 @@ def _space(spacing, origin, affine, frame, unit):
     if affine is not None:
         if spacing is not None or origin is not None:
             raise UsageError("affine: spacing and origin follow from it, leave them out")
-        matrix = np.asarray(affine, dtype=float)
-        if matrix.shape not in ((3, 4), (4, 4)):
-            raise UsageError("affine: expected a matrix of 4 x 4 or 3 x 4")
+        matrix = numbers(affine, "affine", "a matrix of 4 x 4 or 3 x 4", (3, 4), (4, 4))
+        if not np.array_equal(matrix[3:], [[0, 0, 0, 1]][:len(matrix) - 3]):
+            raise UsageError("affine: the last of four rows must be 0, 0, 0, 1")
         space = _core.space_of_affine(matrix[:3].tolist(), frame or "own")
     else:
         space = _core.Space()
-        if spacing is not None:
-            space.spacing = _three(spacing, "spacing")
-        if origin is not None:
-            space.origin = _three(origin, "origin")
+        space.spacing = three(1 if spacing is None else spacing, "spacing")
+        space.origin = three(0 if origin is None else origin, "origin")
         space.frame = frame or "own"
-    space.unit = unit or ""
+    space.unit = unit
     return space
-
-
-def _three(values, what):
-    numbers = [float(v) for v in np.broadcast_to(np.asarray(values, dtype=float), (3,))]
-    if np.ndim(values) == 0 and what == "origin":
-        raise UsageError("origin: expected (x, y, z)")
-    return numbers
 
 
 def _chunk(array):
@@ -67,19 +62,7 @@ def _chunk(array):
     return [int(c if np.ndim(c) == 0 else c[0]) for c in chunks]
 
 
-def _whole_numbers(values):
-    """As integers of 64 bits; raises where a float is none."""
-    if values.dtype.kind == "f":
-        whole = values.astype(np.int64)
-        if not np.array_equal(whole, values):
-            raise UsageError("array: labels must be whole numbers")
-        return whole
-    if values.dtype.kind == "u" or values.dtype.kind == "b":
-        return values.astype(np.uint64)
-    return values.astype(np.int64)
-
-
-def _region_volume(array, axes, space, names):
+def _region_volume(array, axes, space):
     shape = [int(n) for n in array.shape]
     chunk = _chunk(array)
     if axes == "zyx":
@@ -90,58 +73,61 @@ def _region_volume(array, axes, space, names):
             values = np.asarray(array[z0:z1, y0:y1, x0:x1])
         else:
             values = np.asarray(array[x0:x1, y0:y1, z0:z1]).T
-        return np.ascontiguousarray(_whole_numbers(values))
+        return np.ascontiguousarray(whole_numbers(values, "array"))
 
-    return _core.volume_of_region(fetch, np.dtype(array.dtype), shape, chunk, space, names)
+    return _core.volume_of_region(fetch, np.dtype(array.dtype), shape, chunk, space, [])
 
 
-def _array_volume(array, axes, space, names):
+def _array_volume(array, axes, space):
     if array.dtype.byteorder not in "=|" and not array.dtype.isnative:
         array = array.astype(array.dtype.newbyteorder("="))
-    return _core.volume_of_array(array.T if axes == "zyx" else array, space, names)
+    return _core.volume_of_array(array.T if axes == "zyx" else array, space, [])
 
 
-def _name_rows(names):
-    return [_core.LabelName(int(label) & (2**64 - 1), str(name))
-            for label, name in (names or {}).items()]
-
-
-def _file_volume(path, spacing, origin, frame, dataset, scale, crop):
+def _file_volume(source, spacing, origin, frame, dataset, scale, crop):
     box = None
     if crop is not None:
-        low, high = crop
-        box = ([int(v) for v in low], [int(v) for v in high])
+        corners = [whole(v, "crop") for v in np.ravel(np.asarray(crop, dtype=object))]
+        if len(corners) != 6:
+            raise unexpected("crop", "((x0, y0, z0), (x1, y1, z1))", crop)
+        box = (corners[:3], corners[3:])
     return _core.open_volume(
-        os.fspath(path), dataset or "", scale,
-        None if spacing is None else _three(spacing, "spacing"),
-        None if origin is None else _three(origin, "origin"), frame or "file", box)
+        path_bytes(source, "volume"), text(dataset, "dataset"),
+        None if scale is None else whole(scale, "scale", 32), three(spacing, "spacing"),
+        three(origin, "origin"), frame or "file", box)
 
 
-def as_volume(source, *, spacing=None, origin=None, affine=None, frame=None, unit=None, axes=None,
-              names=None, dataset=None, scale=None, crop=None):
-    """The library's volume of a path, a nibabel image, a numpy array, or an array that is read by
-    region (h5py, Zarr, dask: what has shape, dtype and slices).  See mwmesh.mesh()."""
-    if isinstance(source, _core.Volume):
-        return source
+def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop):
+    frame, unit_text = text(frame, "frame"), text(unit, "unit")
     if isinstance(source, (str, os.PathLike)):
         if affine is not None or unit is not None or axes is not None:
             raise UsageError("affine, unit and axes are for arrays: files tell their own")
-        volume = _file_volume(source, spacing, origin, frame, dataset, scale, crop)
-        return volume.with_names(_name_rows(names)) if names else volume
+        return _file_volume(source, spacing, origin, frame, dataset, scale, crop)
     if dataset is not None or scale is not None or crop is not None:
         raise UsageError("dataset, scale and crop are for files: slice the array")
     if _is_image(source):
         if affine is None and spacing is None and origin is None:
             affine, frame = source.affine, frame or "ras"
-        unit = _image_unit(source) if unit is None else unit
+        unit_text = _image_unit(source) if unit is None else unit_text
         source, axes = _image_array(source), axes or "xyz"
     axes = axes or ("xyz" if affine is not None else "zyx")
     if axes not in AXES:
-        raise UsageError(f"axes {axes}: expected zyx or xyz")
+        raise unexpected("axes", "zyx or xyz", axes)
     if not hasattr(source, "shape") or not hasattr(source, "dtype"):
         source = np.asarray(source)
     if len(source.shape) != 3:
         raise UsageError(f"array: has {len(source.shape)} axes, expected 3; take one volume of it")
-    space = _space(spacing, origin, affine, frame, unit)
+    space = _space(spacing, origin, affine, frame, unit_text)
     make = _array_volume if isinstance(source, np.ndarray) else _region_volume
-    return make(source, axes, space, _name_rows(names))
+    return make(source, axes, space)
+
+
+def as_volume(source, *, names=None, **place):
+    """The library's volume of a path, a nibabel image, a numpy array, or an array that is read by
+    region (h5py, Zarr, dask: what has shape, dtype and slices).  See mwmesh.mesh()."""
+    if not isinstance(source, _core.Volume):
+        source = _volume(source, **{**dict.fromkeys(PLACE), **place})
+    elif place:
+        raise UsageError(f"{next(iter(place))}: the volume has its place already")
+    rows = name_rows(source, names)
+    return source.with_names(rows) if rows else source

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -281,14 +282,31 @@ TEST(Library, VerifiesMeshes) {
   failure(ErrorKind::kUsage, [&] { (void)verify(made, volume); });
 }
 
+TEST_F(LibraryTest, DrawsThePictureOfTheProgram) {
+  const auto labels = synth("spheres", {24, 24, 24}, 3, 1);
+  const Mesh made = mesh(volume_of(labels, {24, 24, 24}));
+  write_mesh(made, folder() / "m.vtu");
+  expect_done("picture m.vtu -o m.png --pixels 300x200");
+  EXPECT_EQ(picture(made, 300, 200), read("m.png"));
+  failure(ErrorKind::kInput, [] { (void)picture({}); });
+}
+
 TEST(Library, TakesStepsAndChoices) {
   const auto labels = grains();
-  const Volume volume = volume_of(labels).with_names({{.label = 2, .name = "liver"}});
+  const std::array<std::uint8_t, 4> red{255, 0, 0, 255};
+  const Volume volume =
+      volume_of(labels).with_names({{.label = 2, .name = "liver", .colour = red}});
   const Options options{.merge = {{1, 2}, {3, 2}}, .labels = {2, 4}};
   const Mesh made = mesh(volume, {}, options);
   EXPECT_EQ(std::set(made.labels.begin(), made.labels.end()), (std::set<std::uint64_t>{2, 4}));
   ASSERT_EQ(made.names.size(), 1U);
   EXPECT_EQ(made.names[0].name, "liver");
+  EXPECT_EQ(made.names[0].colour, red);
+  EXPECT_EQ(find_label(volume, "liver"), 2U);
+  EXPECT_EQ(find_label(made, "liver"), 2U);
+  EXPECT_EQ(find_label(volume, "77"), 77U);
+  failure(ErrorKind::kUsage, [&] { (void)find_label(volume, "-1"); });
+  failure(ErrorKind::kUsage, [&] { (void)find_label(made, "kidney"); });
   EXPECT_TRUE(verify(made, volume, options).passed);
   failure(ErrorKind::kUsage, [&] { (void)mesh(volume, {}, {.labels = {77}}); });
 }
@@ -303,8 +321,60 @@ TEST(LibrarySettings, AreThoseOfTheProgram) {
   EXPECT_EQ(settings.set("max_distance", "none").get("max_distance"), "none");
   EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("max_distanse", "1"); }),
               HasSubstr("max_distance"));
-  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("window", "5"); }), HasSubstr("even"));
+  const auto refusal = [&](const char* name, const char* text) {
+    return failure(ErrorKind::kUsage, [&] { settings.set(name, text); });
+  };
+  EXPECT_EQ(refusal("window", "5"), "window: must be an even number from 4 to 256");
+  EXPECT_EQ(refusal("quality_floor", "1"), "quality_floor: must be from 0 to 0.5");
+  EXPECT_EQ(refusal("surface", "smoth"), "surface: expected one of smooth, voxel, got 'smoth'");
+  EXPECT_THAT(refusal("preset", "quick"), HasSubstr("preset: "));
   EXPECT_EQ(settings.changed().size(), 1U);
+}
+
+TEST(LibraryNumbers, AreRefusedAsByTheProgram) {
+  const auto labels = grains();
+  const Volume volume = volume_of(labels);
+  for (const int threads : {-1, 1025, 30'000, 1'000'000'000}) {
+    for (const bool verified : {false, true}) {
+      const std::string message = failure(ErrorKind::kUsage, [&] {
+        if (verified) (void)verify({}, volume, {.threads = threads});
+        (void)mesh(volume, {}, {.threads = threads});
+      });
+      EXPECT_EQ(message, "threads must be from 1 to 1024, or 0 for all cores");
+    }
+  }
+  ArrayVolume array{.data = labels.data(), .type = VoxelType::kU64, .shape = kShape};
+  for (const double bad : {-1.0, 0.0, std::nan(""), HUGE_VAL}) {
+    array.space = {.spacing = {1, bad, 1}};
+    EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)Volume::of(array); }), HasSubstr("spacing"));
+    EXPECT_THAT(failure(ErrorKind::kUsage,
+                        [&] { (void)Volume::open({.path = "v", .spacing = array.space.spacing}); }),
+                HasSubstr("spacing"));
+  }
+  array.space = {.origin = {0, 0, std::nan("")}};
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)Volume::of(array); }), HasSubstr("origin"));
+  array.space = {.axes = {{{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)Volume::of(array); }), HasSubstr("axes"));
+  EXPECT_THAT(failure(ErrorKind::kUsage, [] { (void)Volume::open({.path = "v", .scale = -1}); }),
+              HasSubstr("scale"));
+  RegionVolume region{.shape = kShape, .chunk = {8, -8, 8}};
+  region.read = [](const Box&, std::span<std::uint64_t>) {};
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)Volume::of(region); }), HasSubstr("chunk"));
+  std::vector<std::uint64_t> out(8);
+  failure(ErrorKind::kUsage, [&] { volume.read({{21, 0, 0}, {23, 2, 2}}, out); });
+  failure(ErrorKind::kUsage, [&] { volume.read({{0, 0, 0}, {3, 2, 2}}, out); });
+  failure(ErrorKind::kUsage, [] { (void)picture({}, 15, 900); });
+}
+
+TEST(LibraryNumbers, PathsHaveNoZeroByte) {
+  const std::string path("a\0b", 3);
+  const auto labels = grains();
+  failure(ErrorKind::kUsage, [&] { (void)Volume::open({.path = path}); });
+  failure(ErrorKind::kUsage, [&] { (void)read_names(path); });
+  failure(ErrorKind::kUsage, [&] { (void)read_mesh(path); });
+  failure(ErrorKind::kUsage, [&] { write_mesh({}, path); });
+  failure(ErrorKind::kUsage, [&] { mesh_to_file(path, volume_of(labels)); });
+  failure(ErrorKind::kUsage, [&] { (void)mesh(volume_of(labels), {}, {.workdir = path}); });
 }
 
 TEST(LibrarySpace, OfAnAffine) {

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python package as its users call it; numpy alone is the oracle."""
 
+import copy
 import doctest
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -12,6 +14,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 
 try:
     import numpy as np
@@ -65,9 +68,11 @@ class Documentation(unittest.TestCase):
             self.assertGreater(result.attempted, 0)
 
     def test_every_argument_is_documented(self):
-        for name in mwmesh._PLACE + mwmesh._OPTIONS:
+        for name in (*mwmesh.PLACE, "names", *mwmesh._OPTIONS):
             self.assertIn(name, mwmesh.mesh.__doc__)
         self.assertIn("max_distance", mwmesh.settings())
+        self.assertEqual([name for name in dir(mwmesh) if not name.startswith("_")],
+                         sorted(mwmesh.__all__))
 
 
 class SameMesh(InFolder):
@@ -313,16 +318,21 @@ class Figures(unittest.TestCase):
 
     def test_arrays_are_views_that_outlive_the_mesh(self):
         points, total = self.mesh.points, self.mesh.points.sum()
-        self.assertFalse(points.flags.owndata)
+        for array in (points, self.mesh.tets, self.mesh.labels, self.mesh.label_list()):
+            self.assertFalse(array.flags.owndata and array is not self.mesh.label_list())
+            with self.assertRaises(ValueError):
+                array[0] = 0
         self.mesh = None
         self.assertEqual(points.sum(), total)
 
     def test_verify(self):
         self.assertTrue(self.mesh.verify(self.volume, spacing=self.spacing))
-        moved = mwmesh.Mesh(self.mesh.points, self.mesh.tets, self.mesh.labels)
+        tets = self.mesh.tets.copy()
+        moved = mwmesh.Mesh(self.mesh.points, tets, self.mesh.labels)
         self.assertEqual(moved.digest, self.mesh.digest)
-        moved.tets[7, :2] = moved.tets[7, 1::-1].copy()
-        verdict = moved.verify(self.volume, spacing=self.spacing)
+        tets[7, :2] = tets[7, 1::-1].copy()
+        self.assertEqual(moved.digest, self.mesh.digest)
+        verdict = mwmesh.Mesh(self.mesh.points, tets, self.mesh.labels).verify(self.volume, spacing=self.spacing)
         self.assertFalse(verdict)
         self.assertIn("P2 orientation", [name for name, passed, _ in verdict.checks if not passed])
         self.assertIn("FAIL", repr(verdict))
@@ -338,11 +348,122 @@ class Figures(unittest.TestCase):
         self.assertIsNone(sized.report)
 
 
+class Names(InFolder):
+    """A label goes by its number or its name, wherever it is asked for."""
+
+    def setUp(self):
+        super().setUp()
+        self.volume = grains(labels=4, seed=5)
+        with open(self.path("names.csv"), "w", encoding="utf-8") as file:
+            file.write("id,name,color\n1,Air,#000000\n2,Grey matter,#ff8000\n3,Lesion,#0000ff\n")
+        self.names = {1: "Air", 2: "Grey matter", 3: "Lesion"}
+
+    def test_come_from_dictionaries_lists_and_files(self):
+        for names in (self.names, [None, "Air", "Grey matter", "Lesion"], self.path("names.csv"),
+                      {str(k): v for k, v in self.names.items()}):
+            self.assertEqual(mwmesh.mesh(self.volume, names=names).names, self.names)
+        mesh = mwmesh.mesh(self.volume, names=self.path("names.csv"))
+        again = mwmesh.Mesh(mesh.points, mesh.tets, mesh.labels, mesh.names)
+        self.assertEqual(again.names, self.names)
+        mesh.save(self.path("m.vtu"))
+        colours = {row.name: row.colour for row in mwmesh.read(self.path("m.vtu"))._core.names}
+        self.assertEqual(colours["Lesion"], [0, 0, 255, 255])
+
+    def test_are_taken_wherever_labels_are(self):
+        names = {"names": self.path("names.csv")}
+
+        def same(by_name, by_number):
+            self.assertEqual(mwmesh.mesh(self.volume, **names, **by_name).digest,
+                             mwmesh.mesh(self.volume, **by_number).digest)
+
+        same({"labels": ["Lesion", 2]}, {"labels": [3, 2]})
+        same({"labels": "Lesion"}, {"labels": 3})
+        same({"background": "Air"}, {"background": 1})
+        same({"size": {"Lesion": 3}}, {"size": {3: 3}})
+        same({"merge": {"Lesion": "Grey matter"}}, {"merge": {3: 2}})
+        mesh = mwmesh.mesh(self.volume, **names, background="Air")
+        np.testing.assert_array_equal(mesh.surface("Lesion").triangles, mesh.surface(3).triangles)
+        np.testing.assert_array_equal(mesh.facets("Lesion", 2), mesh.facets(3, 2))
+        self.assertTrue(mesh.verify(self.volume, background="Air"))
+        self.assertTrue(mesh.verify(mwmesh.as_volume(self.volume), background="Air"))
+
+    def test_that_no_label_or_several_have_are_errors(self):
+        for names, told, piece in ((self.names, "lesion", "there are Air, Grey matter, Lesion"),
+                                   (None, "Lesion", "none has a name"),
+                                   ({1: "a", 2: "a"}, "a", "1, 2")):
+            with self.assertRaisesRegex(mwmesh.UsageError, f"^labels: .*{piece}"):
+                mwmesh.mesh(self.volume, labels=[told], names=names)
+        with self.assertRaisesRegex(mwmesh.InputError, "nowhere.csv"):
+            mwmesh.mesh(self.volume, names=self.path("nowhere.csv"))
+
+
+class Copies(InFolder):
+
+    def test_are_the_mesh(self):
+        volume = mwmesh.synth("spheres", (20, 20, 20), 2, 1).astype(np.int16) - 2
+        mesh = mwmesh.mesh(volume, names={-1: "ball"}, max_distance=1.25)
+        mesh.volumes()
+        for made in (copy.copy(mesh), copy.deepcopy(mesh), pickle.loads(pickle.dumps(mesh))):
+            self.assertEqual(made.digest, mesh.digest)
+            self.assertEqual(made.names, mesh.names)
+            self.assertEqual(made.report, mesh.report)
+            self.assertEqual(made.volumes(), mesh.volumes())
+            self.assertEqual(made.labels.dtype, np.int64)
+            checked = made.verify(volume).report["asked"]
+            self.assertEqual((checked["of_run"], checked["max_distance"]), (True, 1.25))
+
+
+class Seen(InFolder):
+    """Pictures and windows."""
+
+    def setUp(self):
+        super().setUp()
+        self.mesh = mwmesh.mesh(mwmesh.synth("spheres", (24, 24, 24), 3, 1))
+
+    def test_a_notebook_shows_the_picture_of_the_program(self):
+        self.mesh.save(self.path("m.vtu"))
+        self.program("picture", "m.vtu", "-o", "m.png", "--pixels", "800x600")
+        with open(self.path("m.png"), "rb") as file:
+            self.assertEqual(self.mesh._repr_png_(), file.read())
+        self.assertIsNone(mwmesh.Mesh([], np.zeros((0, 4), int), [])._repr_png_())
+
+    @needs("vtkmodules")
+    def test_pyvista_is_asked_for_what_is_not_around(self):
+        pyvista = unittest.mock.MagicMock()
+        with unittest.mock.patch.dict(sys.modules, {"pyvista": pyvista}):
+            self.mesh.plot(off_screen=True)
+            self.mesh.plot(labels=[1, 2])
+        (first,), (second,) = (call.args for call in pyvista.wrap.call_args_list)
+        inner = np.count_nonzero(self.mesh.labels != 0)
+        self.assertEqual(first.GetNumberOfCells(), inner)
+        self.assertEqual(second.GetNumberOfCells(), np.isin(self.mesh.labels, (1, 2)).sum())
+        self.assertIn(unittest.mock.call(scalars="label", off_screen=True),
+                      pyvista.wrap().plot.call_args_list)
+
+    @needs("vtkmodules")
+    def test_else_vtk_opens_the_window(self):
+        window = unittest.mock.MagicMock()
+        with unittest.mock.patch.dict(sys.modules, {"pyvista": None}), \
+                unittest.mock.patch.object(mwmesh._mesh, "_window", window):
+            self.mesh.plot()
+        window().Start.assert_called_once()
+        self.assertLess(window.call_args_list[0].args[0].GetNumberOfCells(), len(self.mesh.tets))
+
+    def test_a_package_that_is_missing_is_named(self):
+        missing = dict.fromkeys(("pyvista", "vtkmodules", "meshio"))
+        with unittest.mock.patch.dict(sys.modules, missing):
+            for call, name in ((self.mesh.plot, "vtk"), (self.mesh.to_meshio, "meshio"),
+                               (self.mesh.to_pyvista, "pyvista")):
+                with self.assertRaisesRegex(mwmesh.MissingPackageError, f"pip install {name}"):
+                    call()
+        self.assertTrue(issubclass(mwmesh.MissingPackageError, ImportError))
+
+
 class OtherTools(InFolder):
 
     def setUp(self):
         super().setUp()
-        self.mesh = mwmesh.mesh(grains())
+        self.mesh = mwmesh.mesh(grains(), names={1: "one", 4: "four"})
 
     def test_files(self):
         for name in ("m.vtu", "m.vtkhdf", "m.mesh", "m.msh"):
@@ -354,6 +475,8 @@ class OtherTools(InFolder):
         made = self.mesh.to_meshio()
         np.testing.assert_array_equal(made.cells_dict["tetra"], self.mesh.tets)
         np.testing.assert_array_equal(made.cell_data["label"][0], self.mesh.labels)
+        self.assertEqual({name: tuple(row) for name, row in made.field_data.items()},
+                         {"one": (1, 3), "four": (4, 3)})
 
     @needs("vtkmodules")
     def test_vtk(self):
@@ -361,6 +484,9 @@ class OtherTools(InFolder):
         from vtkmodules.util.numpy_support import vtk_to_numpy
         grid = self.mesh.to_vtk()
         self.assertEqual(grid.GetNumberOfCells(), len(self.mesh.tets))
+        ids, names = (grid.GetFieldData().GetAbstractArray(f"label_{key}") for key in ("id", "name"))
+        self.assertEqual({int(vtk_to_numpy(ids)[i]): names.GetValue(i) for i in range(2)},
+                         self.mesh.names)
         quality = vtkMeshQuality()
         quality.SetInputData(grid)
         quality.SetTetQualityMeasureToVolume()
@@ -459,16 +585,81 @@ class Runs(InFolder):
 
 class Errors(InFolder):
 
-    def check(self, kind, piece, *arguments, **more):
-        with self.assertRaises(kind) as caught:
-            mwmesh.mesh(*arguments, **more)
+    def check(self, error, piece, *arguments, call=mwmesh.mesh, **more):
+        with self.assertRaises(error) as caught:
+            call(*arguments, **more)
         self.assertIn(piece, str(caught.exception))
         self.assertNotIn("--", str(caught.exception))
         self.assertIsInstance(caught.exception, mwmesh.Error)
 
+    def test_values_that_make_no_sense_name_their_argument(self):
+        labels = grains()
+        nan, inf = float("nan"), float("inf")
+        values = {
+            "spacing": (-1, 0, nan, inf, (1, -1, 1), (1, 1), (1, nan, 1), "x", {}, [[1, 1, 1]]),
+            "origin": (nan, (0, inf, 0), (1, 2), "x"),
+            "affine": ("x", np.eye(3), np.full((4, 4), nan), np.diag([1, 1, 1, 2]), -1),
+            "axes": ("yzx", 3), "frame": (3, "mni"), "unit": (3,), "names": (3, {1: 2}, {2**64: "a"}),
+            "threads": (-1, 1025, 30_000, 10**9, 2**31, 10**30, 1.5, nan, True, "2", None),
+            "memory": (-1, 0, 1.5, 10**30, "x", "-1G", nan, True),
+            "labels": ([2**64], [-1], [1.5], [nan], [True], [None], [], "x", 2**64, {1: 2}.values),
+            "background": (2**70, -1, 0.5, "Air", True, [1]),
+            "merge": ({2**64: 1}, {1: 2**64}, {1: -1}, {"a": 1}, {1: 1.5}),
+            "drop_specks": (-1, 2.5, 10**30, (5, 7), "x", True),
+            "workdir": (3, "a\0b"), "resume": ("yes", 2), "certify": (True, "maybe", []),
+            "report": ("no",), "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
+            "window": (5, 1e3, 2**40, True, nan, "x", [32]), "max_distance": (nan, inf, -1, "x"),
+            "surface": ("smoth", 1), "preset": ("quick",),
+        }
+        for name, bad in values.items():
+            for value in bad:
+                with self.subTest(name=name, value=value):
+                    self.check(ValueError, name, labels, **{name: value})
+        np.save(self.path("v.npy"), labels)
+        values = {"spacing": (-1, nan, (1, 1)), "origin": (inf,), "scale": (-1, 2**40, 0.5, 0),
+                  "dataset": (3, "a"), "frame": ("mni",),
+                  "crop": (((0, 0), (1, 1)), ((0, 0, 0), (1, 1, 1.5)), ((-1, 0, 0), (4, 4, 4)), 3,
+                           ((0, 0, 0), (2**70, 4, 4)))}
+        for name, bad in values.items():
+            for value in bad:
+                with self.subTest(name=name, value=value):
+                    self.check(ValueError, name, self.path("v.npy"), **{name: value})
+        values = {"shape": ((-1, 2, 2), (2, 2), "x", (2, 2, 2.5), (2**40, 2**40, 2**40), 3),
+                  "labels": (-1, 2**64, 1.5, True), "seed": (-1, 2**64, nan), "kind": ("cubes", 3)}
+        for name, bad in values.items():
+            for value in bad:
+                with self.subTest(name=name, value=value):
+                    good = {"kind": "noise", "shape": (4, 4, 4)}
+                    self.check(ValueError, name, call=mwmesh.synth, **{**good, name: value})
+
+    def test_numbers_of_numpy_are_numbers(self):
+        labels = grains()
+        expected = mwmesh.mesh(labels, spacing=2, labels=[1, 2], window=32, max_distance=1.5).digest
+        for kind in (np.uint8, np.int32, np.float32, np.float64):
+            mesh = mwmesh.mesh(labels, spacing=kind(2), labels=np.array([1, 2], kind),
+                               window=int(kind(32)), max_distance=np.float32(1.5),
+                               threads=kind(1), inner_vertices=np.bool_(False))
+            self.assertEqual(mesh.digest, expected)
+        self.assertEqual(mwmesh.mesh(labels, spacing=np.full(3, 2), labels=np.array([2, 1])).digest,
+                         expected)
+        np.save(self.path("v.npy"), labels)
+        self.program("mesh", "v.npy", "-o", "v.vtu", "--spacing", "2", "--labels", "1,2")
+        self.assertEqual(mwmesh.read(self.path("v.vtu")).digest, expected)
+
+    def test_paths(self):
+        mesh = mwmesh.mesh(grains())
+        for path in ("a\0b", 3, None):
+            for call in (mwmesh.read, mesh.save, lambda p: mwmesh.mesh_to_file(grains(), p)):
+                with self.assertRaises(mwmesh.UsageError):
+                    call(path)
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.mesh("a\0b")
+
     def test_arguments(self):
         labels = grains()
-        self.check(mwmesh.UsageError, "there are window", labels, max_distanse=1)
+        self.check(mwmesh.UsageError, "mean max_distance?", labels, max_distanse=1)
+        self.check(mwmesh.UsageError, "mean background?", labels, backgroud=1)
+        self.check(mwmesh.UsageError, "there are preset", labels, xyzzy=1)
         self.check(mwmesh.UsageError, "even", labels, window=5)
         self.check(mwmesh.UsageError, "axes", labels, axes="yzx")
         self.check(mwmesh.UsageError, "4 axes", labels[None])
@@ -476,8 +667,6 @@ class Errors(InFolder):
         self.check(mwmesh.UsageError, "affine", labels, affine=np.eye(4), spacing=1)
         self.check(mwmesh.UsageError, "no label 99", labels, labels=[99])
         self.check(mwmesh.UsageError, "slice the array", labels, crop=((0, 0, 0), (1, 1, 1)))
-        self.check(mwmesh.InputError, "spacing", labels, spacing=(1, 0, 1))
-        self.check(mwmesh.InputError, "spacing", labels, spacing=(1, float("nan"), 1))
         self.check(mwmesh.InputError, "shape", labels[:0])
         self.check(mwmesh.InputError, "1.5", np.full((2, 2, 2), 1.5))
         self.check(mwmesh.InputError, "nowhere.npy", self.path("nowhere.npy"))
@@ -486,14 +675,21 @@ class Errors(InFolder):
         mesh = mwmesh.mesh(grains())
         with self.assertRaises(mwmesh.UsageError):
             mesh.save(self.path("m.docx"))
-        mesh.tets[3, 1] = len(mesh.points)
-        with self.assertRaises(mwmesh.UsageError):
-            mesh.save(self.path("m.vtu"))
         self.assertEqual(os.listdir(self.folder), [])
-        with self.assertRaises(mwmesh.UsageError):
-            mwmesh.Mesh(np.zeros((4, 2)), np.zeros((1, 4)), [1])
-        with self.assertRaises(mwmesh.UsageError):
-            mwmesh.Mesh(np.zeros((4, 3)), np.zeros((1, 3)), [1])
+        points, tets, labels = np.zeros((4, 3)), np.array([[0, 1, 2, 3]]), [1]
+        for bad, piece in (((np.zeros((4, 2)), tets, labels), "points"),
+                           (("x", tets, labels), "points"),
+                           ((points, tets[:, :3], labels), "tets"),
+                           ((points, tets + 0.5, labels), "tets"),
+                           ((points, tets + 1, labels), "tets"),
+                           ((points, tets - 1, labels), "tets"),
+                           ((points, tets, [1.5]), "labels"),
+                           ((points, tets, [float("nan")]), "labels"),
+                           ((points, tets, ["a"]), "labels"),
+                           ((points, tets, [1, 2]), "label"),
+                           ((points, tets, [[1]]), "label")):
+            self.check(mwmesh.UsageError, piece, *bad, call=mwmesh.Mesh)
+        self.assertEqual(mwmesh.Mesh(points, tets * 1.0, [2.0]).tets.tolist(), tets.tolist())
 
 
 if __name__ == "__main__":

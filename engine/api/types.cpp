@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Spaces, boxes and names of the library as io has them.
-#include "engine/api/spaces.h"
+// Spaces, boxes, names and meshes of the library as io has them.
+#include "engine/api/types.h"
+
+#include <cmath>
 
 #include "engine/api/guarded.h"
 #include "io/file/errors.h"
 #include "io/volume/file_space.h"
+#include "io/volume/open_volume.h"
 
 namespace mw::api {
 namespace {
@@ -23,6 +26,11 @@ io::WorldFrame frame_of(const std::string& name) {
 }  // namespace
 
 io::VolumeSpace io_space(const mwmesh::Space& space) {
+  io::check_place(space.spacing, space.origin);
+  for (const mwmesh::Vector& axis : space.axes) {
+    if (std::abs(std::hypot(axis[0], axis[1], axis[2]) - 1) < 1e-4) continue;
+    throw Error(ErrorKind::kUsage, "axes must have unit length");
+  }
   io::FileSpace told{.lengths = space.spacing,
                      .first = space.origin,
                      .first_is_centre = false,
@@ -53,16 +61,48 @@ mwmesh::Box library_box(const Box3& box) {
 io::LabelNames io_names(const std::vector<mwmesh::LabelName>& names) {
   std::vector<io::LabelName> rows;
   rows.reserve(names.size());
-  for (const mwmesh::LabelName& n : names) rows.push_back({.label = n.label, .name = n.name});
+  for (const mwmesh::LabelName& n : names) {
+    rows.push_back({.label = n.label, .name = n.name, .colour = n.colour});
+  }
   return io::LabelNames(std::move(rows));
 }
 
 std::vector<mwmesh::LabelName> library_names(const io::LabelNames& names) {
   std::vector<mwmesh::LabelName> out;
   for (const io::LabelName& row : names.rows()) {
-    if (!row.name.empty()) out.push_back({.label = row.label, .name = row.name});
+    out.push_back({.label = row.label, .name = row.name, .colour = row.colour});
   }
   return out;
+}
+
+mwmesh::Mesh library_mesh(io::MeshData&& mesh) {
+  return {.points = std::move(mesh.vertices),
+          .tets = std::move(mesh.tets),
+          .labels = std::move(mesh.labels),
+          .labels_are_signed = mesh.labels_signed,
+          .names = library_names(mesh.names),
+          .report = {},
+          .record = io::record_text(mesh.record)};
+}
+
+void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink) {
+  if (mesh.labels.size() != mesh.tets.size()) {
+    throw Error(ErrorKind::kUsage, "mesh: there must be one label a tet");
+  }
+  for (const auto& tet : mesh.tets) {
+    for (const std::uint64_t row : tet) {
+      if (row < mesh.points.size()) continue;
+      throw Error(ErrorKind::kUsage, "mesh: a tet names point " + std::to_string(row) + " of " +
+                                         std::to_string(mesh.points.size()));
+    }
+  }
+  sink.begin({.tets = mesh.tets.size(),
+              .labels_signed = mesh.labels_are_signed,
+              .names = io_names(mesh.names),
+              .record = io::parse_record(mesh.record, "mesh")});
+  sink.write_vertices(mesh.points);
+  sink.write_tets(mesh.tets, mesh.labels);
+  sink.finish();
 }
 
 }  // namespace mw::api

@@ -1,20 +1,25 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Spaces, boxes and names of the library as io has them.
+// Spaces, boxes, names and meshes of the library as io has them.
 #pragma once
 
 #include "engine/mwmesh.h"
-#include "io/names/label_names.h"
+#include "io/mesh/mesh_data.h"
 #include "io/volume/volume_space.h"
 
 namespace mw::api {
 
-/// ERRORS: mw::Error(kInput) for a space that makes no sense.
+/// ERRORS: mw::Error(kUsage) for lengths, kInput for angles that make no sense.
 [[nodiscard]] io::VolumeSpace io_space(const mwmesh::Space& space);
 [[nodiscard]] mwmesh::Space library_space(const io::VolumeSpace& space);
 [[nodiscard]] Box3 io_box(const mwmesh::Box& box);
 [[nodiscard]] mwmesh::Box library_box(const Box3& box);
 [[nodiscard]] io::LabelNames io_names(const std::vector<mwmesh::LabelName>& names);
 [[nodiscard]] std::vector<mwmesh::LabelName> library_names(const io::LabelNames& names);
+
+/// Without a report.
+[[nodiscard]] mwmesh::Mesh library_mesh(io::MeshData&& mesh);
+/// Begin to finish.  ERRORS: mw::Error(kUsage) for lists that do not fit together.
+void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink);
 
 }  // namespace mw::api

@@ -1,0 +1,126 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Arguments of callers as the core takes them.  What is of another kind is an error that names the
+argument; which numbers are allowed is the core's to say, the same for all who use it."""
+
+import contextlib
+import operator
+import os
+
+import numpy as np
+
+from . import _core
+from ._errors import Error, UsageError
+
+
+def unexpected(name, expected, value):
+    """The error for a value that is not what was expected."""
+    return UsageError(f"{name}: expected {expected}, got {value!r}")
+
+
+@contextlib.contextmanager
+def naming(name):
+    """Errors of the core name the argument."""
+    try:
+        yield
+    except Error as error:
+        raise type(error)(f"{name}: {error}") from None
+
+
+def whole(value, name, bits=64):
+    """A whole number, as int, of numpy, or without a fraction; what a signed number of so many bits
+    cannot hold becomes its nearest, which the core refuses."""
+    try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
+        if isinstance(value, (float, np.floating)) and float(value).is_integer():
+            value = int(value)
+        limit = 1 << bits - 1
+        return min(max(operator.index(value), -limit), limit - 1)
+    except TypeError:
+        raise unexpected(name, "a whole number", value) from None
+
+
+def count(value, name):
+    """A whole number from 0 to 2^64 - 1."""
+    number = whole(value, name, 80)
+    if 0 <= number < 1 << 64:
+        return number
+    raise unexpected(name, "a whole number from 0 to 2^64 - 1", value)
+
+
+def switch(value, name):
+    """True or False."""
+    if isinstance(value, (bool, np.bool_, int)) and value in (0, 1):
+        return bool(value)
+    raise unexpected(name, "True or False", value)
+
+
+def text(value, name):
+    """A string; None is an empty one."""
+    if value is None or isinstance(value, str):
+        return value or ""
+    raise unexpected(name, "a string", value)
+
+
+def path_bytes(value, name):
+    """The bytes of a path."""
+    try:
+        return os.fsencode(value)
+    except TypeError:
+        raise unexpected(name, "a path", value) from None
+
+
+def numbers(value, name, expected, *shapes):
+    """An array of numbers of one of these shapes; None stands for any length."""
+    try:
+        array = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise unexpected(name, expected, value) from None
+    for shape in shapes:
+        if len(shape) == array.ndim and all(n in (None, m) for n, m in zip(shape, array.shape)):
+            return array
+    raise unexpected(name, expected, value)
+
+
+def three(value, name):
+    """(x, y, z), or one number for all of them; None stays."""
+    if value is None:
+        return None
+    return np.broadcast_to(numbers(value, name, "three numbers, or one", (), (3,)), 3).tolist()
+
+
+def whole_numbers(values, name):
+    """An array as integers of 64 bits, uint64 unless it is signed or of floats."""
+    values = np.asarray(values)
+    if values.dtype.kind in "bu":
+        return values.astype(np.uint64)
+    if values.dtype.kind == "i":
+        return values.astype(np.int64)
+    if values.dtype.kind == "f":
+        with np.errstate(invalid="ignore"):
+            integers = values.astype(np.int64)
+        if np.array_equal(integers, values):
+            return integers
+    raise UsageError(f"{name}: expected whole numbers")
+
+
+def label(of, value, name):
+    """The label of a volume or a mesh that has this number or name, as 64 bits."""
+    digits = value if isinstance(value, str) else str(whole(value, name, 80))
+    with naming(name):
+        return _core.find_label(of, digits)
+
+
+def name_rows(of, names):
+    """names: {label: name}, a list of the names of labels 0, 1, 2 and so on, or a file of them."""
+    if names is None:
+        return []
+    if isinstance(names, (str, bytes, os.PathLike)):
+        return _core.read_names(path_bytes(names, "names"))
+    try:
+        rows = names.items() if hasattr(names, "items") else enumerate(names)
+    except TypeError:
+        raise unexpected("names", "{label: name}, a list, or a file", names) from None
+    return [_core.LabelName(label(of, key, "names"), text(name, "names"), None)
+            for key, name in rows]
