@@ -384,8 +384,8 @@ class Names(InFolder):
         mesh = mwmesh.mesh(self.volume, **names, background="Air")
         np.testing.assert_array_equal(mesh.surface("Lesion").triangles, mesh.surface(3).triangles)
         np.testing.assert_array_equal(mesh.facets("Lesion", 2), mesh.facets(3, 2))
-        self.assertTrue(mesh.verify(self.volume, background="Air"))
-        self.assertTrue(mesh.verify(mwmesh.as_volume(self.volume), background="Air"))
+        self.assertTrue(mesh.verify(self.volume, labels=["Lesion", "Grey matter", 4]))
+        self.assertTrue(mesh.verify(mwmesh.as_volume(self.volume, **names), background="Air"))
 
     def test_that_no_label_or_several_have_are_errors(self):
         for names, told, piece in ((self.names, "lesion", "there are Air, Grey matter, Lesion"),
