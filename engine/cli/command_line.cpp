@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "engine/settings/near_words.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -20,8 +21,10 @@ namespace {
 const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
   const auto found = std::find_if(commands.begin(), commands.end(),
                                   [&](const Command& command) { return command.name == name; });
-  if (found == commands.end()) refuse(name + ": unknown command", nullptr);
-  return *found;
+  if (found != commands.end()) return *found;
+  std::vector<std::string> known;
+  for (const Command& command : commands) known.push_back(command.name);
+  refuse(name + ": unknown command" + engine::did_you_mean(name, known), nullptr);
 }
 
 /// The flags of one command, and where the library leaves their values.
@@ -80,9 +83,18 @@ class Reader {
     const auto flag = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
       return word.size() > 1 && word.starts_with("-");
     });
-    if (flag != unknown.end()) return flag->substr(0, flag->find('=')) + ": unknown flag";
+    if (flag != unknown.end()) {
+      const std::string name = flag->substr(0, flag->find('='));
+      return name + ": unknown flag" + engine::did_you_mean(name, known_flags());
+    }
     if (!unknown.empty()) return unknown.front() + ": one argument too many";
     return error.what();
+  }
+
+  [[nodiscard]] std::vector<std::string> known_flags() const {
+    std::vector<std::string> out{"--help", "--help-all", "--version"};
+    for (const Flag& flag : flags_) out.push_back("--" + flag.option->name);
+    return out;
   }
 
   const Command* command_;

@@ -10,13 +10,12 @@
 #include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh_request.h"
+#include "engine/cli/mesh_summary.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/page/run_page.h"
 #include "engine/cli/run_processes.h"
 #include "engine/cli/trace_file.h"
-#include "engine/report/mesh_facts.h"
 #include "engine/report/run_report.h"
-#include "engine/report/speck_facts.h"
 #include "engine/settings/promises.h"
 #include "engine/settings/size_text.h"
 #include "engine/system/crew.h"
@@ -63,9 +62,11 @@ struct MeshFiles {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
-    if (!request.job.is_measured || has_no_sink(shared)) return;
+    if (has_no_sink(shared)) return;
+    counted.emplace(*sink, tets);
+    if (!request.job.is_measured) return;
     digest.emplace(request.output.parent_path(), digest_memory(request.job.run.store.memory));
-    both.emplace(*sink, *digest);
+    both.emplace(*counted, *digest);
     if (!html) return;
     grouped.emplace(request.output.parent_path(), nullptr);
     three.emplace(*both, *grouped);
@@ -74,11 +75,14 @@ struct MeshFiles {
   /// Where the mesh goes.
   [[nodiscard]] io::MeshSink& all() {
     if (three) return *three;
-    return both ? static_cast<io::MeshSink&>(*both) : *sink;
+    if (both) return *both;
+    return counted ? static_cast<io::MeshSink&>(*counted) : *sink;
   }
 
   SharedOutput shared;
   std::unique_ptr<io::MeshSink> sink;
+  LabelTets tets;
+  std::optional<io::TeeSink> counted;
   std::optional<io::AtomicFile> report;
   std::optional<io::AtomicFile> html;
   std::optional<io::DigestSink> digest;  ///< for report and page; it waits beside the output
@@ -113,32 +117,6 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   }
 }
 
-/// Says what bounds and windows count in, where that is not the volume's voxels.
-void print_lattice(const engine::LatticeFacts& lattice) {
-  const Index3 shape = lattice.shape, layers = lattice.layers;
-  if (layers == Index3{1, 1, 1}) return;
-  std::cout << "lattice     " << shape.x << " x " << shape.y << " x " << shape.z
-            << ", voxels cut into " << layers.x << " x " << layers.y << " x " << layers.z
-            << " layers\n";
-}
-
-/// Says what the coordinates are, where the file does.
-void print_space(const io::VolumeSpace& space) {
-  std::string what;
-  if (space.frame != io::WorldFrame::kOwn) what = name(space.frame);
-  if (!space.unit.empty()) what += (what.empty() ? "" : ", ") + space.unit;
-  if (!is_upright(space)) what += (what.empty() ? "" : ", ") + std::string("axes turned");
-  if (!what.empty()) std::cout << "coordinates " << what << "\n";
-}
-
-void print_certificate(const report::FinishedRun& run) {
-  const std::string checked =
-      std::string("topology, partition, radius ratio") +
-      (run.why_no_volumes.empty() ? ", distance and volumes hold" : " and distance hold");
-  std::cout << "certificate " << (run.certificate ? checked : "none: " + run.why_no_certificate)
-            << "\n";
-}
-
 /// Says who wrote the mesh, where that could be several processes.
 void print_writers(const SharedOutput& shared) {
   if (!runs_are_divided()) return;
@@ -159,26 +137,6 @@ void log_processes(const engine::RunReport& run) {
                  facts.windows, facts.blocks_sent, format_bytes(facts.peak_accounted_bytes),
                  format_bytes(facts.peak_bytes_by_purpose[output]));
   }
-}
-
-void print_summary(const report::FinishedRun& run, const MeshRequest& request,
-                   const SharedOutput& shared) {
-  const double seconds = run.resources.wall_seconds;
-  const Index3 shape = run.volume.shape;
-  const double share = 100 * report::vertex_fraction(run.engine.vertices, shape);
-  std::cout << "vertices    " << run.engine.vertices << " (" << format_fixed(share, 2)
-            << " % of the voxel corners)\n"
-            << "tets        " << run.engine.tets << "\n";
-  report::print_specks(run.specks);
-  print_lattice(run.engine.lattice);
-  print_space(run.volume.space);
-  print_certificate(run);
-  print_writers(shared);
-  std::cout << "seconds     " << format_fixed(seconds, 2) << "\n"
-            << "voxels/s    " << format_fixed(static_cast<double>(shape.product()) / seconds, 0)
-            << "\n"
-            << "peak memory " << format_bytes(run.resources.peak_rss_bytes) << "\n"
-            << "file        " << request.output.string() << std::endl;
 }
 
 void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
@@ -205,6 +163,20 @@ int threads_at_hand(int asked) {
   return given;
 }
 
+/// Whoever is told that the page is missing is told, too, that nothing else is.
+void write_page(const MeshRequest& request, const report::FinishedRun& run, MeshFiles& files,
+                io::Json settings) {
+  try {
+    write_run_page(*files.html, run, files.grouped->mesh(),
+                   report::run_report(run, request.output, std::move(settings)));
+  } catch (const Error& error) {
+    throw Error(error.kind(), std::string(error.what()) + "; the page alone is missing: " +
+                                  request.output.string() + " is complete" +
+                                  (request.report.empty() ? "" : ", and so is the report"));
+  }
+  std::cout << "page        " << request.html.string() << std::endl;
+}
+
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   if (runs_are_divided()) watch_save_requests();
@@ -221,7 +193,9 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   if (!run_processes().speaks()) return kExitDone;
   tell_resume(request, run.engine.store);
   run.resources = meter.read();
-  print_summary(run, request, files.shared);
+  print_summary(run, request, files.tets);
+  print_writers(files.shared);
+  std::cout << "file        " << request.output.string() << std::endl;
   log_processes(run.engine);
   if (files.digest) {
     engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
@@ -229,11 +203,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
   }
   if (files.report) report::write_run_report(*files.report, run, request.output, options.json());
-  if (files.html) {
-    write_run_page(*files.html, run, files.grouped->mesh(),
-                   report::run_report(run, request.output, options.json()));
-    std::cout << "page        " << request.html.string() << std::endl;
-  }
+  if (files.html) write_page(request, run, files, options.json());
   return kExitDone;
 }
 
@@ -258,7 +228,8 @@ Command mesh_command() {
       .about = "meshes a labelled volume",
       .options = {},
       .run = [request](const OptionSet& options) { return run_mesh(*request, options); },
-      .note = volume_note() + "OUTPUT: " + io::mesh_extensions() + ".\n"};
+      .note = volume_note() + "OUTPUT: " + io::mesh_extensions() + ".\n",
+      .names = [request] { return names_of(request->volume); }};
   add_mesh_options(command.options, *request);
   return command;
 }

@@ -135,6 +135,13 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .fallback = "false",
                .listed = Listed::kInHelpAll,
                .assign = into(request.ascii)});
+  options.add({.name = "force",
+               .help = "replaces an OUTPUT that is no mesh of this program",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.force)});
 }
 
 /// The page is drawn when the mesh is written, in what it leaves of the budget.
@@ -187,6 +194,7 @@ void check_mesh_request(MeshRequest& request) {
   (void)open_options(request.volume);
   engine::check_choice(request.job.choice);
   require_paths_apart(request);
+  if (!request.force) require_own_output(request.output);
   require_memory_for_page(request);
   engine::check(request.job.settings);
   check_sizes(request.job.settings);

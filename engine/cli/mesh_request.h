@@ -18,6 +18,7 @@ struct MeshRequest {
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
   bool ascii = false;                    ///< the output as text
+  bool force = false;                    ///< the output may replace what is no mesh of ours
   std::filesystem::path report;          ///< empty: none
   std::filesystem::path html;            ///< empty: none
   std::filesystem::path trace;           ///< empty: none
@@ -42,5 +43,9 @@ void check_mesh_request(MeshRequest& request);
 /// REQUIRES: the work folder of the request is settled.
 /// ERRORS: mw::Error(kUsage) naming flag and path.
 void require_paths_apart(const MeshRequest& request);
+
+/// A file that is to be replaced is empty or one that this program wrote.
+/// ERRORS: mw::Error(kUsage) naming --force.
+void require_own_output(const std::filesystem::path& output);
 
 }  // namespace mw::cli

@@ -50,6 +50,12 @@ std::vector<bool> inner_labels(io::GroupedMesh& mesh, const io::LabelNames& name
   return shown;
 }
 
+/// Those of the mesh, and of --names.
+io::LabelNames names_of(const PictureRequest& request) {
+  const io::LabelNames names = cli::names_of(request.mesh);
+  return request.names.empty() ? names : names.merged_with(io::read_names(request.names));
+}
+
 /// What is wrong with the mesh names its file.
 [[noreturn]] void fail(const std::filesystem::path& mesh, const Error& error) {
   const std::string what = error.what();
@@ -102,7 +108,8 @@ Command picture_command() {
                   .about = "draws a mesh, or a cut through it",
                   .options = {},
                   .run = [request](const OptionSet&) { return run_picture(*request); },
-                  .note = mesh_note()};
+                  .note = mesh_note(),
+                  .names = [request] { return names_of(*request); }};
   add_picture_options(command.options, *request);
   return command;
 }

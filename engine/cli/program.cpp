@@ -47,6 +47,7 @@ int run_command(const CommandLine& line, const std::vector<Command>& commands) {
     return kExitDone;
   }
   options.require_all();
+  options.resolve_names(line.command->names);
   return line.command->run(options);
 }
 

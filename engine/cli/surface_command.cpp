@@ -98,24 +98,16 @@ class SurfaceJob {
   }
 
   void write_each() {
-    std::string written;
-    try {
-      for (const Label rank : ranks()) write_one(rank, written);
-    } catch (const Error& error) {
-      if (written.empty()) throw;
-      throw Error(error.kind(), error.what() + ("; written before are those of " + written));
+    bool any = false;
+    for (const Label rank : ranks()) {
+      const io::ShellPlan plan = plans_.of_label(rank);
+      const RawLabel label = labels_->table.raw(rank);
+      if (!request_.labels.empty()) require_facets(plan, "label " + text_of(label));
+      if (plan.parts.empty()) continue;
+      write({plan}, *output_.sink(label, format_label(label, labels_->table.is_signed())));
+      any = true;
     }
-    if (written.empty()) require_facets({}, "the mesh");
-  }
-
-  /// Adds the label to those that are written, unless it has no surface.
-  void write_one(Label rank, std::string& written) {
-    const io::ShellPlan plan = plans_.of_label(rank);
-    const RawLabel label = labels_->table.raw(rank);
-    if (!request_.labels.empty()) require_facets(plan, "label " + text_of(label));
-    if (plan.parts.empty()) return;
-    write({plan}, *output_.sink(label, format_label(label, labels_->table.is_signed())));
-    written += (written.empty() ? "label " : ", ") + text_of(label);
+    if (!any) require_facets({}, "the mesh");
   }
 
   const SurfaceRequest& request_;
@@ -142,7 +134,8 @@ Command surface_command() {
                   .about = "writes surfaces of labels, or where two of them meet",
                   .options = {},
                   .run = [flags](const OptionSet&) { return run_surface(*flags); },
-                  .note = mesh_note()};
+                  .note = mesh_note(),
+                  .names = [flags] { return names_of(flags->mesh); }};
   add_surface_options(command.options, *flags);
   return command;
 }

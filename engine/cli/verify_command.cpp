@@ -45,7 +45,8 @@ Command verify_command() {
       .about = "checks a mesh against its volume",
       .options = {},
       .run = [request](const OptionSet& options) { return run_verify(*request, options); },
-      .note = volume_note() + mesh_note()};
+      .note = volume_note() + mesh_note(),
+      .names = [request] { return names_of(request->volume); }};
   add_verify_options(command.options, *request);
   return command;
 }

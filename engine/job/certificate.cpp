@@ -6,6 +6,7 @@
 #include "engine/job/verify_job.h"
 #include "engine/march/march.h"
 #include "engine/report/figures.h"
+#include "engine/report/name_facts.h"
 #include "engine/settings/promises.h"
 #include "engine/verify/verify_mesh.h"
 #include "kernels/core/error.h"
@@ -72,6 +73,7 @@ void Certifier::certify(const CertificatePlan& plan) {
                   .between = stop_};
   if (!why_no_volumes(promises).empty()) task.options.max_volume_error.reset();
   task.options.kept = kept_;
+  task.options.label_text = report::label_texts(volume_.table(), volume_.info().names);
   task.options.count_junctions = task.options.count_junctions && kept_.empty();
   report_ = verify_mesh(volume_, tiles_, task);
   if (report_->passed()) return;

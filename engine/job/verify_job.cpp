@@ -8,6 +8,7 @@
 #include "engine/labels/label_scan.h"
 #include "engine/march/march.h"
 #include "engine/report/figures.h"
+#include "engine/report/name_facts.h"
 #include "engine/settings/promises.h"
 #include "engine/verify/verify_mesh.h"
 #include "kernels/core/error.h"
@@ -129,6 +130,7 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   if (job.asked.max_volume_error) task.options.max_volume_error = *job.asked.max_volume_error;
   verdict.bounds.max_volume_error = task.options.max_volume_error;
   task.options.kept = kept.labels;
+  task.options.label_text = report::label_texts(verdict.table, verdict.names);
   verdict.layers = task.options.layers;
   verdict.audit = verify_mesh(io::DenseVolume(volume, verdict.table), mesh, task);
   return verdict;

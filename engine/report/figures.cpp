@@ -5,7 +5,8 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
+
+#include "kernels/audit/check.h"
 
 namespace mw::report {
 
@@ -27,14 +28,7 @@ std::string format_fixed(double value, int digits) {
 }
 
 std::string format_figure(double value) {
-  constexpr int kDigits = 4;
-  constexpr double kAllBeforeThePoint = 1000;
-  if (value == 0 || std::abs(value) >= kAllBeforeThePoint) return format_fixed(value, 0);
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::general, kDigits)
-                       .ptr;
-  return {text.data(), end};
+  return audit::number(value);
 }
 
 std::string format_volume(double volume, const std::string& unit) {

@@ -15,6 +15,12 @@ std::string label_text(RawLabel label, bool is_signed, const io::LabelNames& nam
   return format_label(label, is_signed) + (name.empty() ? "" : " \"" + name + "\"");
 }
 
+audit::LabelText label_texts(const io::LabelTable& table, io::LabelNames names) {
+  return [&table, names = std::move(names)](Label label) {
+    return "label " + label_text(table.raw(label), table.is_signed(), names);
+  };
+}
+
 Json named_row_json(RawLabel label, bool is_signed, const io::LabelNames& names) {
   Json row{{"label", label_json(label, is_signed)}};
   const std::string& name = names.name(label);

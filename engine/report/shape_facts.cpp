@@ -69,7 +69,7 @@ void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& tab
 }
 
 void print_interfaces(const audit::ShapeReport& shape) {
-  std::cout << "interfaces    area " << engine::format_number(shape.area) << "; edges bend by "
+  std::cout << "interfaces    area " << format_figure(shape.area) << "; edges bend by "
             << format_fixed(shape.bend_p50_deg, 1) << " degrees (median), "
             << format_fixed(shape.bend_p95_deg, 1) << " (95 %), "
             << format_fixed(shape.bend_max_deg, 1) << " (most); " << percent(shape.sharp_share, 2)

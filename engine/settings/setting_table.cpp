@@ -187,7 +187,7 @@ std::vector<Setting> bound_settings() {
            }},
       {.name = "target-reduction",
        .value = "F|none",
-       .help = "windows stop at this fraction of the lattice's corners",
+       .help = "the paper's: a window stops at that share of voxel corners",
        .kind = SettingKind::kNumberOrNone,
        .expert = true,
        .allowed = "between 0 and 1, or none",

@@ -17,7 +17,8 @@ audit::ValidityTask validity_task(const io::DenseVolume& volume, const MeshTiles
   return {.frame = mesh.frame(),
           .shape = volume.info().shape,
           .wanted = kept.empty() ? std::vector<bool>(volume.table().size(), true) : kept,
-          .has_gaps = !kept.empty()};
+          .has_gaps = !kept.empty(),
+          .label_text = task.options.label_text};
 }
 
 }  // namespace

@@ -101,9 +101,17 @@ std::string extensions_where(bool (MeshFormat::*has)() const) {
   return out;
 }
 
+/// What else an ending may stand for.
+std::string other_way(const std::string& extension) {
+  if (extension == ".vtk") return "; .vtu is what came after .vtk";
+  const bool is_surface = extension == ".stl" || extension == ".ply" || extension == ".obj";
+  return is_surface ? "; surfaces of a mesh are written by 'mwmesh surface MESH -o FILE.stl'" : "";
+}
+
 Error unknown_format(const std::filesystem::path& path, const std::string& supported) {
   return {ErrorKind::kUsage, text(path.string(), ": extension '", path.extension().string(),
-                                  "' is no mesh format known here; supported are ", supported)};
+                                  "' is no mesh format known here; supported are ", supported,
+                                  other_way(path.extension().string()))};
 }
 
 const MeshFormat& written_format(const std::filesystem::path& path) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
@@ -55,10 +56,34 @@ void fail_line(std::string_view file, std::size_t line, std::string_view reason,
   fail_input(file, text("line ", line), reason, way_out);
 }
 
+LabelNames names_of_rows(const std::vector<ReadName>& rows, std::string_view file) {
+  std::map<RawLabel, std::size_t> labels;
+  std::map<std::string_view, std::size_t> names;
+  std::vector<LabelName> out;
+  for (const ReadName& row : rows) {
+    const auto [label, is_new] = labels.emplace(row.name.label, row.line);
+    if (!is_new) {
+      fail_line(file, row.line,
+                text("label ", static_cast<std::int64_t>(row.name.label), " is in line ",
+                     label->second, ", too"),
+                "name each label once");
+    }
+    const auto [name, has_new_name] = names.emplace(row.name.name, row.line);
+    if (!has_new_name && !row.name.name.empty()) {
+      fail_line(file, row.line,
+                text("the name '", row.name.name, "' is in line ", name->second, ", too"),
+                "give each label a name of its own");
+    }
+    out.push_back(row.name);
+  }
+  return LabelNames(std::move(out));
+}
+
 namespace {
 
 struct Row {
   LabelName name;
+  std::size_t line = 0;
   bool has_opacity = false;  ///< counted from 0 to 255
 };
 
@@ -147,12 +172,13 @@ LabelNames parse_colour_table(std::string_view text, std::string_view file) {
                 "colours are whole numbers from 0 to 255, an A in front of VIS is from 0 to 1; "
                 "comments begin with #");
     }
+    row->line = number;
     rows.push_back(std::move(*row));
   }
   make_opaque(rows);
-  std::vector<LabelName> names;
-  for (Row& row : rows) names.push_back(std::move(row.name));
-  return LabelNames(std::move(names));
+  std::vector<ReadName> names;
+  for (Row& row : rows) names.push_back({std::move(row.name), row.line});
+  return names_of_rows(names, file);
 }
 
 }  // namespace mw::io

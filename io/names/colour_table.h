@@ -27,6 +27,16 @@ namespace mw::io {
 [[noreturn]] void fail_line(std::string_view file, std::size_t line, std::string_view reason,
                             std::string_view way_out);
 
+/// A row of a table, and where it stands.
+struct ReadName {
+  LabelName name;
+  std::size_t line = 0;
+};
+
+/// ERRORS: mw::Error(kInput) when a label, or a name that is not empty, is there twice: the line of
+///         the second says where the first is.
+[[nodiscard]] LabelNames names_of_rows(const std::vector<ReadName>& rows, std::string_view file);
+
 /// Whether a line is one of these:
 ///   IDX R G B A VIS MSH "NAME"   label descriptions of ITK-SNAP; A from 0 to 1
 ///   ID NAME R G B A              colour tables of FreeSurfer and Slicer (.ctbl); A may be missing

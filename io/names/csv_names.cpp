@@ -245,16 +245,16 @@ bool is_csv_line(std::string_view line) {
 
 LabelNames parse_csv_names(std::string_view text, std::string_view file) {
   CsvRecords records(text, separator_of(first_row(text)), file);
-  std::vector<LabelName> rows;
+  std::vector<ReadName> rows;
   CsvRecord record;
   if (!records.next(record)) return {};
   Columns columns;
   const bool has_header = !label_of(record.fields.front());
   if (has_header) columns = columns_of(record, file);
   const Table table(file, columns);
-  if (!has_header) rows.push_back(table.row(record));
-  while (records.next(record)) rows.push_back(table.row(record));
-  return LabelNames(std::move(rows));
+  if (!has_header) rows.push_back({table.row(record), record.line});
+  while (records.next(record)) rows.push_back({table.row(record), record.line});
+  return names_of_rows(rows, file);
 }
 
 }  // namespace mw::io

@@ -19,12 +19,6 @@ std::string change_text(const char* region, const Betti& before, const Betti& af
   return std::string(" ") + region + text_of(before) + " -> " + text_of(after);
 }
 
-std::string label_text(Label label) {
-  if (label == kExterior) return "exterior";
-  if (label == kLeftOut) return "left out";
-  return label == kUnknown ? "unknown" : "dense " + std::to_string(label);
-}
-
 /// Of labels that are not kept, and then of the exterior, nothing is known.
 void forget_left_out(const KeptLabels& kept, AuditReport& report) {
   if (kept.empty()) return;
@@ -36,7 +30,7 @@ void forget_left_out(const KeptLabels& kept, AuditReport& report) {
 }
 
 /// looked_at: rows that are compared.
-Check compare_topology(AuditReport& report, std::size_t looked_at) {
+Check compare_topology(AuditReport& report, std::size_t looked_at, const LabelText& names) {
   const std::size_t exterior = report.voxels.size() - 1;
   Offenders changed("labels changed");
   for (std::size_t row = 0; row <= exterior; ++row) {
@@ -46,7 +40,7 @@ Check compare_topology(AuditReport& report, std::size_t looked_at) {
     const Label label = row == exterior ? kExterior : static_cast<Label>(row);
     report.labels_changed.push_back(label);
     changed.add([&] {
-      return label_text(label) + change_text("closed ", before.closed, after.closed) +
+      return label_text(label, names) + change_text("closed ", before.closed, after.closed) +
              change_text("open ", before.open, after.open);
     });
   }
@@ -55,23 +49,24 @@ Check compare_topology(AuditReport& report, std::size_t looked_at) {
   return {"P1 topology", changed.count() == 0, detail};
 }
 
-/// "dense 3, dense 5, exterior".
-std::string labels_text(const JunctionLabels& labels, std::size_t label_count) {
+/// "3, 5, exterior".
+std::string labels_text(const JunctionLabels& labels, std::size_t label_count,
+                        const LabelText& names) {
   std::string out;
   for (const Label l : labels) {
     if (l == kNoLabel) break;
     if (!out.empty()) out += ", ";
-    out += l < label_count ? label_text(l) : label_text(l == label_count ? kExterior : kUnknown);
+    out += label_text(l < label_count ? l : l == label_count ? kExterior : kUnknown, names);
   }
   return out;
 }
 
 Check judge_junctions(const std::string& noun, const std::vector<JunctionChange>& changed,
-                      std::size_t count, const AuditReport& report) {
+                      std::size_t count, const AuditReport& report, const LabelText& names) {
   Offenders offenders(noun + " changed");
   for (const JunctionChange& c : changed) {
     offenders.add([&] {
-      return labels_text(c.labels, report.voxels.size() - 1) + ":" +
+      return labels_text(c.labels, report.voxels.size() - 1, names) + ":" +
              change_text("", c.before, c.after);
     });
   }
@@ -80,12 +75,13 @@ Check judge_junctions(const std::string& noun, const std::vector<JunctionChange>
   return {"P1 " + noun, changed.empty(), detail};
 }
 
-void judge_junctions(AuditReport& report) {
+void judge_junctions(AuditReport& report, const LabelText& names) {
   if (!report.junctions) return;
   const JunctionReport& p = *report.junctions;
   report.checks.push_back(
-      judge_junctions("interfaces", p.interfaces_changed, p.interfaces, report));
-  report.checks.push_back(judge_junctions("meetings", p.meetings_changed, p.meetings, report));
+      judge_junctions("interfaces", p.interfaces_changed, p.interfaces, report, names));
+  report.checks.push_back(
+      judge_junctions("meetings", p.meetings_changed, p.meetings, report, names));
 }
 
 Check judge_quality(const QualityReport& quality, double floor) {
@@ -95,10 +91,10 @@ Check judge_quality(const QualityReport& quality, double floor) {
   return {"P3 radius ratio", quality.radius_ratio_min >= floor, detail};
 }
 
-std::string distance_text(const DistanceReport& distance) {
+std::string distance_text(const DistanceReport& distance, const LabelText& names) {
   const DistanceReport::PerLabel* farthest = distance.farthest();
   if (farthest == nullptr) return "no interface on both sides";
-  return number(farthest->max()) + " voxels at most (" + label_text(farthest->label) + ")" +
+  return number(farthest->max()) + " voxels at most (" + label_text(farthest->label, names) + ")" +
          (distance.is_finite() ? ", mean " + number(distance.mean_voxels) : "");
 }
 
@@ -113,14 +109,16 @@ VolumeReport only_kept(VolumeReport report, const KeptLabels& kept) {
 }
 
 /// Sampled distances fail only when they exceed the bound by more than rounding.
-Check judge_distance(const DistanceReport& distance, const std::optional<double>& bound) {
+Check judge_distance(const DistanceReport& distance, const AuditOptions& options) {
   constexpr double kRounding = 1e-6;
-  std::string detail = distance_text(distance);
+  const std::optional<double>& bound = options.max_distance;
+  std::string detail = distance_text(distance, options.label_text);
   if (bound) detail += ", bound " + number(*bound);
   detail += "; " + sampling_text(distance);
   const auto name_labels = [&](const char* noun, const std::vector<Label>& labels) {
     Offenders lonely(noun);
-    for (const Label label : labels) lonely.add([&] { return label_text(label); });
+    for (const Label label : labels)
+      lonely.add([&] { return label_text(label, options.label_text); });
     if (lonely.count() > 0) detail += "; " + lonely.text();
   };
   name_labels("labels without an interface in the mesh", distance.only_in_volume);
@@ -130,7 +128,7 @@ Check judge_distance(const DistanceReport& distance, const std::optional<double>
 }
 
 /// Tells of the label that uses most of what it may be off.
-Check judge_volumes(const VolumeReport& volumes, double bound) {
+Check judge_volumes(const VolumeReport& volumes, double bound, const LabelText& names) {
   const auto share = [&](const VolumeRow& row) {
     return row.voxels < kMinJudgedVoxels ? -1 : std::abs(row.error) / volume_bound(row, bound);
   };
@@ -143,8 +141,8 @@ Check judge_volumes(const VolumeReport& volumes, double bound) {
   }
   const double allowed = volume_bound(*worst, bound);
   return {"P8 volumes", std::abs(worst->error) <= allowed,
-          "error " + number(std::abs(worst->error)) + " of " + label_text(worst->label) + " (" +
-              std::to_string(worst->voxels) + " voxels, " + number(worst->volume_voxels) +
+          "error " + number(std::abs(worst->error)) + " of " + label_text(worst->label, names) +
+              " (" + std::to_string(worst->voxels) + " voxels, " + number(worst->volume_voxels) +
               " in the mesh), bound " + number(allowed) + "; mean " +
               number(volumes.summary.error_mean_abs) + " of " +
               std::to_string(volumes.summary.labels_measured) + " labels"};
@@ -168,6 +166,13 @@ void refuse_all(const AuditOptions& options, std::vector<Check>& checks) {
 
 }  // namespace
 
+std::string label_text(Label label, const LabelText& names) {
+  if (label == kExterior) return "exterior";
+  if (label == kLeftOut) return "left out";
+  if (label == kUnknown) return "unknown";
+  return names ? names(label) : "dense " + std::to_string(label);
+}
+
 bool AuditReport::passed() const {
   return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed; });
 }
@@ -187,18 +192,19 @@ AuditReport judge(AuditFindings findings, const AuditOptions& options) {
   const std::size_t looked_at =
       options.kept.empty() ? report.voxels.size() : static_cast<std::size_t>(kept);
   report.checks.push_back(std::move(findings.place));
-  report.checks.push_back(compare_topology(report, looked_at));
+  report.checks.push_back(compare_topology(report, looked_at, options.label_text));
   report.junctions = std::move(findings.junctions);
-  judge_junctions(report);
+  judge_junctions(report, options.label_text);
   report.quality = findings.quality;
   report.checks.push_back(judge_quality(report.quality, options.radius_ratio_floor));
   report.distance = std::move(findings.distance);
   if (report.distance && (options.max_distance || !report.distance->is_finite())) {
-    report.checks.push_back(judge_distance(*report.distance, options.max_distance));
+    report.checks.push_back(judge_distance(*report.distance, options));
   }
   report.volumes = only_kept(std::move(findings.volumes), options.kept);
   if (options.max_volume_error) {
-    report.checks.push_back(judge_volumes(report.volumes, *options.max_volume_error));
+    report.checks.push_back(
+        judge_volumes(report.volumes, *options.max_volume_error, options.label_text));
   }
   report.shape = findings.shape;
   return report;

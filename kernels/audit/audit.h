@@ -30,6 +30,8 @@ struct AuditOptions {
   /// The labels that the mesh is to hold; empty: all.  With some left out P1, P4 and P8 are about
   /// the others, P2 as check_validity() says.  Then REQUIRES: !count_junctions.
   KeptLabels kept = {};
+  /// Names labels in the details of checks.
+  LabelText label_text = {};
   /// P8 fails above this share (volume_bound()), for labels of at least kMinJudgedVoxels; empty: no
   /// check.
   std::optional<double> max_volume_error = 0.05;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace mw::audit {
 
@@ -16,9 +17,16 @@ std::string Offenders::text() const {
 }
 
 std::string number(double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
+  constexpr int kDigits = 4;
+  constexpr double kAllBeforeThePoint = 1000;
+  std::array<char, 400> text{};  // the longest double has 309 digits before the point
+  char* const end = text.data() + text.size();
+  const auto written =
+      value == 0 ? std::to_chars(text.data(), end, 0)
+      : std::abs(value) >= kAllBeforeThePoint
+          ? std::to_chars(text.data(), end, value, std::chars_format::fixed, 0)
+          : std::to_chars(text.data(), end, value, std::chars_format::general, kDigits);
+  return {text.data(), written.ptr};
 }
 
 }  // namespace mw::audit

@@ -51,7 +51,8 @@ class Offenders {
   std::vector<std::string> first_;
 };
 
-/// Shortest decimal that reads back as the same double; independent of the locale.
+/// For people: four significant digits, and all that are before the point: "0.5", "24312",
+/// "4.242e-07"; independent of the locale.
 [[nodiscard]] std::string number(double value);
 
 }  // namespace mw::audit

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernels/core/index.h"
@@ -26,6 +28,11 @@ inline constexpr Label kUnknown = 0xfffffffeU;
 
 /// Dense label of the space without tets where labels were left out.
 inline constexpr Label kLeftOut = 0xfffffffdU;
+
+/// What people call a dense label of the volume.
+using LabelText = std::function<std::string(Label)>;
+/// In the details of checks; without names "dense 3".
+[[nodiscard]] std::string label_text(Label label, const LabelText& names);
 
 /// Which labels of the volume a mesh is to hold, by dense label; empty: all.
 using KeptLabels = std::vector<bool>;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "engine/cli/options/values.h"
+
 namespace mw::cli {
 namespace {
 
@@ -13,11 +15,20 @@ using io::Json;
 
 constexpr std::size_t kNameWidth = 13;
 
-std::string plain_text(const Json& value) {
-  if (value.is_string()) return value.text();
+/// Strings stay in quotes within a row.
+std::string text_of(const Json& value) {
+  if (value.is_float()) return format_figure(value.number());
   if (!value.is_array()) return value.dump();
   std::string out;
-  for (const Json& element : value.elements()) out += (out.empty() ? "" : " ") + element.dump();
+  for (const Json& element : value.elements()) out += (out.empty() ? "" : ",") + text_of(element);
+  return "[" + out + "]";
+}
+
+std::string plain_text(const Json& value) {
+  if (value.is_string()) return value.text();
+  if (!value.is_array()) return text_of(value);
+  std::string out;
+  for (const Json& element : value.elements()) out += (out.empty() ? "" : " ") + text_of(element);
   return out;
 }
 
@@ -26,7 +37,7 @@ std::string plain_text(const Json& value) {
 void print_row(std::string name, const Json& row) {
   std::string out;
   for (const auto& [key, value] : row.items()) {
-    out += (out.empty() ? "" : ", ") + key + " " + value.dump();
+    out += (out.empty() ? "" : ", ") + key + " " + text_of(value);
   }
   name.resize(std::max(name.size(), kNameWidth), ' ');
   std::cout << name << " " << out << "\n";

@@ -67,11 +67,11 @@ void print_mesh(const MeshInfo& facts, bool contacts) {
   print_facts(told);
   for (const LabelColumns columns : {LabelColumns::kSizes, LabelColumns::kPlaces}) {
     std::cout << '\n';
-    print_columns(label_table(facts, Digits::kSix, columns), std::cout);
+    print_columns(label_table(facts, Digits::kFour, columns), std::cout);
   }
   if (!contacts) return;
   std::cout << '\n';
-  print_columns(contact_table(facts, Digits::kSix), std::cout);
+  print_columns(contact_table(facts, Digits::kFour), std::cout);
 }
 
 void tell_of_mesh(const InfoJob& job) {
@@ -138,7 +138,13 @@ Command info_command() {
                   .about = "tells facts of a volume or mesh, and of each label",
                   .options = {},
                   .run = [job](const OptionSet&) { return run_info(*job); },
-                  .note = volume_note() + mesh_note()};
+                  .note = volume_note() + mesh_note(),
+                  .names =
+                      [job] {
+                        VolumeRequest volume = job->volume;
+                        if (volume.path.empty()) volume.path = job->file;
+                        return names_of(volume);
+                      }};
   add_files(command.options, *job);
   add_volume_options(command.options, job->volume);
   add_step_options(command.options, job->volume);

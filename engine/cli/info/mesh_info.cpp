@@ -14,11 +14,12 @@ namespace mw::cli {
 VolumeSide look_at_volume(const VolumeRequest& request, bool with_areas) {
   const std::unique_ptr<io::LabelVolume> opened = open(request);
   const io::PreparedInput input(*opened, request.steps);
-  VolumeSide out{.voxels = {}, .names = input.volume().info().names, .areas = {}};
+  const io::VolumeInfo& info = input.volume().info();
+  VolumeSide out{.voxels = {}, .unit = info.space.unit, .names = info.names, .areas = {}};
   for (const engine::LabelRegion& region : engine::label_regions(input.volume())) {
     out.voxels.emplace(region.label, region.voxels);
   }
-  const auto& edge = input.volume().info().space.spacing;
+  const auto& edge = info.space.spacing;
   for (const double length : edge) out.voxel_volume *= length;
   if (!with_areas) return out;
   for (const engine::LabelContact& c : engine::label_contacts(input.volume())) {

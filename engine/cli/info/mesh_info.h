@@ -22,6 +22,7 @@ namespace mw::cli {
 struct VolumeSide {
   std::unordered_map<RawLabel, std::uint64_t> voxels;
   double voxel_volume = 1;  ///< cubic physical units
+  std::string unit = {};    ///< of lengths; empty: unknown
   io::LabelNames names;
   /// Of faces of voxels, by contact, the smaller label first; square physical units.
   std::map<std::pair<RawLabel, RawLabel>, double> areas;

@@ -4,7 +4,6 @@
 #include "engine/cli/info/mesh_tables.h"
 
 #include <array>
-#include <cstdio>
 
 #include "engine/cli/options/values.h"
 
@@ -13,9 +12,7 @@ namespace {
 
 std::string number(Digits digits, double value) {
   if (digits == Digits::kAll) return format_number(value);
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
+  return format_figure(value);
 }
 
 using Fields = std::vector<std::string>;
@@ -28,8 +25,14 @@ void add_position(Fields& row, const io::Position& p, Digits digits) {
   for (const double x : p) row.push_back(number(digits, x));
 }
 
-Fields label_titles(const MeshInfo& facts) {
-  Fields titles{"label", "name", "volume"};
+/// People ask for millilitres where lengths are millimetres, which the volume tells.
+bool shows_millilitres(const MeshInfo& facts, Digits digits) {
+  return digits == Digits::kFour && facts.volume && facts.volume->unit == "mm";
+}
+
+Fields label_titles(const MeshInfo& facts, Digits digits) {
+  Fields titles{"label", "name", shows_millilitres(facts, digits) ? "mm3" : "volume"};
+  if (shows_millilitres(facts, digits)) titles.push_back("mL");
   if (facts.volume) add_fields(titles, {"voxels", "volume_error"});
   add_fields(titles, {"area", "area_on_box", "tets"});
   if (facts.mesh.labels.empty() || facts.mesh.labels.front().betti) {
@@ -44,6 +47,7 @@ Fields label_fields(const MeshInfo& facts, Label rank, Digits digits) {
   const RawLabel raw = facts.table.raw(rank);
   Fields row{format_label(raw, facts.table.is_signed()), facts.names.name(raw),
              number(digits, label.volume)};
+  if (shows_millilitres(facts, digits)) row.push_back(number(digits, label.volume / 1000));
   if (facts.volume) {
     const auto voxels = voxels_of(facts, rank);
     row.push_back(voxels ? std::to_string(voxels->voxels) : "0");
@@ -70,8 +74,8 @@ Fields place_fields(const LabelStats& label, Digits digits) {
   return row;
 }
 
-Fields titles_of(const MeshInfo& facts, LabelColumns columns) {
-  Fields titles = columns == LabelColumns::kPlaces ? Fields{"label"} : label_titles(facts);
+Fields titles_of(const MeshInfo& facts, Digits digits, LabelColumns columns) {
+  Fields titles = columns == LabelColumns::kPlaces ? Fields{"label"} : label_titles(facts, digits);
   if (columns == LabelColumns::kSizes) return titles;
   titles.insert(titles.end(), kJunctionTitles.begin(), kJunctionTitles.end());
   return titles;
@@ -89,7 +93,7 @@ Fields fields_of(const MeshInfo& facts, Label rank, Digits digits, LabelColumns 
 }  // namespace
 
 TextTable label_table(const MeshInfo& facts, Digits digits, LabelColumns columns) {
-  TextTable table{titles_of(facts, columns)};
+  TextTable table{titles_of(facts, digits, columns)};
   for (Label rank = 0; rank < facts.table.size(); ++rank) {
     table.push_back(fields_of(facts, rank, digits, columns));
   }

@@ -8,8 +8,8 @@
 
 namespace mw::cli {
 
-/// Numbers of a table: whole for scripts, six digits for eyes.
-enum class Digits { kAll, kSix };
+/// Numbers of a table: whole for scripts, four digits for eyes.
+enum class Digits { kAll, kFour };
 
 /// What a table of labels holds.
 enum class LabelColumns { kSizes, kPlaces, kBoth };

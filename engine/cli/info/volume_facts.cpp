@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "engine/cli/info/fact_text.h"
+#include "engine/report/figures.h"
 
 namespace mw::cli {
 namespace {
@@ -74,12 +75,22 @@ Json VolumeFacts::label_row(std::size_t i) const {
   return row;
 }
 
+std::string VolumeFacts::volume_text(std::size_t i) const {
+  auto volume = static_cast<double>(regions_[i].voxels);
+  for (const double edge : info_.space.spacing) volume *= edge;
+  return report::format_volume(volume, info_.space.unit);
+}
+
 void print_volume(const VolumeFacts& volume) {
   Json facts = volume.json();
   facts["labels"].erase("per_label");
   print_facts(facts);
   const std::size_t shown = std::min(volume.labels(), kMaxPrinted);
-  for (std::size_t i = 0; i < shown; ++i) print_row("labels.per_label", volume.label_row(i));
+  for (std::size_t i = 0; i < shown; ++i) {
+    Json row = volume.label_row(i);
+    row["volume"] = volume.volume_text(i);
+    print_row("labels.per_label", row);
+  }
   if (shown == volume.labels()) return;
   std::cout << volume.labels() - shown << " more labels; --json lists all\n";
 }

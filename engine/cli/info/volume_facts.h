@@ -23,6 +23,8 @@ class VolumeFacts {
   /// Label, name, voxels, box (hi is one behind the last voxel) and colour.  i < labels(),
   /// ascending.
   [[nodiscard]] io::Json label_row(std::size_t i) const;
+  /// "17.18 mL".
+  [[nodiscard]] std::string volume_text(std::size_t i) const;
 
  private:
   io::VolumeInfo info_;

@@ -14,6 +14,7 @@
 
 #include "engine/cli/options/option_text.h"
 #include "engine/codt/worker_pool.h"
+#include "engine/settings/named_labels.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -100,7 +101,28 @@ void OptionSet::resolve(const std::map<std::string, std::string>& flags) {
   read_environment();
   read_flags(flags);
   read_implied();
-  for (Entry& entry : entries_) settle(entry);
+  for (Entry& entry : entries_) {
+    if (!waits_for_names(entry)) settle(entry);
+  }
+}
+
+bool OptionSet::waits_for_names(const Entry& entry) {
+  const bool has_labels = entry.option.has_labels || entry.option.kind == ValueKind::kLabels;
+  return has_labels && engine::has_names(entry.text);
+}
+
+void OptionSet::resolve_names(const std::function<io::LabelNames()>& names) {
+  std::optional<io::LabelNames> known;
+  for (Entry& entry : entries_) {
+    if (!waits_for_names(entry)) continue;
+    if (!known) known = names ? names() : io::LabelNames();
+    try {
+      entry.text = engine::with_numbers(entry.text, *known);
+    } catch (const Error& error) {
+      refuse(entry.where, std::string(": ") + error.what());
+    }
+    settle(entry);
+  }
 }
 
 void OptionSet::read_config(const std::filesystem::path& path) {

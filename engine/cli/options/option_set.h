@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/json/json.h"
+#include "io/names/label_names.h"
 
 namespace mw::cli {
 
@@ -51,7 +52,8 @@ struct Option {
   std::string flags;
   Listed listed = Listed::kInHelp;
   bool required = false;
-  bool only_flag = false;  ///< neither a key nor a variable has it
+  bool only_flag = false;   ///< neither a key nor a variable has it
+  bool has_labels = false;  ///< of another kind than kLabels, but with labels in it
   /// Takes the value over.  ERRORS: mw::Error(kUsage) for one that is not allowed.
   std::function<void(const std::string&)> assign;
   /// Values of other options that this value stands for, where nothing else gives them.
@@ -64,11 +66,14 @@ class OptionSet {
  public:
   void add(Option option);
 
-  /// Finds and assigns every value, in the order of the list.  flags: values of those that were
-  /// given, by name; "true" of a switch.
+  /// Finds and assigns every value, in the order of the list, but for those with names of labels.
+  /// flags: values of those that were given, by name; "true" of a switch.
   /// ERRORS: mw::Error(kUsage) naming flag, variable, or file, line and key.
   void resolve(const std::map<std::string, std::string>& flags);
   /// REQUIRES (all that follow): resolve().
+  /// Assigns the values with names of labels (engine/settings/named_labels.h), if any, for which
+  /// alone it asks. ERRORS: as resolve(); those of names().
+  void resolve_names(const std::function<io::LabelNames()>& names);
   /// ERRORS: mw::Error(kUsage) naming the first required option without a value.
   void require_all() const;
   /// The effective value; empty: unset.  REQUIRES: an option of that name.
@@ -94,6 +99,7 @@ class OptionSet {
   void read_flags(const std::map<std::string, std::string>& flags);
   void read_implied();
   static void settle(Entry& entry);
+  [[nodiscard]] static bool waits_for_names(const Entry& entry);
 
   std::vector<Entry> entries_;
 };

@@ -64,6 +64,7 @@ void add_setting_options(OptionSet& options, engine::MeshSettings& settings) {
                  .fallback = setting.text(engine::MeshSettings{}),
                  .choices = setting.choices,
                  .listed = setting.expert ? Listed::kInHelpAll : Listed::kInHelp,
+                 .has_labels = setting.kind == SettingKind::kSizes,
                  .assign = [&](const std::string& text) { set(setting, settings, text); }});
   }
 }
@@ -88,13 +89,13 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
 void add_choice_options(OptionSet& options, engine::LabelChoice& choice) {
   options.add({.name = "labels",
                .value = "LIST",
-               .help = "labels of the mesh, as 1,2,5; the others are left out of it",
+               .help = "labels of the mesh, as 1,2,Lesion; the others are left out of it",
                .group = kLabelGroup,
                .kind = ValueKind::kLabels,
                .assign = into(choice.labels, parse_labels)});
   options.add({.name = "background",
                .value = "L",
-               .help = "the label that is left out of the mesh",
+               .help = "the label that is left out of the mesh, as 0",
                .group = kLabelGroup,
                .kind = ValueKind::kLabels,
                .assign = into(choice.background, parse_label)});
@@ -108,6 +109,36 @@ void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std:
                .flags = "MESH,--mesh",
                .required = true,
                .assign = into(mesh)});
+}
+
+namespace {
+
+/// Takes what is known before the first row, and ends the reading by throwing itself.
+struct NamesSink : io::MeshSink {
+  struct Enough {};
+
+  void begin(const io::MeshHeader& header) override {
+    names = header.names;
+    throw Enough();
+  }
+  void write_vertices(std::span<const io::Position> /*positions*/) override {}
+  void write_tets(std::span<const io::TetRows> /*tets*/,
+                  std::span<const RawLabel> /*labels*/) override {}
+  void finish() override {}
+
+  io::LabelNames names;
+};
+
+}  // namespace
+
+io::LabelNames names_of(const std::filesystem::path& mesh) {
+  NamesSink sink;
+  try {
+    io::copy_mesh(mesh, sink);
+  } catch (const NamesSink::Enough&) {
+    return sink.names;
+  }
+  return {};
 }
 
 std::string mesh_note() {

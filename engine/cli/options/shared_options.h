@@ -11,6 +11,7 @@
 #include "engine/cli/options/option_set.h"
 #include "engine/output/label_choice.h"
 #include "engine/settings/settings.h"
+#include "io/names/label_names.h"
 
 namespace mw::cli {
 
@@ -36,6 +37,9 @@ void add_choice_options(OptionSet& options, engine::LabelChoice& choice);
 
 /// The argument MESH.  what: what becomes of it.
 void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what);
+
+/// What the labels of a mesh are called in its file.  ERRORS: those of io::copy_mesh().
+[[nodiscard]] io::LabelNames names_of(const std::filesystem::path& mesh);
 
 /// The formats of such meshes, for the end of help.
 [[nodiscard]] std::string mesh_note();

@@ -141,6 +141,7 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .value = "A,B=C;D=E",
                .help = "labels A and B become C, then D becomes E",
                .group = kLabelGroup,
+               .has_labels = true,
                .assign = into(request.steps.merge, parse_merge)});
   options.add({.name = "drop-specks",
                .value = "N",
@@ -212,6 +213,10 @@ io::OpenOptions open_options(const VolumeRequest& request) {
 std::uint64_t cache_bytes(std::uint64_t memory) {
   constexpr std::uint64_t kMax = 1ULL << 30U;
   return std::min(memory / 4, kMax);
+}
+
+io::LabelNames names_of(const VolumeRequest& request) {
+  return open(request)->info().names;
 }
 
 std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request) {

@@ -50,6 +50,9 @@ void add_step_options(OptionSet& options, VolumeRequest& request);
 /// io::PreparedInput.
 [[nodiscard]] std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request);
 
+/// What its labels are called.
+[[nodiscard]] io::LabelNames names_of(const VolumeRequest& request);
+
 /// What a chunked volume may keep of its file while labels are read: nothing else needs much then.
 [[nodiscard]] std::uint64_t cache_bytes(std::uint64_t memory);
 

@@ -247,7 +247,8 @@ class Judgement {
     const double excess = report_.volume - report_.box_volume;
     const double error = task_.has_gaps ? excess : std::abs(excess);
     add("volume", error <= kVolumeTolerance * report_.box_volume + box_.volume_rounding(),
-        "tets " + number(report_.volume) + ", box " + number(report_.box_volume));
+        "tets " + number(report_.volume) + ", box " + number(report_.box_volume) + ", difference " +
+            number(excess));
   }
 
   void judge_labels() {
@@ -258,7 +259,7 @@ class Judgement {
                                   : "labels of the volume that are not in the mesh");
     for (std::size_t l = 0; l < task_.wanted.size(); ++l) {
       if (task_.wanted[l] && !tally_.in_mesh[l]) {
-        lost.add([l] { return "dense " + std::to_string(l); });
+        lost.add([&] { return label_text(static_cast<Label>(l), task_.label_text); });
       }
     }
     conclude("labels", {&strange, &lost}, "", ", ");

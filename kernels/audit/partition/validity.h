@@ -69,6 +69,7 @@ struct ValidityTask {
   /// By label: tets may have it, and some do.
   std::vector<bool> wanted;
   bool has_gaps = false;  ///< labels were left out
+  LabelText label_text = {};
 };
 
 /// All checks of a tile's own vertices, triangles and tets.  REQUIRES: finite vertices; wanted by

@@ -81,6 +81,11 @@ TEST_F(NamesTest, VerifyNamesLabels) {
   }
   EXPECT_NE(verified.out.find(" \"n"), std::string::npos) << verified.out;
   EXPECT_EQ(run("verify v.npy v.vtu --max-distance 1.5").out.find(" \"n"), std::string::npos);
+  // Checks call labels by their numbers and names, not by their ranks.
+  expect_done("mesh v.npy -o less.vtu --background 5");
+  const std::string less = run("verify v.npy less.vtu --names all.csv --labels 4,5").out;
+  EXPECT_NE(less.find("(label 5 \"n5\")"), std::string::npos) << less;
+  EXPECT_EQ((verified.out + less).find("dense "), std::string::npos) << less;
 }
 
 TEST_F(NamesTest, OnlyWrittenLabelsAreNamedInTheMesh) {
@@ -119,9 +124,45 @@ TEST_F(NamesTest, BadFilesFailBeforeTheWork) {
   write("bad.csv", "id,name\n1,a\nx,b\n");
   expect_failure(3, "mesh v.npy -o v.vtu --names bad.csv", "bad.csv: line 3");
   expect_failure(3, "info v.npy --names bad.csv", "bad.csv: line 3");
+  write("bad.csv", "id,name\n1,a\n2,b\n1,c\n");
+  expect_failure(3, "info v.npy --names bad.csv", "line 4: label 1 is in line 2, too");
+  write("bad.csv", "id,name\n1,a\n2,\n3,\n4,a\n");
+  expect_failure(3, "info v.npy --names bad.csv", "line 5: the name 'a' is in line 2, too");
+  write("bad.txt", "1 a 1 2 3 255\n# b\n1 c 1 2 3 255\n");
+  expect_failure(3, "info v.npy --names bad.txt", "line 3: label 1 is in line 1, too");
   expect_failure(2, "mesh v.npy -o names.vtu --names names.vtu", "this is --names");
   expect_failure(2, "mesh v.npy -o v.vtu --names names.csv --report names.csv", "used twice");
   EXPECT_EQ(read("names.csv"), kNames);
+}
+
+/// By its name a label is what it is by its number, wherever options have labels.
+TEST_F(NamesTest, StandForLabelsInOptions) {
+  write("all.csv", "id,name\n1,liver\n2,spleen\n3,\"a,b=c\"\n4,4th\n5,Twin\n6,twin\n7,seven\n");
+  const std::string mesh = "mesh v.npy --names all.csv -o ";
+  const auto same = [&](const std::string& named, const std::string& numbered) {
+    SCOPED_TRACE(named);
+    expect_done(mesh + "a.vtu " + named);
+    expect_done(mesh + "b.vtu " + numbered);
+    EXPECT_EQ(read("a.vtu"), read("b.vtu"));
+  };
+  same("--labels 'liver,4th, spleen ,7'", "--labels 1,4,2,7");
+  same("--labels '\"a,b=c\", LIVER'", "--labels 3,1");
+  same("--labels Twin", "--labels 5");
+  same("--background spleen", "--background 2");
+  same("--size liver=4,2=5", "--size 1=4,2=5");
+  same("--merge 'liver,2=seven;4th=5'", "--merge '1,2=7;4=5'");
+  write("run.toml", "labels = \"liver,spleen\"\n");
+  same("--config run.toml", "--labels 1,2");
+  expect_done(mesh + "v.vtu --background spleen --report r.json");
+  EXPECT_EQ(json::parse(read("r.json"))["settings"]["background"], "2");
+  expect_done("verify v.npy v.vtu --names all.csv --background spleen");
+  expect_done("info v.npy --names all.csv --merge spleen=liver");
+  expect_failure(2, mesh + "c.vtu --labels spleem",
+                 "--labels spleem: no label is called 'spleem'; near it: spleen");
+  expect_failure(2, mesh + "c.vtu --labels TWIN", "'TWIN' is what labels 5 and 6 are called");
+  expect_failure(2, mesh + "c.vtu --size bone=4", "names are liver, spleen, a,b=c, 4th, Twin");
+  expect_failure(2, mesh + "c.vtu --labels 1-3", "expected a label of at most 64 bits, got '1-3'");
+  expect_failure(2, "mesh v.npy -o c.vtu --labels liver", "give numbers, or names with --names");
 }
 
 /// A raw volume of random labels beside what a loop over its voxels finds.

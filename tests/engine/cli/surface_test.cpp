@@ -28,7 +28,6 @@ TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
   expect_failure(2, "surface m.vtu -o '{label}.stl' --pair 1,2", "--pair");
   expect_failure(2, "surface m.vtu -o s.stl --pair 1", "--pair 1");
   expect_failure(2, "surface m.vtu -o s.stl --pair 3,3", "--pair 3,3");
-  expect_failure(2, "surface m.vtu -o s.stl --labels x", "--labels x");
   expect_failure(2, "surface m.vtu", "-o OUTPUT");
   expect_failure(3, "surface m.vtu -o s.stl", "m.vtu");
   expect_failure(3, "surface m.vtu -o s", "m.vtu");
@@ -40,6 +39,7 @@ TEST_F(SurfaceCommand, RefusesWhatTheMeshDoesNotHave) {
   expect_failure(2, "surface v.vtu -o s.stl --pair 77,1", "no label 77");
   expect_failure(2, "surface v.vtu -o 's/{label}.stl' --each --labels 77", "no label 77");
   expect_failure(2, "surface v.vtu -o s --labels 77", "no label 77");
+  expect_failure(2, "surface v.vtu -o s.stl --labels x", "--labels x: no label has a name");
   write("x", "");
   expect_failure(2, "surface v.vtu -o x", "folder");
   expect_failure(2, "surface v.vtu -o missing/s.stl", "missing/s.stl");
@@ -83,16 +83,33 @@ TEST_F(SurfaceCommand, NothingIsLeftWhenTheDiskIsFull) {
   }
 }
 
-/// Of one file a label those that are finished stay; the error names them.
-TEST_F(SurfaceCommand, SaysWhichLabelsAreWritten) {
+/// Files of labels get their names when all of them are whole.
+TEST_F(SurfaceCommand, WritesAllLabelsOrNone) {
   make_mesh();
   std::filesystem::create_directory(folder() / "s4.ply");
-  const ProgramRun result = run("surface v.vtu -o 's{label}.ply' --each");
-  EXPECT_NE(result.code, 0);
-  EXPECT_NE(result.err.find("written before are those of label 1, 2, 3\n"), std::string::npos)
-      << result.err;
-  for (const char* name : {"s1.ply", "s2.ply", "s3.ply"}) EXPECT_TRUE(files().contains(name));
-  EXPECT_FALSE(files().contains("s5.ply"));
+  expect_failure(2, "surface v.vtu -o 's{label}.ply' --each", "s4.ply");
+  std::filesystem::remove(folder() / "s4.ply");
+  write("elsewhere", "");
+  std::filesystem::create_symlink("elsewhere", folder() / "s4.ply");
+  expect_done("surface v.vtu -o 's{label}.ply' --each");
+  expect_done("surface v.vtu -o four.ply --labels 4");
+  EXPECT_EQ(read("elsewhere"), read("four.ply"));
+  for (const std::string& name : files()) EXPECT_FALSE(name.starts_with(".")) << name;
+}
+
+TEST_F(SurfaceCommand, TakesNamesOfLabels) {
+  make_volume();
+  write("names.csv", "id,name\n1,liver\n2,Liver left\n");
+  expect_done("mesh v.npy -o v.vtu --names names.csv");
+  expect_done("surface v.vtu -o a.stl --label 'liver left'");
+  expect_done("surface v.vtu -o b.stl --label 2");
+  EXPECT_EQ(read("a.stl"), read("b.stl"));
+  expect_done("surface v.vtu -o c.stl --pair liver,'Liver left'");
+  expect_failure(2, "surface v.vtu -o c.stl --label livr", "near it: liver");
+  expect_failure(2, "surface v.vtu -o c.stl --label bone", "names are liver, Liver left");
+  expect_done("picture v.vtu -o c.png --labels LIVER --pixels 64x64");
+  expect_done("mesh v.npy -o w.vtu");
+  expect_failure(2, "surface w.vtu -o c.stl --label liver", "no label has a name");
 }
 
 }  // namespace

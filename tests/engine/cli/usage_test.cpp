@@ -53,10 +53,12 @@ TEST_F(UsageTest, HelpOfMeshIsShort) {
 }
 
 TEST_F(UsageTest, UnknownCommandsAndFlagsAreNamed) {
-  expect_failure(2, "mehs seg.nii.gz -o o.vtu", "mehs: unknown command; see mwmesh --help");
+  expect_failure(2, "mehs seg.nii.gz -o o.vtu",
+                 "mehs: unknown command; did you mean mesh?; see mwmesh --help");
   expect_failure(2, "help mehs", "mehs: unknown command");
   expect_failure(2, "mesh v.npy -o v.vtu --windwo=16",
-                 "--windwo: unknown flag; see mwmesh mesh --help");
+                 "--windwo: unknown flag; did you mean --window?; see mwmesh mesh --help");
+  expect_failure(2, "mesh v.npy -o v.vtu --xyzzy", "--xyzzy: unknown flag; see");
   // Though a flag that must be there is missing then.
   expect_failure(2, "synth voronoi --shap 3,3,3 --labels 2 --seed 1 -o w.npy",
                  "--shap: unknown flag");
@@ -119,8 +121,43 @@ TEST_F(UsageTest, RefusesUnwritableOutputBeforeWork) {
   expect_failure(2, "mesh v.npy -o nowhere/v.vtu", "nowhere/v.vtu");
   expect_failure(2, "mesh v.npy -o v.vtu --report nowhere/r.json", "nowhere/r.json");
   expect_failure(2, "mesh v.npy -o v.xyz", "v.xyz");
+  expect_failure(2, "mesh v.npy -o v.stl", "mwmesh surface MESH -o");
+  expect_failure(2, "mesh v.npy -o v.vtk", "; .vtu is");
   expect_failure(2, "mesh v.npy", "OUTPUT");
   expect_failure(2, "mesh -o v.vtu", "INPUT");
+}
+
+/// What it wrote itself is replaced as ever, whatever the format keeps of a run.
+TEST_F(UsageTest, ReplacesNothingButItsOwnMeshes) {
+  make_volume();
+  write("v.vtu", "Dear Sir,");
+  expect_failure(2, "mesh v.npy -o v.vtu", "v.vtu: is there, and no mesh of mwmesh; --force");
+  EXPECT_EQ(read("v.vtu"), "Dear Sir,");
+  expect_done("mesh v.npy -o v.vtu --force");
+  write("empty.vtu", "");
+  for (const char* name :
+       {"empty.vtu", "v.vtu", "v.vtkhdf", "v.mesh", "v.msh", "v.inp", "v.xdmf", "v.feb"}) {
+    expect_done(std::string("mesh v.npy -o ") + name);
+    expect_done(std::string("mesh v.npy -o ") + name);
+  }
+}
+
+TEST_F(UsageTest, SaysWhatWasMeshed) {
+  expect_done("synth spheres --shape 20,20,20 --labels 2 --seed 1 -o v.npy");
+  write("names.csv", "id,name\n0,air\n1,ball\n");
+  const std::string all = run("mesh v.npy -o v.vtu --names names.csv").out;
+  EXPECT_NE(all.find("\nlabels      3: 0 \"air\", 1 \"ball\", 2\n"), all.npos) << all;
+  EXPECT_NE(all.find("\nbackground  label 0 is meshed, too, "), all.npos) << all;
+  const std::string two = run("mesh v.npy -o v.vtu --background 0").out;
+  EXPECT_NE(two.find("\nlabels      2 of 3: 1, 2\n"), two.npos) << two;
+  EXPECT_EQ(two.find("\nbackground "), two.npos) << two;
+  make_volume("many.npy");
+  const std::string many = run("mesh many.npy -o v.vtu").out;
+  EXPECT_NE(many.find("\nlabels      9: 1, 2, 3, 4, 5, 6, ...\n"), many.npos) << many;
+  EXPECT_EQ(many.find("\nbackground "), many.npos) << many;
+  expect_done("synth voronoi --shape 8,8,8 --labels 1 --seed 1 -o one.npy");
+  const std::string one = run("mesh one.npy -o v.vtu").out;
+  EXPECT_NE(one.find("\nlabels      1: 1; the volume has no other"), one.npos) << one;
 }
 
 TEST_F(UsageTest, RefusesBadInput) {

@@ -219,7 +219,7 @@ TEST_F(JudgedVolumes, FailWhenALabelShrinks) {
   EXPECT_TRUE(judge((error + 1e-6) / kRough).passed);
   const Check check = judge((error - 1e-6) / kRough);
   EXPECT_FALSE(check.passed);
-  EXPECT_NE(check.detail.find("dense 1 (1000 voxels, 962.96"), std::string::npos) << check.detail;
+  EXPECT_NE(check.detail.find("dense 1 (1000 voxels, 963 in"), std::string::npos) << check.detail;
   EXPECT_EQ(judge(std::nullopt).name, "");
 }
 
