@@ -7,9 +7,9 @@
 
 namespace mw::engine {
 
-/// Where interfaces are everywhere.
+/// Radius ratio where interfaces are everywhere (bench/parameters.md, "Constants").
 inline constexpr double kInnerQuality = 0.465;
-/// Where a mesh is mostly of what is far from them.
+/// Radius ratio where a mesh is mostly of what is far from them (bench/parameters.md, "Constants").
 inline constexpr double kSparseInnerQuality = 0.38;
 
 /// MeshSettings::inner_quality for a volume with these faces, all of them.  A function of its

@@ -66,6 +66,8 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
 }
 
 void WindowVisitor::polish(const WindowOrder& order) {
+  // What no later window sees is worth more sweeps, and flips of tets that are not bad
+  // (bench/parameters.md, "Constants").
   constexpr int kSweeps = 3, kSmoothSweeps = 6;
   constexpr double kFlipBelow = 0.7;
   optimise_.sweeps *= optimise_.surface ? kSmoothSweeps : kSweeps;

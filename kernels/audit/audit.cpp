@@ -19,7 +19,7 @@ std::string change_text(const char* region, const Betti& before, const Betti& af
   return std::string(" ") + region + text_of(before) + " -> " + text_of(after);
 }
 
-/// Of labels that are not kept, and then of the exterior, nothing is known.
+/// Nothing is known of labels that are not kept, and then of the exterior.
 void forget_left_out(const KeptLabels& kept, AuditReport& report) {
   if (kept.empty()) return;
   report.mesh.resize(report.voxels.size());

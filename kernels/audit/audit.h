@@ -26,7 +26,7 @@ struct AuditOptions {
   bool count_junctions = false;                    ///< P1 also of interfaces and meetings
   bool measure_distance = true;                    ///< false: only when max_distance is set
   std::optional<double> max_distance;              ///< voxels; P4 is checked, and fails above this
-  Index3 layers{1, 1, 1};  ///< distances are in voxels cut into so many layers along each axis
+  Index3 layers{1, 1, 1};  ///< distances are in voxels cut into these layers along each axis
   /// The labels that the mesh is to hold; empty: all.  With some left out P1, P4 and P8 are about
   /// the others, P2 as check_validity() says.  Then REQUIRES: !count_junctions.
   KeptLabels kept = {};

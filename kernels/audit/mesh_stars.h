@@ -84,7 +84,7 @@ void for_each_face(const MeshStars& stars, Visit&& visit) {
   }
 }
 
-/// The same for every triangle with a vertex that the tile owns: all tets on it are there.
+/// Visits every triangle with a vertex that the tile owns: all tets on it are there.
 template <class Visit>
 void visit_whole_faces(const MeshStars& stars, Visit&& visit) {
   std::vector<FaceSide> scratch;

@@ -80,7 +80,7 @@ struct MeshTile {
 };
 
 /// A box of a volume's voxels, and the lattice vertices that are counted with it.  Each vertex is
-/// owned by one tile, which has all voxels around it, but for those outside of the volume.
+/// owned by one tile, which has all voxels around it, except those outside of the volume.
 struct VoxelTile {
   VoxelLabels voxels;  ///< of `loaded`
   Index3 shape;        ///< of the whole volume

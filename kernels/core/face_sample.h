@@ -56,7 +56,7 @@ inline constexpr QuarterBits kAllQuarters = 15;
   return ((a ^ b) & ~FaceSamples{kAllQuarters}) == 0;
 }
 
-/// The same face, other quarters.
+/// This face with other quarters.
 [[nodiscard]] inline FaceSamples with_quarters(FaceSamples samples, QuarterBits quarters) {
   return (samples & ~FaceSamples{kAllQuarters}) | quarters;
 }

@@ -61,7 +61,7 @@ void for_each_index(const Box3& box, Visit visit) {
   }
 }
 
-/// The same for an array of the given shape.
+/// Visits an array of the given shape.
 template <typename Visit>
 void for_each_index(Index3 shape, Visit visit) {
   for_each_index(Box3{{0, 0, 0}, shape}, visit);

@@ -94,7 +94,7 @@ MW_LANES unsigned lane_bits(const LaneInts& m) {
   return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
 #endif
 }
-/// The same of four comparisons, the first in the lowest bits.
+/// Bits of four comparisons, the first in the lowest bits.
 MW_LANES unsigned lane_bits(const LaneInts& a, const LaneInts& b, const LaneInts& c,
                             const LaneInts& d) {
 #ifdef __SSE2__

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How a kernel lends out a loop: whoever calls it may bring threads, the kernel knows none.
+// How a kernel lends out a loop: its caller may bring threads, the kernel knows none.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kFirstSlots = 64;
 constexpr std::size_t kFirstPool = 256;
 
-/// As ==, which is a call to memcmp.
+/// Replaces ==, which is a call to memcmp.
 bool is_same(const TriangleKey& a, const TriangleKey& b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }

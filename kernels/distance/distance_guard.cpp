@@ -216,7 +216,7 @@ std::optional<std::size_t> DistanceGuard::receiver(const Wanderer& w) const {
   return nearest(w, 0, kAnyCosine);
 }
 
-/// The same among unchanged neighbours.
+/// Looks among unchanged neighbours.
 std::optional<std::size_t> DistanceGuard::receiver_nearby(const Wanderer& w) {
   if (mesh_ == nullptr) return std::nullopt;
   if (neighbours_ == 0) {

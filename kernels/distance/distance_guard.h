@@ -53,14 +53,14 @@ class DistanceGuard {
   /// REQUIRES: both ends free; not yet contracted.
   [[nodiscard]] bool allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
                                         Point target);
-  /// The same when the interface triangles at both ends are at hand.
+  /// Judges the contraction when the interface triangles at both ends are at hand.
   [[nodiscard]] bool allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
                                         Point target, std::span<const FanTriangle> fan_of_keep,
                                         std::span<const FanTriangle> fan_of_drop);
-  /// The same for a move of v, whose interface triangles are at hand.
+  /// Judges a move of v, whose interface triangles are at hand.
   [[nodiscard]] bool allows_move(const TetMesh& mesh, LocalVertex v,
                                  std::span<const FanTriangle> fan, Point target);
-  /// The same for a flip that replaces interface triangles (p, q, a) and (p, q, b) by (a, b, p) and
+  /// Judges a flip that replaces interface triangles (p, q, a) and (p, q, b) by (a, b, p) and
   /// (a, b, q).  The normals of (a, b, q) and (b, a, p) point to label `towards`, away from
   /// `other`.
   [[nodiscard]] bool allows_flip(const TetMesh& mesh, const std::array<LocalVertex, 2>& pq,

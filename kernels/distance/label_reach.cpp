@@ -63,7 +63,7 @@ MW_WIDE unsigned find_labels(const LabelReach::Triangle& t, const LabelBox& labe
   return found;
 }
 
-/// As std::floor, which is a call on processors of the baseline.
+/// Replaces std::floor, which is a call on processors of the baseline.
 std::int64_t floor_index(double x) {
   const auto towards_zero = static_cast<std::int64_t>(x);
   return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);

@@ -10,7 +10,7 @@
 
 namespace mw {
 
-/// Of the samples that no changed triangle takes nineteen in twenty find no unchanged one either
+/// Among the samples that no changed triangle takes nineteen in twenty find no unchanged one either
 /// (an abdomen CT), and listing those triangles costs more than this look.
 class NearTriangle {
  public:

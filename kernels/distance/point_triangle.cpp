@@ -51,7 +51,7 @@ double share_of_way(double along, double square) {
   return square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
 }
 
-/// Of four lanes; see foot_on_triangle().
+/// Finds the feet of four lanes; see foot_on_triangle().
 MW_WIDE void find_feet(const PointLanes& points, const Vec3& a, const Vec3& b, FeetInside& out) {
   const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm();
   const double area = aa * bb - ab * ab;

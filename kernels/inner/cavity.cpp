@@ -47,7 +47,7 @@ std::vector<LocalTet> Cavity::tets_around(LocalVertex row) const {
   return out;
 }
 
-/// Of the surface's triangles, each corner as often as it is one.
+/// The mean of the corners of the surface's triangles, each as often as it is one.
 Point Cavity::middle() const {
   std::array<std::int64_t, 3> sum{};
   for (const LinkTriangle& f : surface_) {

@@ -16,7 +16,7 @@ struct SteinerIds {
   std::uint64_t count = 0;
 };
 
-/// Of window number `window` among `windows`.  REQUIRES: window < windows <= 2^57.
+/// Range of ids of window number `window` among `windows`.  REQUIRES: window < windows <= 2^57.
 [[nodiscard]] SteinerIds steiner_ids(std::uint64_t window, std::uint64_t windows);
 
 struct CodtOptions {

@@ -56,7 +56,7 @@ class Flipper {
   /// cut in two by the new edge (a, b).
   bool remove_edge(LocalVertex p, LocalVertex q);
 
-  /// The same for an edge between two labels of the volume, when shapes and surface together gain:
+  /// Does so for an edge between two labels of the volume, when shapes and surface together gain:
   /// the surface alone gains `surface_gain`, in units of the shape energy.  REQUIRES: a guard.
   bool flip_surface(LocalVertex p, LocalVertex q, double surface_gain);
 

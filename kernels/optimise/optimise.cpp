@@ -14,7 +14,8 @@
 namespace mw {
 namespace {
 
-/// Of the first sweep; later ones start near the minimum.
+/// The first sweep takes two steps a vertex; later ones start near the minimum and take one
+/// (bench/parameters.md, "Constants").
 constexpr int kFirstNewtonSteps = 2;
 
 /// Which vertices have a turn in a sweep: all, until those of later calls are left out.
@@ -161,7 +162,8 @@ OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOption
 std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                              DistanceGuard* guard) {
   if (guard == nullptr || !options.surface) return 0;
-  // Curvature of steps says nothing, and bends of steps are no faults yet.
+  // Curvature of steps says nothing, and bends of steps are no faults yet
+  // (bench/parameters.md, "Constants").
   const SurfaceWeights weights{.fit = 1.25,
                                .junction_fit = 1.25,
                                .area = 0.3,

@@ -21,7 +21,7 @@ constexpr double kInterfaceSlack = 0.25;
 constexpr double kQuadricShare = 0.1;
 
 /// A move must lower the energy by this share: tiny moves would only keep stars from coming to
-/// rest.
+/// rest (bench/parameters.md, "Constants").
 constexpr double kMinGain = 0.002;
 
 /// Steps of the search around a fold, shares of the mean edge.

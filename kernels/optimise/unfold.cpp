@@ -16,7 +16,8 @@ namespace {
 constexpr double kMinGain = 0.02;
 /// Energy of a bend, in shape energies of a tet, for each unit of SurfaceWeights::bend.
 constexpr double kBendFactor = 5.0;
-/// The same of the mean squared distance of carried faces, for each voxel squared.
+/// Energy of the mean squared distance of carried faces, in shape energies of a tet, for each voxel
+/// squared.
 constexpr double kMisfitFactor = 100.0;
 
 double bend_between(const Vec3& m, const std::optional<Vec3>& n) {
@@ -35,7 +36,7 @@ struct Unfolder::Hinge {
   [[nodiscard]] Vec3 near_v() const { return b.cross(a); }  ///< normal of (v, b, a)
   [[nodiscard]] Vec3 near_q() const { return (q - b).cross(a - b); }
 
-  /// Of the bends of the five edges.
+  /// By how much the bend energy of the five edges falls.
   [[nodiscard]] double gain() const {
     const Vec3 m = first->normal(Vec3::Zero()), n = second->normal(Vec3::Zero());
     const double before = bend_energy(cosine_between(m, n)) + bend_between(m, across_va) +

@@ -87,7 +87,7 @@ class Coverage {
     return {(low + kUnits / 2 - 1) >> 8, (high - kUnits / 2) >> 8};
   }
 
-  /// Of the sample in that column and row; false when its centre is outside.
+  /// Looks at the sample in that column and row; false when its centre is outside.
   bool ask(std::int64_t column, std::int64_t row) {
     const std::int64_t x = column * kUnits + kUnits / 2, y = row * kUnits + kUnits / 2;
     on_line_ = false;
@@ -99,7 +99,7 @@ class Coverage {
     return true;
   }
 
-  /// Of the sample asked for last.
+  /// Value at the sample asked for last.
   [[nodiscard]] bool on_line() const { return on_line_; }
   [[nodiscard]] std::uint32_t depth() const {
     const double z = corners_[0].depth;

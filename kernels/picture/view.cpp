@@ -11,7 +11,7 @@
 namespace mw::picture {
 namespace {
 
-/// Of an angle from 0 to 90 degrees; right to the last digits.
+/// Sine of an angle from 0 to 90 degrees; right to the last digits.
 double sine_of_quarter(double degrees) {
   const double x = degrees * (std::numbers::pi / 180);
   double term = x, sum = x;

@@ -11,7 +11,7 @@
 
 namespace mw::picture {
 
-/// Three unit vectors at right angles: to the right and up in the picture, and to whoever looks.
+/// Three unit vectors at right angles: to the right and up in the picture, and to the viewer.
 struct View {
   Vec3 right;
   Vec3 up;

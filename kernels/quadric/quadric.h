@@ -31,7 +31,7 @@ struct Quadric {
   [[nodiscard]] Vec3 linear() const { return {b[0], b[1], b[2]}; }
   [[nodiscard]] double trace() const { return a[0] + a[3] + a[5]; }
   [[nodiscard]] double value(const Vec3& x) const;
-  /// The same function, relative to a position at `offset` from the present one.
+  /// This function, relative to a position at `offset` from the present one.
   [[nodiscard]] Quadric shifted(const Vec3& offset) const;
 };
 

@@ -8,9 +8,11 @@
 namespace mw {
 namespace {
 
+/// A contraction must take out a fifth of the bends that are there, beside what is free
+/// (bench/parameters.md, "Constants").
 constexpr double kShareOfPresent = 0.8;
 /// Bend energy that any contraction may leave: between two labels, where surfaces are smooth, and
-/// where more meet.
+/// where more meet (bench/parameters.md, "Constants").
 constexpr double kFreeBetweenTwo = 0.5;
 constexpr double kFreeElsewhere = 1.0;
 

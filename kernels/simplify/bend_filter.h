@@ -28,7 +28,7 @@ class BendFilter {
   [[nodiscard]] std::span<const FanTriangle> fan(LocalVertex end) const;
 
  private:
-  /// A star with its rims, as it was after so many changes of the mesh.
+  /// A star with its rims, as it was after that number of changes of the mesh.
   struct Gathered {
     SurfaceStar star;
     double bends = 0.0;

@@ -8,6 +8,8 @@
 namespace mw {
 namespace {
 
+/// Contractions of Case 2 rarely succeed, so they are tried after others: their cost counts
+/// fourfold (bench/parameters.md, "Constants").
 constexpr double kInnerToBoundaryFactor = 4.0;
 
 bool is_inner(const TetMesh& mesh, LocalVertex v) {
@@ -46,18 +48,20 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
   if (!rank) return std::nullopt;
   Contraction c{.keep = *rank < 0 ? q : p, .drop = *rank < 0 ? p : q};
   if (*rank == 0) {
+    // Case 1 (both ends are inner), or Case 3 with ends of the same order: the optimum of the sum.
     const QuadricMinimum best = minimum(sum_at(mesh, metric, p, q), fixed_axes(mesh.planes(p)));
     c.position = metric.moved(mesh.position(p), best.offset);
     c.cost = best.value;
     c.moves = true;
     return c;
   }
+  // Cases 2 and 3 with ends of different order, or of different box planes: the survivor stays.
   c.position = mesh.position(c.keep);
   const Vec3 way = metric.vector(mesh.position(c.drop), c.position);
   c.cost = mesh.quadric(c.drop).value(way);
-  if (is_inner(mesh, c.drop)) {
+  if (is_inner(mesh, c.drop)) {  // Case 2: one end is inner
     c.cost *= kInnerToBoundaryFactor;
-  } else {
+  } else {  // Case 3: both ends are on boundaries
     c.cost += mesh.quadric(c.keep).c;
   }
   return c;
@@ -84,7 +88,7 @@ Quadric contracted_quadric(const TetMesh& mesh, const Metric& metric,
   const Vec3 move = metric.vector(mesh.position(contraction.keep), contraction.position);
   const Quadric kept = mesh.quadric(contraction.keep).shifted(move);
   const bool absorbs_inner = is_inner(mesh, contraction.drop) && !is_inner(mesh, contraction.keep);
-  if (absorbs_inner) return kept;
+  if (absorbs_inner) return kept;  // Case 2
   const Vec3 way = metric.vector(mesh.position(contraction.drop), contraction.position);
   return kept + mesh.quadric(contraction.drop).shifted(way);
 }

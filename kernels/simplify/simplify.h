@@ -18,8 +18,9 @@ struct SimplifyOptions {
   /// No contraction may create a tet below this radius ratio, unless the tets that it replaces
   /// reach no further (strong anisotropy makes even the start mesh flat).
   double quality_floor = 0.1;
-  /// The same for contractions of an inner vertex: those can wait for better shapes, because inner
-  /// vertices are few and the shape of everything around depends on them.
+  /// Contractions of an inner vertex keep to this radius ratio instead: they can wait for better
+  /// shapes, because inner vertices are few and the shape of everything around depends on them
+  /// (bench/parameters.md, "Constants").
   double inner_quality = 0.465;
   /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none: unbounded.
   std::optional<double> edge_variance;

@@ -13,7 +13,7 @@ namespace mw {
 [[nodiscard]] Quadric corner_quadric(const LabelBox& labels, Index3 corner,
                                      const QuadricWeights& weights);
 
-/// The same for a corner of coarsened labels: the planes come from the input's interface faces
+/// Quadric of a corner of coarsened labels: the planes come from the input's interface faces
 /// between labels that meet at the corner, as far as two voxels away.  For each pair of labels they
 /// make one plane, through the faces' mean centre and across their mean normal, so that the
 /// vertices are drawn to a smooth surface through the input's steps.

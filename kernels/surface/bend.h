@@ -9,7 +9,8 @@
 
 namespace mw {
 
-/// Bends whose 1 - cosine is below this, some 14 degrees, cost nothing: a curved surface has them.
+/// Bends whose 1 - cosine is below this, some 14 degrees, cost nothing: a curved surface has them
+/// (bench/parameters.md, "Constants").
 inline constexpr double kFreeBend = 0.03;
 /// The cosine of a sharp bend, 60 degrees.
 inline constexpr double kSharpCosine = 0.5;
@@ -26,8 +27,8 @@ inline constexpr double kSharpCosine = 0.5;
   return excess * excess;
 }
 
-/// The same for two normals of any length, by their product and that of their squares; 0 when one
-/// of them is zero.  Most bends are free, which takes no root to see.
+/// Energy of the bend between two normals of any length, by their product and that of their
+/// squares; 0 when one of them is zero.  Most bends are free, which takes no root to see.
 [[nodiscard]] inline double bend_energy(double product, double squares) {
   constexpr double kSurelyFree = 1.0 - 0.999 * kFreeBend;
   if (product > 0.0 && product * product >= kSurelyFree * kSurelyFree * squares) return 0.0;

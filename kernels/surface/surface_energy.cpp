@@ -179,6 +179,7 @@ void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
 
 /// What is left of v's own debts and of the ring's is added to what v's faces ask of it now.
 void SurfaceEnergy::take_debts(const VolumeDebts& debts) {
+  // The row of these shares is in bench/parameters.md, "Constants".
   constexpr double kShareOfOwn = 0.5, kShareOfRing = 0.9;
   // A vertex of the ring is at two of the triangles, in general.
   constexpr double kEachOfRing = 0.5 * kShareOfRing;
@@ -271,7 +272,7 @@ void SurfaceEnergy::add_bends(const Vec3& x, double scale, StarTerms& terms) con
   }
 }
 
-/// Of a square: the Gauss-Newton part of its Hessian.
+/// Adds the derivatives of a square: the Gauss-Newton part of its Hessian.
 void SurfaceEnergy::add_bend(const Vec3& gradient, double cosine, double scale,
                              StarTerms& terms) const {
   terms.gradient -= 2.0 * scale * bend_excess(cosine) * gradient;

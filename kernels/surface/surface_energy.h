@@ -13,7 +13,8 @@
 
 namespace mw {
 
-/// Weights of the parts of SurfaceEnergy.
+/// Weights of the parts of SurfaceEnergy; what they were chosen from is in bench/parameters.md,
+/// "Constants".
 struct SurfaceWeights {
   double fit = 2.5;             ///< between two labels
   double junction_fit = 1.25;   ///< where more labels meet

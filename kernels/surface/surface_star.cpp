@@ -13,7 +13,8 @@
 namespace mw {
 namespace {
 
-/// 1 / voxel: what is sharper than a ball of a few voxels is no shape but a step.
+/// 1 / voxel: what is sharper than a ball of a few voxels is no shape but a step
+/// (bench/parameters.md, "Constants").
 constexpr double kMaxCurvature = 0.5;
 /// Where it cannot be told.
 constexpr double kUnknown = 2.0 * kMaxCurvature;

@@ -72,7 +72,7 @@ class SurfaceStar {
   void normals_at(const Vec3& x, std::vector<SurfaceNormal>& out) const;
   /// The sum of bend energies (bend.h) of spokes and rims, when v moves by x.
   [[nodiscard]] double bends_at(const Vec3& x) const;
-  /// The same from the normals there.
+  /// Computes it from the normals there.
   [[nodiscard]] double bends(std::span<const SurfaceNormal> normals) const;
 
   [[nodiscard]] LocalVertex vertex() const { return vertex_; }
@@ -112,7 +112,7 @@ class SurfaceStar {
 /// vertices between two labels, off the box.  Positive where the smaller label is convex.
 class CurvatureField {
  public:
-  /// Of all vertices at once, as they are now.
+  /// Measures all vertices at once, as they are now.
   void measure(const TetMesh& mesh, const Metric& metric);
 
   [[nodiscard]] std::optional<double> at(LocalVertex v) const;

@@ -61,7 +61,7 @@ struct DistanceReport {
 /// P4.  A label's boundary are the voxel faces, or the triangles, between it and another label of
 /// the volume; the box is none.  Lengths are in voxels along each axis: (p - origin) / spacing.
 /// Means are by area, of the centres of every fourth voxel face and of pieces of triangles.
-/// Of a mesh from which labels were left out, boundaries of kept labels are also its triangles of
+/// For a mesh from which labels were left out, boundaries of kept labels are also its triangles of
 /// one tet that are not on the box.  Those are samples of kLeftOut as well, held against the faces
 /// of all labels that were left out: no such triangle may be where none of these labels is.  The
 /// other way round nothing is known of them.

@@ -59,7 +59,7 @@ using PieceEstimates = std::array<double, 20>;
 void add_estimates(const VoxelTriangle& t, PieceEstimates& sums);
 [[nodiscard]] PieceEstimates total_estimates(std::span<const InterfaceTriangle> triangles);
 
-/// The smallest of these radii for which there are not too many pieces: kPieceRadius, but for
+/// The smallest of these radii for which there are not too many pieces: kPieceRadius, except for
 /// meshes with more interface than any valid one.
 [[nodiscard]] double piece_radius(const PieceEstimates& sums);
 

@@ -44,7 +44,7 @@ class Finder {
   std::vector<std::uint32_t> last_;
 };
 
-/// One face in so many counts for means.
+/// Means are taken over one face out of this number.
 constexpr std::uint32_t kWeighed = 4;
 
 /// A square on a voxel face, by its centre.
@@ -168,7 +168,7 @@ class TileDistances {
     return std::sqrt(squared);
   }
 
-  /// Of each label.
+  /// The nearest face of each of the two labels.
   [[nodiscard]] std::array<CloseFaces::Near, 2> to_faces(const LabelPair& labels,
                                                          const VoxelPoint& p) {
     std::array<CloseFaces::Near, 2> near = CloseFaces(voxels()).nearest(p, labels);

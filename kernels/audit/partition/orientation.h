@@ -18,17 +18,17 @@ namespace mw::audit {
 [[nodiscard]] int orientation(const Position& a, const Position& b, const Position& c,
                               const Position& d);
 
-/// The same in floating point, with a bound on its error in the manner of Shewchuk 1997, orient3d,
-/// stage A; nothing when the bound does not decide.
+/// Decides it in floating point, with a bound on its error in the manner of Shewchuk 1997,
+/// orient3d, stage A; nothing when the bound does not decide.
 [[nodiscard]] std::optional<int> filtered_orientation(const Position& a, const Position& b,
                                                       const Position& c, const Position& d);
 
-/// The same in whole numbers of any length.
+/// Decides it in whole numbers of any length.
 [[nodiscard]] int exact_orientation(const Position& a, const Position& b, const Position& c,
                                     const Position& d);
 
-/// Of the tets that a tile owns, those that have another sign in the file's coordinates than in the
-/// array's axes, exactly: rounding turned them over or made them flat.
+/// Among the tets that a tile owns, those that have another sign in the file's coordinates than in
+/// the array's axes, exactly: rounding turned them over or made them flat.
 /// written: positions as the file has them; mirrored: the world sees the array in a mirror.
 /// REQUIRES: the tets name vertices of both lists, as many in each.
 [[nodiscard]] Offenders changed_orientations(const MeshTile& turned,

@@ -33,7 +33,7 @@ class OverlapCheck {
   explicit OverlapCheck(Index3 shape) : shape_(shape) {}
   /// REQUIRES: ascending.
   void add(const LineCrossing& crossing);
-  /// Of everything that was added.
+  /// Judges everything that was added.
   [[nodiscard]] Check verdict();
 
  private:

@@ -24,11 +24,12 @@ struct PlaceTally {
   std::vector<std::array<double, 3>> moments;
 };
 
-/// Of the tets that a tile owns.  frame, shape: of the volume.
+/// Measures the tets that a tile owns.  frame, shape: of the volume.
 /// REQUIRES: labels of the volume < label_count; finite vertices.
 [[nodiscard]] PlaceTally places_of_mesh(const MeshTile& tile, std::size_t label_count,
                                         const Frame& frame, Index3 shape);
-/// Of the voxels of a box; exact.  shape: of the whole volume.  REQUIRES: labels < label_count.
+/// Measures the voxels of a box; exact.  shape: of the whole volume.  REQUIRES: labels <
+/// label_count.
 [[nodiscard]] PlaceTally places_of_voxels(const Box3& box, std::span<const Label> labels,
                                           std::size_t label_count, Index3 shape);
 

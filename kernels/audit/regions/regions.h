@@ -88,10 +88,10 @@ class RegionsUnion {
   std::optional<DisjointSets> sets_;
 };
 
-/// As mesh_betti(), without its last row (the exterior) and without asking what is outside of a
-/// label's tets: other labels, the exterior, or space without tets (labels that were left out).
-/// Components and Euler characteristics are counted.  Cavities follow from boundaries, because in
-/// the 3-sphere
+/// Counts what mesh_betti() does, without its last row (the exterior) and without asking what is
+/// outside of a label's tets: other labels, the exterior, or space without tets (labels that were
+/// left out). Components and Euler characteristics are counted.  Cavities follow from boundaries,
+/// because in the 3-sphere
 ///   of a part (open, connected), the complement has as many components as its boundary;
 ///   of a connected closed region, it has as many as there are boundaries seen from outside, where
 ///   triangles follow each other around an edge, and across a vertex in one gap between parts that

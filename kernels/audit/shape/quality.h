@@ -20,7 +20,7 @@ struct QualityReport {
   std::uint64_t worst_tet = 0;  ///< first tet with the least radius ratio
   double radius_ratio_mean = 0;
   std::array<std::uint64_t, 20> radius_ratio_histogram{};  ///< equal bins over [0, 1]
-  /// Of the dihedral angles of all tets, in bins of 5 degrees.
+  /// Counts the dihedral angles of all tets, in bins of 5 degrees.
   std::array<std::uint64_t, 36> dihedral_histogram{};
   double sliver_fraction = 0;
   double dihedral_min_deg = 0;
@@ -37,11 +37,11 @@ class QualityMeter {
  public:
   /// REQUIRES: finite coordinates.
   void add(const Position& a, const Position& b, const Position& c, const Position& d);
-  /// The same of a tet that has another number than that of the tets before it.
+  /// Adds a tet that has another number than that of the tets before it.
   void add(std::uint64_t tet, const std::array<Position, 4>& corners);
   /// Adds what another one has taken, whose tets have numbers of their own.
   void add(const QualityMeter& other);
-  /// Of all tets so far.
+  /// Sums up all tets so far.
   [[nodiscard]] QualityReport report() const;
 
  private:
@@ -57,7 +57,7 @@ class QualityMeter {
   double smallest_cosine_ = 2;  ///< of the bluntest
 };
 
-/// The same of the tets that a tile owns, by their numbers in the whole mesh.
+/// Measures the tets that a tile owns, by their numbers in the whole mesh.
 [[nodiscard]] QualityMeter tally_quality(const MeshTile& tile);
 
 /// P3.  An empty mesh gives zeros.  Flat tets count as radius ratio 0; faces without area are left

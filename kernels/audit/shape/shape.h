@@ -50,7 +50,7 @@ class ShapeMeter {
   void add_edge(const Position& p, const Position& q, const Wing& one, const Wing& other);
   /// Adds what another one has taken.
   void add(const ShapeMeter& other);
-  /// Of everything so far.
+  /// Returns the sums over everything so far.
   [[nodiscard]] ShapeReport report() const;
 
  private:
@@ -72,7 +72,7 @@ class ShapeMeter {
 /// Memory: 16 bytes a tet, 72 an interface triangle.  Deterministic.
 [[nodiscard]] ShapeReport measure_shape(const AuditMesh& mesh);
 
-/// The same of the triangles and edges that a tile owns.
+/// Measures the triangles and edges that a tile owns.
 [[nodiscard]] ShapeMeter measure_shape(const MeshStars& stars);
 
 }  // namespace mw::audit

@@ -43,8 +43,8 @@ struct VoxelCount {
   std::uint64_t faces = 0;
 };
 
-/// By label, of a box of voxels and the faces at its lower sides; labels outside of `box` are not
-/// looked at but for these faces.  loaded: where the voxels lie, box and what is below it.  Faces
+/// By label, of a box of voxels and the faces at its lower sides; labels outside of `box` are
+/// looked at only for these faces.  loaded: where the voxels lie, box and what is below it.  Faces
 /// are those of voxels cut into layers.  REQUIRES: labels < label_count.
 [[nodiscard]] std::vector<VoxelCount> count_voxels(const VoxelLabels& voxels, const Box3& loaded,
                                                    const Box3& box, std::size_t label_count,
@@ -85,7 +85,7 @@ struct VolumeTally {
   void add(const VolumeTally& other, std::span<const Label> labels);
 };
 
-/// Of the tets that a tile owns.  REQUIRES: as measure_volumes; frame: that of the layers.
+/// Measures the tets that a tile owns.  REQUIRES: as measure_volumes; frame: that of the layers.
 [[nodiscard]] VolumeTally tally_volumes(const MeshTile& tile, std::size_t label_count,
                                         const Frame& frame);
 
@@ -104,7 +104,7 @@ struct VolumeTally {
                                            const AuditMesh& mesh, const Frame& frame,
                                            Index3 layers = {1, 1, 1});
 
-/// The same solid as a volume, on a finer lattice.
+/// A volume as one solid with its voxels cut into layers, on a finer lattice.
 struct LayeredLabels {
   Index3 shape;
   std::vector<Label> labels;

@@ -41,9 +41,9 @@ struct RegionBetti {
 [[nodiscard]] std::vector<RegionBetti> voxel_betti(const VoxelLabels& volume,
                                                    std::size_t label_count);
 
-/// The same of a mesh.  Triangles with one tet bound the exterior, which is one cell.  Tets with a
-/// repeated vertex are left out.  Where the mesh is not a partition of a box (check_validity), the
-/// numbers are indicative only.
+/// Betti numbers of every label of a mesh.  Triangles with one tet bound the exterior, which is one
+/// cell.  Tets with a repeated vertex are left out.  Where the mesh is not a partition of a box
+/// (check_validity), the numbers are indicative only.
 /// REQUIRES: labels parallel to tets, vertex rows in range; at most 2^31 tets, 2^32 - 1 vertices.
 /// Errors: kInput when these fail.
 /// Cost: O(T) plus small sorts a vertex star, and the graph as above; 20 bytes a tet, 30 a vertex.

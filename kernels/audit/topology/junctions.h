@@ -24,10 +24,10 @@ using JunctionLabels = std::array<Label, kMaxLabelsOfJunction>;
 inline constexpr Label kNoLabel = 0xffffffffU;
 
 enum class JunctionKind : std::uint8_t {
-  /// Of two labels, the closure of the faces between them.
+  /// For two labels it is the closure of the faces between them.
   kInterface,
-  /// Of two to kMaxLabelsOfJunction labels, the points that all their closed regions share; for two
-  /// that is the interface and whatever edges and vertices they touch in besides.
+  /// For two to kMaxLabelsOfJunction labels, the points that all their closed regions share; for
+  /// two that is the interface and whatever edges and vertices they touch in besides.
   kMeeting,
 };
 
@@ -57,7 +57,7 @@ struct JunctionsPiece {
 /// bytes each and junction.  Deterministic.
 [[nodiscard]] JunctionsPiece voxel_junctions(const VoxelTile& tile, std::size_t label_count);
 
-/// The same of a mesh; see mesh_betti.
+/// Counts those of a mesh; see mesh_betti.
 [[nodiscard]] JunctionsPiece mesh_junctions(const MeshStars& stars, std::size_t label_count);
 
 /// A junction that differs; all zeros where it is absent.

@@ -55,7 +55,7 @@ class PartsUnion {
   /// label_count + 1 rows; the last is the exterior.  Nothing is united afterwards.
   [[nodiscard]] std::vector<RegionBetti> betti_of_volume();
   [[nodiscard]] std::vector<RegionBetti> betti_of_mesh();
-  /// Of all interfaces.  Nothing is united afterwards.
+  /// Returns those of all interfaces.  Nothing is united afterwards.
   [[nodiscard]] Cavities cavities();
 
  private:

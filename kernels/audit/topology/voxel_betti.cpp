@@ -160,7 +160,7 @@ class VoxelSweep {
 };
 
 /// Calls visit(SharedRun) for the voxels of a row (y, z, from the first voxel loaded) that other
-/// tiles load too: those of the tile's outer layers, but for the volume's.
+/// tiles load too: those of the tile's outer layers, except the volume's.
 class SharedRow {
  public:
   SharedRow(const VoxelTile& tile, const VoxelRuns& runs)

@@ -24,7 +24,7 @@ class LevelMap {
   LevelMap() = default;
   /// No cell is allowed yet.
   explicit LevelMap(Index3 volume);
-  /// The same of the cubes `held`: what is known of cells ends one cube inside of where they do,
+  /// Reads the cubes `held`: what is known of cells ends one cube inside of where they do,
   /// and at the volume's sides.
   LevelMap(Index3 volume, const Box3& held);
 
