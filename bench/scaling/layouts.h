@@ -9,7 +9,7 @@
 
 #include "bench/scaling/run_flow.h"
 #include "bench/scaling/trace_table.h"
-#include "engine/team/partition.h"
+#include "engine/team/blocks/partition.h"
 
 namespace mw::bench {
 

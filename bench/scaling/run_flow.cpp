@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "engine/team/block_route.h"
+#include "engine/team/blocks/block_route.h"
 
 namespace mw::bench {
 

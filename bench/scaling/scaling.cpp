@@ -10,8 +10,8 @@
 #include <map>
 #include <numeric>
 
+#include "bench/scaling/list_schedule.h"
 #include "bench/scaling/trace_table.h"
-#include "engine/march/list_schedule.h"
 #include "engine/march/wavefront.h"
 #include "kernels/core/error.h"
 
@@ -50,7 +50,7 @@ double predicted_seconds(const std::vector<MarchTrace>& marches, std::size_t cor
       job.look_ahead > 0 ? job.look_ahead : engine::default_look_ahead(cores);
   for (const MarchTrace& march : marches) {
     const WindowOrder windows = order_of(march.windows, job.order);
-    sum += engine::list_schedule(windows, by_rank(march, windows), cores, look_ahead);
+    sum += list_schedule(windows, by_rank(march, windows), cores, look_ahead);
   }
   return sum;
 }
@@ -60,8 +60,8 @@ void print_march(const MarchTrace& march, std::size_t number, const Job& job) {
   const double work = std::accumulate(march.seconds.begin(), march.seconds.end(), 0.0);
   const Index3 w = march.windows;
   std::cout << "| " << number << " | " << w.x << " x " << w.y << " x " << w.z << " | "
-            << order.steps() << " | " << work << " | "
-            << engine::longest_path(order, by_rank(march, order)) << " |\n";
+            << order.steps() << " | " << work << " | " << longest_path(order, by_rank(march, order))
+            << " |\n";
 }
 
 void print_prediction(const std::vector<MarchTrace>& marches, const Job& job) {

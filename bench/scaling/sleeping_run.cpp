@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "engine/march/flow_march.h"
-#include "engine/team/thread_exchange.h"
+#include "tests/engine/team/thread_exchange.h"
 
 namespace mw::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/scaling/run_flow.h"
-#include "engine/team/partition.h"
+#include "engine/team/blocks/partition.h"
 
 namespace mw::bench {
 

@@ -8,7 +8,7 @@
 #include "engine/api/guarded.h"
 #include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"
-#include "engine/system/machine_memory.h"
+#include "engine/system/memory.h"
 #include "io/file/scratch/scratch_file.h"
 #include "kernels/core/error.h"
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The commands; each is one file.  Their help is in help.cpp.
+// The commands, their help (help.cpp), and what is on the command line: command_line.cpp alone
+// knows the library that reads it.
 #pragma once
 
 #include "engine/cli/options/option_set.h"
@@ -31,5 +32,19 @@ struct Command {
 [[nodiscard]] Command picture_command();
 [[nodiscard]] Command digest_command();
 [[nodiscard]] Command synth_command();
+
+enum class Asked { kRun, kHelp, kHelpAll, kVersion };
+
+struct CommandLine {
+  Asked asked = Asked::kRun;
+  const Command* command = nullptr;          ///< empty: none was named
+  std::map<std::string, std::string> flags;  ///< as OptionSet::resolve() takes them
+};
+
+/// `help COMMAND` is `COMMAND --help`.  REQUIRES: commands outlive the result.
+/// ERRORS: mw::Error(kUsage) naming the unknown command or flag, which is often why something else
+///         is missing; else what is wrong.
+[[nodiscard]] CommandLine parse_command_line(const std::vector<Command>& commands,
+                                             std::vector<std::string> arguments);
 
 }  // namespace mw::cli

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // What is on the command line; this alone knows the library that reads it.
-#include "engine/cli/command_line.h"
+#include "engine/cli/command.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

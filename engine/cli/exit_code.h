@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The one place where errors become exit codes.
+// The one place where errors become exit codes, and the end where no exception can pass.
 #pragma once
 
 #include <functional>
@@ -23,5 +23,12 @@ inline constexpr int kExitInterrupted = 130;
 /// Runs action; any exception becomes "mwmesh: error: ..." on stderr, unless quiet, and its exit
 /// code.
 [[nodiscard]] int guarded(const std::function<int()>& action, bool quiet = false) noexcept;
+
+/// std::bad_alloc becomes an error in guarded().  It does not come that far from constructors of
+/// static objects and from functions of libraries that are noexcept though they allocate: the
+/// program then ends with the same message and exit code 4, instead of SIGABRT.  What it leaves is
+/// what a killed run leaves.
+/// Thread safety: once, before there are other threads.
+void end_well_without_memory();
 
 }  // namespace mw::cli

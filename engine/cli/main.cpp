@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The program mwmesh.
-#include "engine/cli/out_of_memory.h"
+#include "engine/cli/exit_code.h"
 #include "engine/cli/program.h"
 
 namespace {

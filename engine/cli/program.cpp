@@ -7,9 +7,9 @@
 #include <csignal>
 #include <iostream>
 
-#include "engine/cli/command_line.h"
+#include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/run_processes.h"
+#include "engine/cli/mesh/run_processes.h"
 
 namespace mw::cli {
 namespace {

@@ -3,11 +3,7 @@
 // What reports are made of, by the names that commands use.
 #pragma once
 
-#include "engine/report/json_rows.h"
 #include "engine/report/mesh_facts.h"
-#include "engine/report/name_facts.h"
-#include "engine/report/shape_facts.h"
-#include "engine/report/speck_facts.h"
 
 namespace mw::cli {
 

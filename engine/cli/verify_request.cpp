@@ -5,7 +5,7 @@
 
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
-#include "engine/system/machine_memory.h"
+#include "engine/system/memory.h"
 #include "kernels/audit/audit.h"
 #include "kernels/core/error.h"
 

@@ -7,7 +7,7 @@
 
 #include "engine/cli/options/volume_options.h"
 #include "engine/job/verify_job.h"
-#include "engine/output/label_choice.h"
+#include "engine/output/label_selection.h"
 
 namespace mw::cli {
 

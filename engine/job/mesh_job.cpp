@@ -4,17 +4,32 @@
 #include "engine/job/mesh_job.h"
 
 #include "engine/job/certificate.h"
-#include "engine/job/stoppable_volume.h"
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/settings/promises.h"
-#include "engine/system/resident_memory.h"
+#include "engine/system/memory.h"
 #include "engine/version.h"
+#include "io/volume/volume_view.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {
 namespace {
+
+/// Calls stop(), which may throw, before each read.
+class StoppableVolume : public io::VolumeView {
+ public:
+  StoppableVolume(const io::LabelVolume& volume, std::function<void()> stop)
+      : VolumeView(volume), stop_(std::move(stop)) {}
+
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    stop_();
+    below().read(box, out);
+  }
+
+ private:
+  std::function<void()> stop_;
+};
 
 /// What the marches are told beside what the job says.
 RunHooks run_hooks(const MeshJob& job, const io::LabelTable& table, const std::string& fingerprint,

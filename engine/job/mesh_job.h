@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "engine/output/label_choice.h"
+#include "engine/output/label_selection.h"
 #include "engine/report/run_report.h"
 #include "engine/run/run.h"
 #include "io/labels/prepared_input.h"

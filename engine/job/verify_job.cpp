@@ -8,7 +8,7 @@
 #include "engine/labels/label_scan.h"
 #include "engine/march/march.h"
 #include "engine/report/figures.h"
-#include "engine/report/name_facts.h"
+#include "engine/report/mesh_facts.h"
 #include "engine/settings/promises.h"
 #include "engine/verify/verify_mesh.h"
 #include "kernels/core/error.h"

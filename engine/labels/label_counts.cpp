@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/labels/tile_bricks.h"
+#include "engine/labels/reading_tiles.h"
 #include "engine/system/tbb_for.h"
 
 namespace mw::engine {

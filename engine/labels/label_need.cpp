@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "engine/labels/tile_bricks.h"
+#include "engine/labels/reading_tiles.h"
 #include "kernels/start/coarsen/coarsen.h"
 #include "kernels/start/graded_start.h"
 

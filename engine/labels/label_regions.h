@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Where each label of a volume is, and how much of it there is.
+// Where each label of a volume is, how much of it there is, and which labels touch.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "io/volume/label_volume.h"
@@ -19,5 +20,17 @@ struct LabelRegion {
 /// Memory: a tile (ReadingTiles), and some 150 bytes a label.
 /// ERRORS: what the volume throws.
 [[nodiscard]] std::vector<LabelRegion> label_regions(const io::LabelVolume& volume);
+
+/// Two labels, first < second as unsigned numbers.
+struct LabelContact {
+  RawLabel first = 0;
+  RawLabel second = 0;
+  std::array<std::uint64_t, 3> faces{};  ///< across x, y and z of the array
+};
+
+/// One pass over the volume.  Ascending by first, then second.
+/// Memory: a tile (ReadingTiles) and one voxel around it, and some 100 bytes a pair.
+/// ERRORS: what the volume throws.
+[[nodiscard]] std::vector<LabelContact> label_contacts(const io::LabelVolume& volume);
 
 }  // namespace mw::engine

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "engine/labels/reading_tiles.h"
-#include "engine/labels/tile_bricks.h"
 #include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
 #include "kernels/start/carrier_faces.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/march/arrivals.h"
-#include "engine/march/front.h"
 #include "engine/march/wavefront.h"
 #include "engine/march/window_order.h"
 

@@ -12,7 +12,7 @@
 #include <memory>
 #include <tuple>
 
-#include "engine/march/timed_visit.h"
+#include "engine/march/march.h"
 
 namespace mw::engine {
 namespace {

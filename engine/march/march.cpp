@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "engine/march/flow_march.h"
-#include "engine/march/timed_visit.h"
+#include "engine/system/stopwatch.h"
 #include "kernels/core/assert.h"
 
 namespace mw::engine {
@@ -28,6 +28,16 @@ void march_in_sequence(const WindowOrder& order, const VisitWindow& visit,
 }
 
 }  // namespace
+
+Visited timed_visit(const VisitWindow& visit, Index3 window, int slot) {
+  Visited out{.window = window, .start = {}, .end = {}, .slot = slot};
+  const double cpu_before = thread_cpu_seconds();
+  out.start = std::chrono::steady_clock::now();
+  visit(window);
+  out.end = std::chrono::steady_clock::now();
+  out.cpu_seconds = thread_cpu_seconds() - cpu_before;
+  return out;
+}
 
 void march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options) {
   if (thread_count(options.threads) == 1 && options.part == nullptr) {

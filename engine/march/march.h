@@ -74,4 +74,7 @@ void march_by_choice(const WindowOrder& order, const VisitWindow& visit, const P
 /// The number of threads that `threads` asks for: itself, or the number of cores for 0.
 [[nodiscard]] int thread_count(int threads);
 
+/// Visits the window and says when.  ERRORS: what visit throws.
+[[nodiscard]] Visited timed_visit(const VisitWindow& visit, Index3 window, int slot);
+
 }  // namespace mw::engine

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The program mwmesh-mpi: mwmesh mesh, shared by the processes that mpirun starts.
-#include "engine/cli/out_of_memory.h"
+#include "engine/cli/exit_code.h"
 #include "engine/cli/program.h"
 #include "engine/mpi/mpi_exchange.h"
 #include "engine/team/team_processes.h"

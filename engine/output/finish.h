@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/output/hold_memory.h"
 #include "engine/output/label_selection.h"
+#include "engine/output/remembered.h"
 #include "engine/window/window_grid.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/audit/shape/quality.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "engine/output/physical_position.h"
+#include "engine/output/written_block.h"
 
 namespace mw::engine {
 namespace {

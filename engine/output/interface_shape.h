@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/output/hold_memory.h"
 #include "engine/output/label_selection.h"
+#include "engine/output/remembered.h"
 #include "engine/output/vertex_rows.h"
 #include "io/volume/label_volume.h"
 #include "kernels/audit/shape/shape.h"

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Leaves labels out of what is written (--labels, --background).
+// Which labels a mesh holds (--labels, --background): the others are left out of what is written.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "io/labels/label_table.h"
@@ -28,5 +29,17 @@ class LabelSelection {
  private:
   std::vector<bool> wanted_;  ///< by dense label; empty: all
 };
+
+struct LabelChoice {
+  std::optional<std::vector<RawLabel>> labels;  ///< the only ones that are kept
+  std::optional<RawLabel> background;           ///< the one that is not
+};
+
+/// ERRORS: mw::Error(kUsage) when both are given.
+void check_choice(const LabelChoice& choice);
+
+/// Empty when all labels are kept.
+/// ERRORS: mw::Error(kUsage) for a label that the volume does not have, and when none is kept.
+[[nodiscard]] WantedLabel wanted_labels(const LabelChoice& choice, const io::LabelTable& table);
 
 }  // namespace mw::engine

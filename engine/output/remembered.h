@@ -4,11 +4,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <utility>
 
-#include "engine/output/hold_memory.h"
-
 namespace mw::engine {
+
+/// Told how many bytes are remembered, before that grows beyond what was last told; may throw.
+using HoldMemory = std::function<void(std::uint64_t bytes)>;
 
 /// Tells a budget in steps, so that it is not asked for each block.
 class Remembered {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/output/written_block.h"
 
-#include "engine/output/physical_position.h"
-
 namespace mw::engine {
 namespace {
 

@@ -1,18 +1,41 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What can be said of a mesh, and how reports say it.
+// What can be said of a mesh, its labels, volumes and distances, and how reports say it.
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
+#include "io/labels/despeckled_volume.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_data.h"
+#include "io/names/label_names.h"
+#include "kernels/audit/distance/distance.h"
 #include "kernels/audit/shape/quality.h"
+#include "kernels/audit/shape/shape.h"
+#include "kernels/audit/shape/volumes.h"
+#include "kernels/audit/subject.h"
 
 namespace mw::report {
+
+/// Stands for the rows as the value of the key "per_label": as JSON values they would take some 500
+/// bytes each, which no budget has set aside.
+inline constexpr const char* kRows = "@rows";
+
+using AppendText = std::function<void(std::string_view)>;
+using TakeRow = std::function<void(const io::Json&)>;
+
+/// Appends value, indented, and a line end; in place of kRows a list of what for_each_row() passes
+/// on. REQUIRES: value has kRows once, in an object of its outermost one.
+void append_with_rows(const io::Json& value,
+                      const std::function<void(const TakeRow&)>& for_each_row,
+                      const AppendText& append);
 
 /// "quality" of a report.
 [[nodiscard]] io::Json quality_json(const audit::QualityReport& quality);
@@ -25,5 +48,47 @@ void print_quality(const audit::QualityReport& quality);
 
 /// Writes the value, indented, and gives the file its name.
 void write_json(io::AtomicFile& file, const io::Json& value);
+
+/// `7`, or `7 "liver"`.
+[[nodiscard]] std::string label_text(RawLabel label, bool is_signed, const io::LabelNames& names);
+
+/// `label 7 "liver"` of a dense label, for audits.  REQUIRES: table outlives it.
+[[nodiscard]] audit::LabelText label_texts(const io::LabelTable& table, io::LabelNames names);
+
+/// {"label": 7, "name": "liver"}, the name where there is one: what a row about a label begins
+/// with.
+[[nodiscard]] io::Json named_row_json(RawLabel label, bool is_signed, const io::LabelNames& names);
+
+/// Adds "colour": [r, g, b, a], 0 to 255, where it is known.
+void add_colour(io::Json& row, RawLabel label, const io::LabelNames& names);
+
+/// "volume_error_..." and "labels_measured" of a report.
+[[nodiscard]] io::Json volume_summary_json(const audit::VolumeSummary& volumes,
+                                           const io::LabelTable& table);
+/// A row of its "per_label".
+[[nodiscard]] io::Json volume_row_json(const audit::VolumeRow& row, const io::LabelTable& table,
+                                       const io::LabelNames& names);
+/// Area and bends.
+[[nodiscard]] io::Json interfaces_json(const audit::ShapeReport& shape);
+
+/// A line each.
+void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table,
+                   const io::LabelNames& names);
+void print_interfaces(const audit::ShapeReport& shape);
+
+/// "distance" of a report, in voxels.  Infinite figures are null, and so is the label of tets whose
+/// label is not in the volume.
+[[nodiscard]] io::Json distance_json(const audit::DistanceReport& distance,
+                                     const io::LabelTable& table, const io::LabelNames& names);
+
+/// Distance in one plain line.
+void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table,
+                    const io::LabelNames& names);
+
+/// "specks" of a report; null when none were to be dropped.
+[[nodiscard]] io::Json specks_json(const std::optional<io::SpeckFacts>& specks);
+
+/// One line; nothing when none were to be dropped.
+void print_specks(const std::optional<io::SpeckFacts>& specks);
 
 }  // namespace mw::report

@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "engine/system/proc_file.h"
+#include "engine/system/memory.h"
 
 namespace mw::report {
 namespace {

@@ -8,8 +8,6 @@
 #include <algorithm>
 
 #include "engine/report/mesh_facts.h"
-#include "engine/report/shape_facts.h"
-#include "engine/report/speck_facts.h"
 #include "engine/report/verify_report.h"
 
 namespace mw::report {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "engine/report/json_rows.h"
+#include "engine/report/mesh_facts.h"
 #include "engine/report/resource_meter.h"
 #include "engine/run/run.h"
 #include "io/file/sink/atomic_file.h"

@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "engine/report/distance_facts.h"
 #include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
-#include "engine/report/name_facts.h"
-#include "engine/report/shape_facts.h"
-#include "engine/report/speck_facts.h"
 #include "engine/settings/number_text.h"
 
 namespace mw::report {

@@ -4,8 +4,8 @@
 
 #include <atomic>
 
-#include "engine/march/timed_visit.h"
-#include "engine/system/resident_memory.h"
+#include "engine/march/march.h"
+#include "engine/system/memory.h"
 #include "engine/window/window_memory.h"
 
 namespace mw::engine {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of one process: all windows, labels and blocks are here, and nobody has to be told.
 #include "engine/labels/label_scan.h"
-#include "engine/run/label_readers.h"
 #include "engine/run/processes.h"
 #include "engine/run/run.h"
-#include "engine/store/workdir.h"
+#include "engine/run/run_context.h"
+#include "engine/store/journal/workdir.h"
 
 namespace mw::engine {
 namespace {

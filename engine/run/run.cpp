@@ -7,11 +7,10 @@
 
 #include "engine/forecast/run_forecast.h"
 #include "engine/labels/prepared_labels.h"
-#include "engine/run/label_readers.h"
 #include "engine/run/marches.h"
 #include "engine/run/run_context.h"
-#include "engine/store/damaged_work.h"
-#include "engine/system/resident_memory.h"
+#include "engine/store/journal/work_file.h"
+#include "engine/system/memory.h"
 #include "engine/system/stopwatch.h"
 #include "engine/system/tbb_for.h"
 #include "engine/window/inner_quality.h"

@@ -11,7 +11,7 @@
 #include "engine/output/finish.h"
 #include "engine/run/processes.h"
 #include "engine/settings/settings.h"
-#include "engine/store/store_options.h"
+#include "engine/store/run_store.h"
 #include "engine/window/window_visitor.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"

@@ -3,10 +3,26 @@
 // What the steps of a run work on and with.
 #pragma once
 
+#include "engine/labels/label_need.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/run/run.h"
+#include "engine/store/run_store.h"
 
 namespace mw::engine {
+
+/// What prepared labels hold.  need: null: the labels of the whole volume.
+[[nodiscard]] std::uint64_t prepared_bytes(const io::DenseVolume& volume,
+                                           const MeshSettings& settings, const LabelNeed* need);
+
+/// Threads that read labels, and what these hold meanwhile, beside what the volume keeps of its
+/// file: so many that this stays below a quarter of the budget.
+struct LabelReaders {
+  LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings, const RunHooks& hooks,
+               RunStore& store);
+
+  int threads = 1;
+  MemoryBudget::Reservation scratch;
+};
 
 /// Everything that lives from before the first label is read until the mesh is written.
 /// The arguments outlive it.  Labels and marches belong to the steps that make

@@ -8,7 +8,7 @@
 
 #include "engine/march/window_order.h"
 #include "engine/settings/settings.h"
-#include "engine/store/block_codec.h"
+#include "engine/store/codec/block_codec.h"
 #include "engine/window/window_grid.h"
 
 namespace mw::engine {

@@ -5,11 +5,15 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <string>
 
-#include "engine/store/block_table.h"
-#include "engine/store/journal.h"
+#include "engine/store/journal/journal.h"
+#include "engine/store/memory_budget.h"
+#include "engine/store/table/block_table.h"
 #include "engine/window/block_store.h"
 
 namespace mw::engine {
@@ -163,6 +167,18 @@ class RunStore {
   std::atomic<bool> broken_ = false;  ///< a group could not be written; no other may follow
   std::uint64_t resumed_windows_ = 0;
   mutable std::atomic<std::uint64_t> bytes_read_ = 0;
+};
+
+struct StoreOptions {
+  std::uint64_t memory = MemoryBudget::kUnlimited;  ///< bytes, for the whole process
+  std::filesystem::path workdir;                    ///< empty: everything stays in memory
+  bool resume = false;                              ///< go on from what workdir holds
+  /// What else a run must have in common with the one that it goes on from: lines "name = value".
+  /// The engine adds shape, spacing and settings.
+  std::string identity;
+  GroupCommit group;
+  /// Called when a run that ends early leaves work in the folder.
+  std::function<void()> kept;
 };
 
 }  // namespace mw::engine

@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "engine/team/plain_bytes.h"
 #include "kernels/core/assert.h"
 
 namespace mw::engine {

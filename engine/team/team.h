@@ -4,11 +4,15 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
+#include <cstring>
 #include <exception>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "engine/team/exchange.h"
 #include "kernels/core/error.h"
@@ -100,5 +104,21 @@ class Team {
   std::mutex listening_;  ///< guards the next line; never taken inside mutex_
   Listener listener_;
 };
+
+template <typename T>
+[[nodiscard]] std::vector<std::byte> bytes_of(const T* first, std::size_t count) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<std::byte> out(count * sizeof(T));
+  if (count > 0) std::memcpy(out.data(), first, out.size());
+  return out;
+}
+
+template <typename T>
+[[nodiscard]] std::vector<T> list_of(const std::vector<std::byte>& bytes) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<T> out(bytes.size() / sizeof(T));
+  if (!out.empty()) std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
+  return out;
+}
 
 }  // namespace mw::engine

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "engine/forecast/run_work.h"
-#include "engine/team/plain_bytes.h"
+#include "engine/team/team.h"
 #include "io/file/errors.h"
 
 namespace mw::engine {

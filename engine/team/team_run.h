@@ -6,7 +6,7 @@
 #include "engine/labels/boundary_faces.h"
 #include "engine/run/processes.h"
 #include "engine/settings/settings.h"
-#include "engine/team/block_traffic.h"
+#include "engine/team/blocks/block_traffic.h"
 
 namespace mw::engine {
 

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "engine/verify/in_order.h"
-#include "engine/verify/region_links.h"
+#include "engine/verify/part_links.h"
 #include "kernels/audit/partition/orientation.h"
 #include "kernels/audit/partition/overlap.h"
 #include "kernels/audit/shape/volumes.h"

@@ -6,7 +6,7 @@
 #include "engine/verify/junction_ledger.h"
 #include "engine/verify/mesh_tiles.h"
 #include "engine/verify/piece_buckets.h"
-#include "engine/verify/verify_task.h"
+#include "engine/verify/verify_mesh.h"
 
 namespace mw::engine {
 

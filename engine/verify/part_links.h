@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which parts of different tiles are one: the same tets or voxels are in both.
+// Which parts of different tiles are one, as the same tets or voxels are in both; Betti numbers of
+// a mesh with gaps, put together from its tiles.
 #pragma once
 
 #include <vector>
 
 #include "io/file/scratch/external_sort.h"
+#include "kernels/audit/regions/regions.h"
+
 namespace mw::engine {
 
 /// Items (tets, voxels) by number, in runs, each in a part of a tile.
@@ -39,6 +42,45 @@ class PartLinks {
   };
 
   io::ExternalSort<3> runs_;
+};
+
+/// Memory: `memory_bytes`, and see audit::RegionsUnion.  ERRORS: see io::ScratchFile.
+class RegionLinks {
+ public:
+  RegionLinks(std::size_t label_count, const std::filesystem::path& folder,
+              std::size_t memory_bytes)
+      : regions_(label_count),
+        links_(folder, memory_bytes / 2),
+        meetings_(folder, memory_bytes / 2) {}
+
+  /// Labels are those of the whole.
+  void add(const audit::RegionsPiece& piece) {
+    const std::uint32_t first = regions_.add(piece);
+    for (const auto& [item, set] : piece.shared) links_.add(item, 1, first + set);
+    for (const auto& [vertex, part, inner] : piece.meetings) {
+      meetings_.add({vertex, first + part, first + inner});
+    }
+  }
+
+  /// By label.  REQUIRES: called once, after all tiles.
+  [[nodiscard]] std::vector<audit::RegionBetti> betti() {
+    links_.unite(regions_);
+    std::vector<audit::RegionsPiece::Meeting> here;  // at one vertex
+    meetings_.each([&](const std::array<std::uint64_t, 3>& m) {
+      if (!here.empty() && here.front().vertex != m[0]) {
+        regions_.meet(here);
+        here.clear();
+      }
+      here.push_back({m[0], static_cast<std::uint32_t>(m[1]), static_cast<std::uint32_t>(m[2])});
+    });
+    regions_.meet(here);
+    return regions_.betti();
+  }
+
+ private:
+  audit::RegionsUnion regions_;
+  PartLinks links_;
+  io::ExternalSort<3> meetings_;
 };
 
 }  // namespace mw::engine

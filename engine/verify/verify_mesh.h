@@ -3,10 +3,23 @@
 // Promises P1 to P4 and P8 of a mesh of any size, on many threads (`mwmesh verify`).
 #pragma once
 
+#include <filesystem>
+#include <functional>
+
 #include "engine/verify/mesh_tiles.h"
-#include "engine/verify/verify_task.h"
+#include "kernels/audit/audit.h"
 
 namespace mw::engine {
+
+struct VerifyTask {
+  audit::AuditOptions options;
+  int threads = 1;
+  /// What tiles, sorts and buffers may take together.  More is taken where a tile with its
+  /// interfaces needs more, and for parts of labels (verify_mesh()).
+  std::uint64_t memory_bytes = std::uint64_t{256} << 20U;
+  std::filesystem::path folder;           ///< of temporary files
+  std::function<void()> between = [] {};  ///< called after each tile; may throw
+};
 
 /// A tile of the mesh, then a tile of the volume with what is near it, is all that a thread has in
 /// memory.

@@ -5,7 +5,7 @@
 
 #include "engine/verify/junction_ledger.h"
 #include "engine/verify/piece_buckets.h"
-#include "engine/verify/verify_task.h"
+#include "engine/verify/verify_mesh.h"
 #include "io/labels/label_table.h"
 
 namespace mw::engine {

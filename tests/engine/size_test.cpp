@@ -7,7 +7,7 @@
 #include <set>
 
 #include "engine/labels/voxel_lattice.h"
-#include "engine/store/run_identity.h"
+#include "engine/store/journal/workdir.h"
 #include "kernels/audit/partition/validity.h"
 #include "kernels/audit/shape/quality.h"
 #include "kernels/audit/topology/betti.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Values of options, and config files.
-#include "engine/cli/mesh_request.h"
+#include "engine/cli/mesh/mesh_request.h"
 #include "engine/cli/options/option_set.h"
 #include "engine/cli/options/option_text.h"
 #include "engine/cli/options/values.h"

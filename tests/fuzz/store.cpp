@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "engine/store/journal.h"
+#include "engine/store/journal/journal.h"
 #include "tests/engine/store/random_blocks.h"
 #include "tests/engine/store/volatile_files.h"
 #include "tests/fuzz/all_targets.h"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "engine/labels/label_contacts.h"
 #include "engine/labels/label_regions.h"
 
 namespace mw::cli {

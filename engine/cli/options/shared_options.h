@@ -9,7 +9,7 @@
 #include <string>
 
 #include "engine/cli/options/option_set.h"
-#include "engine/output/label_choice.h"
+#include "engine/output/label_selection.h"
 #include "engine/settings/settings.h"
 #include "io/names/label_names.h"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/scaling/layouts.h"
-#include "engine/team/block_route.h"
+#include "engine/team/blocks/block_route.h"
 
 namespace mw::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "bench/scaling/layouts.h"
-#include "engine/march/list_schedule.h"
-#include "engine/team/block_traffic.h"
+#include "bench/scaling/list_schedule.h"
+#include "engine/team/blocks/block_traffic.h"
 
 namespace mw::bench {
 namespace {
@@ -71,7 +71,7 @@ TEST(TeamSchedule, OneRankIsTheListScheduleOfEachMarch) {
         for (std::uint32_t m = 0; m < 2; ++m) {
           const auto of_march = std::span(seconds).subspan(
               flow.first(m), std::size_t{flow.first(m + 1)} - flow.first(m));
-          expected += engine::list_schedule(flow.layout().order(m), of_march, cores, ahead);
+          expected += list_schedule(flow.layout().order(m), of_march, cores, ahead);
         }
         const Machines machines{.cores = cores, .look_ahead = ahead};
         EXPECT_EQ(team_schedule(flow, seconds, all, machines).seconds, expected)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // What a user sees of a run on a terminal, and what is not shown.
-#include "engine/cli/progress.h"
+#include "engine/cli/mesh/progress.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Contacts of labels against a plain loop over the array.
-#include "engine/labels/label_contacts.h"
+#include "engine/labels/label_regions.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Promise 6, of what processes tell one another before they write a mesh together: no more than is
 // set aside for it.
-#include "engine/team/part_rows.h"
+#include "engine/team/output/part_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/output/longest_edges.h"
+#include "engine/output/block_figures.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <set>
 
-#include "engine/store/run_identity.h"
+#include "engine/store/journal/workdir.h"
 #include "tests/engine/settings/setting_samples.h"
 
 namespace mw::engine {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Blocks come back from bytes bit by bit, and damaged bytes are refused.
-#include "engine/store/block_codec.h"
+#include "engine/store/codec/block_codec.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // What leaves memory first, and what of the file may be used again when.
-#include "engine/store/block_table.h"
+#include "engine/store/table/block_table.h"
 
 #include <gtest/gtest.h>
 

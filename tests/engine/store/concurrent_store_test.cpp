@@ -5,7 +5,7 @@
 #include <set>
 #include <thread>
 
-#include "engine/store/workdir.h"
+#include "engine/store/journal/workdir.h"
 #include "kernels/core/error.h"
 #include "tests/engine/store/fake_run.h"
 #include "tests/engine/store/work_folder.h"

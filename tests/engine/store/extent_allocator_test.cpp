@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Extents never share a sector, and what is released comes back whole.
-#include "engine/store/extent_allocator.h"
+#include "engine/store/table/extent_allocator.h"
 
 #include <gtest/gtest.h>
 

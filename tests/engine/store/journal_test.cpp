@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Whole records come back, and the first that is not whole ends the journal.
-#include "engine/store/journal.h"
+#include "engine/store/journal/journal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Bytes on disk through mappings: they come back, full disks are errors, nothing stays mapped.
-#include "engine/store/mapped_file.h"
+#include "engine/store/journal/mapped_file.h"
 
 #include <signal.h>
 #include <sys/resource.h>

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "engine/store/block_codec.h"
+#include "engine/store/codec/block_codec.h"
 #include "io/file/byte_order.h"
 #include "io/file/checksum.h"
 

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // What of a volume makes another run of it; the settings are in setting_table_test.cpp.
-#include "engine/store/run_identity.h"
+#include "engine/store/journal/workdir.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <sstream>
-
-#include "engine/store/workdir.h"
 
 namespace mw::engine {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/store/work_file.h"
+#include "engine/store/journal/work_file.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine::test {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The work folder is one run's at a time, and saved work is neither lost nor mixed up.
-#include "engine/store/workdir.h"
+#include "engine/store/journal/workdir.h"
 
 #include <algorithm>
 #include <fstream>
 
-#include "engine/store/journal.h"
+#include "engine/store/journal/journal.h"
 #include "kernels/core/error.h"
 #include "tests/engine/store/work_folder.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The budget when none is given.
-#include "engine/system/machine_memory.h"
+#include "engine/system/memory.h"
 
 #include <gtest/gtest.h>
 

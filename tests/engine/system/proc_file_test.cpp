@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Amounts in files of /proc.
-#include "engine/system/proc_file.h"
+#include "engine/system/memory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The flow of blocks against the order of windows, and both of its directions against each other.
-#include "engine/team/block_route.h"
+#include "engine/team/blocks/block_route.h"
 
 #include <gtest/gtest.h>
 

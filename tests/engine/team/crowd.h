@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "engine/team/team.h"
-#include "engine/team/thread_exchange.h"
+#include "tests/engine/team/thread_exchange.h"
 
 namespace mw::engine::test {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Budget of blocks that are on their way here.
-#include "engine/team/incoming_rooms.h"
+#include "engine/team/blocks/incoming_rooms.h"
 
 #include <gtest/gtest.h>
 

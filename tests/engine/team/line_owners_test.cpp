@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Final blocks stay where they were visited last.
-#include "engine/team/line_owners.h"
+#include "engine/team/output/line_share.h"
 
 #include <gtest/gtest.h>
 

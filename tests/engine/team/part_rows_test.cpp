@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Rows that several processes find out together are those of VertexRows, which knows all blocks.
-#include "engine/team/part_rows.h"
+#include "engine/team/output/part_rows.h"
 
 #include <gtest/gtest.h>
 

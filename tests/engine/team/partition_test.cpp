@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/team/partition.h"
+#include "engine/team/blocks/partition.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The first pass by several processes finds what one finds, errors included.
-#include "engine/team/shared_scan.h"
+#include "engine/team/team_labels.h"
 
 #include <gtest/gtest.h>
 

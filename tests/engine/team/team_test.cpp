@@ -10,8 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "engine/team/folded_lists.h"
-#include "engine/team/swapped_lists.h"
+#include "engine/team/shared_lists.h"
 #include "tests/engine/team/crowd.h"
 
 namespace mw::engine {

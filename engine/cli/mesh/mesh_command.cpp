@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// mwmesh mesh: a labelled volume to a mesh.
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+
+#include "engine/cli/command.h"
+#include "engine/cli/exit_code.h"
+#include "engine/cli/interrupt.h"
+#include "engine/cli/mesh/mesh_request.h"
+#include "engine/cli/mesh/mesh_summary.h"
+#include "engine/cli/mesh/progress.h"
+#include "engine/cli/mesh/run_processes.h"
+#include "engine/cli/options/values.h"
+#include "engine/cli/page/run_page.h"
+#include "engine/report/run_report.h"
+#include "engine/settings/promises.h"
+#include "engine/settings/size_text.h"
+#include "engine/system/crew.h"
+#include "engine/system/memory.h"
+#include "io/mesh/digest.h"
+#include "io/mesh/grouped/grouped_sink.h"
+#include "io/mesh/open_mesh.h"
+#include "io/mesh/tee_sink.h"
+
+namespace mw::cli {
+namespace {
+
+/// What the digest may sort in: a small part of the budget.
+std::size_t digest_memory(std::uint64_t budget) {
+  constexpr std::uint64_t kMin = 1 << 18;
+  return std::clamp<std::uint64_t>(budget / 64, kMin, io::DigestSink::kMemoryBytes);
+}
+
+/// The sink of a process that writes nothing through it.
+class NoSink : public io::MeshSink {
+ public:
+  void begin(const io::MeshHeader& /*header*/) override {}
+  void write_vertices(std::span<const io::Position> /*positions*/) override {}
+  void write_tets(std::span<const io::TetRows> /*tets*/,
+                  std::span<const RawLabel> /*labels*/) override {}
+  void finish() override {}
+};
+
+/// Whether this process leaves the mesh to another one, or to all of them.
+bool has_no_sink(const SharedOutput& shared) {
+  return !run_processes().speaks() || shared.mesh != nullptr;
+}
+
+std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const SharedOutput& shared) {
+  if (has_no_sink(shared)) return std::make_unique<NoSink>();
+  return io::open_mesh_sink(request.output, request.element,
+                            request.ascii ? io::Encoding::kText : io::Encoding::kUsual);
+}
+
+/// The files of a run, created before any work so that a bad path fails at once.
+struct MeshFiles {
+  MeshFiles(const MeshRequest& request, SharedOutput shared_output)
+      : shared(std::move(shared_output)), sink(open_sink(request, shared)) {
+    if (!request.trace.empty()) trace.emplace(request.trace);
+    if (!request.html.empty()) html.emplace(request.html);
+    if (!request.report.empty()) report.emplace(request.report);
+    if (has_no_sink(shared)) return;
+    counted.emplace(*sink, tets);
+    if (!request.job.is_measured) return;
+    digest.emplace(request.output.parent_path(), digest_memory(request.job.run.store.memory));
+    both.emplace(*counted, *digest);
+    if (!html) return;
+    grouped.emplace(request.output.parent_path(), nullptr);
+    three.emplace(*both, *grouped);
+  }
+
+  /// Where the mesh goes.
+  [[nodiscard]] io::MeshSink& all() {
+    if (three) return *three;
+    if (both) return *both;
+    return counted ? static_cast<io::MeshSink&>(*counted) : *sink;
+  }
+
+  SharedOutput shared;
+  std::unique_ptr<io::MeshSink> sink;
+  LabelTets tets;
+  std::optional<io::TeeSink> counted;
+  std::optional<io::AtomicFile> report;
+  std::optional<io::AtomicFile> html;
+  std::optional<io::DigestSink> digest;  ///< for report and page; it waits beside the output
+  std::optional<io::TeeSink> both;
+  std::optional<io::GroupedSink> grouped;  ///< for the page, the same
+  std::optional<io::TeeSink> three;
+  std::optional<TraceFile> trace;
+};
+
+/// Says where the work is when a run that ends early leaves some.
+report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume& volume,
+                              MeshFiles& files) {
+  Progress progress(request.progress);
+  std::string work;
+  engine::MeshJob job = request.job;
+  job.stop = stop_if_interrupted;
+  job.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
+  engine::RunHooks& run = job.run;
+  run.together = files.shared.mesh.get();
+  run.stop_after_save = is_save_requested;
+  run.progress = [&](const engine::RunProgress& at) { progress.show(at); };
+  if (files.trace) run.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
+  run.store.kept = [&] {
+    work = "the work so far is in " + run.store.workdir.string() + ", add --resume to go on";
+  };
+  try {
+    return engine::mesh(volume, job, files.all());
+  } catch (const Interrupted&) {
+    throw Interrupted{work};
+  } catch (const engine::StoppedAfterSave&) {
+    throw Interrupted{work};
+  }
+}
+
+/// Says who wrote the mesh, where that could be several processes.
+void print_writers(const SharedOutput& shared) {
+  if (!runs_are_divided()) return;
+  std::cout << "written by  ";
+  if (shared.mesh != nullptr) {
+    std::cout << "all " << run_processes().count() << " processes\n";
+  } else {
+    std::cout << "rank 0: " << shared.why_alone << "\n";
+  }
+}
+
+/// Who did what, also where no report is written.
+void log_processes(const engine::RunReport& run) {
+  for (std::size_t rank = 0; rank < run.processes.size(); ++rank) {
+    const engine::ProcessFacts& facts = run.processes[rank];
+    const auto output = static_cast<std::size_t>(engine::Purpose::kOutput);
+    spdlog::info("rank {}: {} windows, {} blocks sent, at most {} accounted, {} to write", rank,
+                 facts.windows, facts.blocks_sent, format_bytes(facts.peak_accounted_bytes),
+                 format_bytes(facts.peak_bytes_by_purpose[output]));
+  }
+}
+
+void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
+  if (!request.job.run.store.resume) return;
+  if (facts.resumed_windows == 0) {
+    spdlog::warn("{}: no saved work to resume, started from the beginning",
+                 request.job.run.store.workdir.string());
+  } else {
+    spdlog::info("{} windows were done before", facts.resumed_windows);
+  }
+}
+
+/// As many of the threads asked for as the system gives.
+int threads_at_hand(int asked) {
+  engine::save_address_space();
+  const int wanted = engine::thread_count(asked);
+  const int given = engine::Crew(wanted).size();
+  if (given < wanted) {
+    spdlog::warn(
+        "the system gives {} of {} threads; the mesh is the same, later. Raise the limit of "
+        "processes (ulimit -u) or of address space (ulimit -v), or give --threads {}",
+        given, wanted, given);
+  }
+  return given;
+}
+
+/// Whoever is told that the page is missing is told, too, that nothing else is.
+void write_page(const MeshRequest& request, const report::FinishedRun& run, MeshFiles& files,
+                io::Json settings) {
+  try {
+    write_run_page(*files.html, run, files.grouped->mesh(),
+                   report::run_report(run, request.output, std::move(settings)));
+  } catch (const Error& error) {
+    throw Error(error.kind(), std::string(error.what()) + "; the page alone is missing: " +
+                                  request.output.string() + " is complete" +
+                                  (request.report.empty() ? "" : ", and so is the report"));
+  }
+  std::cout << "page        " << request.html.string() << std::endl;
+}
+
+int mesh(const MeshRequest& request, const OptionSet& options) {
+  watch_interrupts();
+  if (runs_are_divided()) watch_save_requests();
+  // Refused before any file is opened.
+  const bool is_certified = engine::plan_certificate(request.job).why_not.empty();
+  const std::string why = engine::why_no_volumes(engine::promises_of(request.job.settings));
+  if (!why.empty()) spdlog::warn("{}: the volumes of labels are not promised (P8)", why);
+  const report::ResourceMeter meter;
+  MeshFiles files(request, open_shared_output(request, is_certified));
+  spdlog::info("reading {}", request.volume.path.string());
+  const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
+  report::FinishedRun run = mesh_into(request, *volume, files);
+  if (files.trace) files.trace->finish();
+  if (!run_processes().speaks()) return kExitDone;
+  tell_resume(request, run.engine.store);
+  run.resources = meter.read();
+  print_summary(run, request, files.tets);
+  print_writers(files.shared);
+  std::cout << "file        " << request.output.string() << std::endl;
+  log_processes(run.engine);
+  if (files.digest) {
+    engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
+    run.digest = files.digest->digest();
+    run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
+  }
+  if (files.report) report::write_run_report(*files.report, run, request.output, options.json());
+  if (files.html) write_page(request, run, files, options.json());
+  return kExitDone;
+}
+
+int run_mesh(MeshRequest& request, const OptionSet& options) {
+  for (std::string& file : engine::size_tables(options.text("size"))) {
+    request.size_tables.push_back(std::move(file));
+  }
+  check_mesh_request(request);
+  start_log(run_processes().speaks() ? request.log_level : "off");
+  take_part(request);
+  int& threads = request.job.run.threads;
+  threads = threads_at_hand(threads);
+  return mesh(request, options);
+}
+
+}  // namespace
+
+Command mesh_command() {
+  const auto request = std::make_shared<MeshRequest>();
+  Command command{
+      .name = "mesh",
+      .about = "meshes a labelled volume",
+      .options = {},
+      .run = [request](const OptionSet& options) { return run_mesh(*request, options); },
+      .note = volume_note() + "OUTPUT: " + io::mesh_extensions() + ".\n",
+      .names = [request] { return names_of(request->volume); }};
+  add_mesh_options(command.options, *request);
+  return command;
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The options of `mwmesh mesh`.
+#include "engine/cli/mesh/mesh_request.h"
+
+#include <algorithm>
+
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
+#include "engine/codt/worker_pool.h"
+#include "engine/settings/size_text.h"
+#include "engine/system/memory.h"
+#include "io/mesh/open_mesh.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+std::chrono::milliseconds parse_delay(const std::string& text) {
+  constexpr double kMaxSeconds = 1e6;
+  const double seconds = parse_number(text);
+  if (seconds < 0 || seconds > kMaxSeconds) {
+    throw Error(ErrorKind::kUsage, "expected seconds from 0 to 1000000");
+  }
+  return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
+}
+
+Certify parse_certify(const std::string& text) {
+  if (text == "auto") return Certify::kAuto;
+  return text == "on" ? Certify::kOn : Certify::kOff;
+}
+
+/// The older name of --size @FILE, which may be given beside --size.
+void add_size_file_option(OptionSet& options, MeshRequest& request) {
+  options.add(
+      {.name = "size-file", .listed = Listed::kNowhere, .assign = [&](const std::string& text) {
+         std::vector<engine::LabelSize>& sizes = request.job.settings.sizes.labels;
+         const std::string before = engine::format_sizes(sizes);
+         sizes = engine::parse_sizes((before.empty() ? "@" : before + ",@") + text);
+         request.size_tables.push_back(text);
+       }});
+}
+
+void add_run_options(OptionSet& options, MeshRequest& request) {
+  add_resource_options(options, request.job.run.threads, request.memory, "bound for the process");
+  options.add({.name = "resume",
+               .help = "go on from the work of a run that was killed or interrupted",
+               .group = kRunGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .assign = into(request.job.run.store.resume)});
+  options.add({.name = "workdir",
+               .value = "DIR",
+               .help = "work that memory does not hold, removed after success [OUTPUT.work]",
+               .group = kRunGroup,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.job.run.store.workdir)});
+  options.add({.name = "save-every",
+               .value = "SECONDS",
+               .help = "finished work is durable after that; a kill loses the rest",
+               .group = kRunGroup,
+               .kind = ValueKind::kNumber,
+               .fallback = "10",
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.job.run.store.group.age, parse_delay)});
+  options.add({.name = "progress",
+               .help = "auto: a bar on a terminal; jsonl: lines on stderr",
+               .group = kRunGroup,
+               .fallback = "auto",
+               .choices = {"auto", "none", "jsonl"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.progress, parse_progress)});
+  options.add({.name = "log-level",
+               .value = "LEVEL",
+               .help = "debug, info, warn, error or off",
+               .group = kRunGroup,
+               .fallback = "warn",
+               .choices = {"debug", "info", "warn", "error", "off"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.log_level)});
+  options.add({.name = "trace",
+               .value = "FILE.csv",
+               .help = "writes when each window was worked on, and by which thread",
+               .group = kRunGroup,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.trace)});
+  options.add({.name = "config",
+               .value = "FILE.toml",
+               .help = "a key for each option, '-' as '_'; MW_NAME and flags are stronger",
+               .group = kRunGroup,
+               .only_flag = true});
+  options.add({.name = "print-config",
+               .help = "prints the effective config and exits",
+               .group = kRunGroup,
+               .kind = ValueKind::kSwitch,
+               .listed = Listed::kInHelpAll,
+               .only_flag = true});
+}
+
+void add_output_options(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "output",
+               .value = "OUTPUT",
+               .help = "mesh to write; its extension says the format",
+               .group = kOutputGroup,
+               .flags = "-o,--output",
+               .required = true,
+               .assign = into(request.output)});
+  options.add({.name = "element",
+               .help = "nodes of a tet; tet10: with the middles of edges",
+               .group = kOutputGroup,
+               .fallback = "tet4",
+               .choices = {"tet4", "tet10"},
+               .assign = into(request.element, parse_element)});
+  options.add({.name = "report",
+               .value = "FILE.json",
+               .help = "writes figures of the run and of the finished mesh",
+               .group = kOutputGroup,
+               .assign = into(request.report)});
+  options.add({.name = "html",
+               .value = "FILE.html",
+               .help = "writes a page to look at: figures, charts, surfaces to turn",
+               .group = kOutputGroup,
+               .assign = into(request.html)});
+  options.add({.name = "certify",
+               .help = "mesh passes P1 to P4 or exit code 5; auto: where cheap",
+               .group = kOutputGroup,
+               .fallback = "auto",
+               .choices = {"auto", "on", "off"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.job.certify, parse_certify)});
+  options.add({.name = "ascii",
+               .help = "a .msh as text instead of binary",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.ascii)});
+  options.add({.name = "force",
+               .help = "replaces an OUTPUT that is no mesh of this program",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.force)});
+}
+
+/// The page is drawn when the mesh is written, in what it leaves of the budget.
+void require_memory_for_page(const MeshRequest& request) {
+  constexpr std::uint64_t kMin = 192 << 20;
+  if (request.html.empty() || request.job.run.store.memory >= kMin) return;
+  throw Error(ErrorKind::kUsage, "--html: needs --memory 192MiB or more");
+}
+
+void check_sizes(const engine::MeshSettings& settings) {
+  const engine::SizeSettings& sizes = settings.sizes;
+  if (sizes.labels.empty() && sizes.gradation != engine::SizeSettings{}.gradation) {
+    throw Error(ErrorKind::kUsage, "--gradation: there is nothing to grade, give --size as well");
+  }
+  const bool sized = !sizes.labels.empty() || sizes.inner_vertices;
+  if (!sized || settings.optimizer != engine::Optimizer::kTetgen) return;
+  throw Error(ErrorKind::kUsage,
+              "--optimizer tetgen keeps no sizes or inner vertices: leave out --size and "
+              "--inner-vertices, or set --optimizer local");
+}
+
+/// What follows from other values.
+void settle_job(MeshRequest& request) {
+  engine::MeshJob& job = request.job;
+  engine::StoreOptions& store = job.run.store;
+  if (store.workdir.empty()) store.workdir = request.output.string() + ".work";
+  store.memory = request.memory ? *request.memory : engine::default_memory_budget();
+  request.volume.cache_bytes = cache_bytes(store.memory);
+  job.steps = request.volume.steps;
+  job.folder = request.output.parent_path();
+  job.is_measured = !request.report.empty() || !request.html.empty();
+  job.run.owns_process = true;
+}
+
+}  // namespace
+
+void add_mesh_options(OptionSet& options, MeshRequest& request) {
+  add_input_option(options, request.volume.path);
+  add_volume_options(options, request.volume);
+  add_choice_options(options, request.job.choice);
+  add_step_options(options, request.volume);
+  add_setting_options(options, request.job.settings);
+  add_size_file_option(options, request);
+  add_run_options(options, request);
+  add_output_options(options, request);
+}
+
+void check_mesh_request(MeshRequest& request) {
+  settle_job(request);
+  (void)open_options(request.volume);
+  engine::check_choice(request.job.choice);
+  require_paths_apart(request);
+  if (!request.force) require_own_output(request.output);
+  require_memory_for_page(request);
+  engine::check(request.job.settings);
+  check_sizes(request.job.settings);
+  if (request.job.settings.optimizer == engine::Optimizer::kTetgen)
+    (void)engine::codt::find_worker();
+}
+
+}  // namespace mw::cli

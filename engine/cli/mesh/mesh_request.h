@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What `mwmesh mesh` is asked to do.
+#pragma once
+
+#include "engine/cli/mesh/progress.h"
+#include "engine/cli/options/volume_options.h"
+#include "engine/job/mesh_job.h"
+#include "engine/settings/settings.h"
+#include "io/mesh/element.h"
+
+namespace mw::cli {
+
+using engine::Certify;
+
+struct MeshRequest {
+  VolumeRequest volume;
+  std::filesystem::path output;
+  io::Element element = io::Element::kTet4;
+  bool ascii = false;                    ///< the output as text
+  bool force = false;                    ///< the output may replace what is no mesh of ours
+  std::filesystem::path report;          ///< empty: none
+  std::filesystem::path html;            ///< empty: none
+  std::filesystem::path trace;           ///< empty: none
+  std::vector<std::string> size_tables;  ///< files that sizes come from
+  std::optional<std::uint64_t> memory;   ///< bytes, as asked for
+  /// What the engine is asked to do; complete after check_mesh_request().
+  engine::MeshJob job;
+  ProgressKind progress = ProgressKind::kNone;
+  std::string log_level;
+};
+
+/// Every option of the subcommand, in the order of the documentation.
+/// REQUIRES: request outlives options.
+void add_mesh_options(OptionSet& options, MeshRequest& request);
+
+/// Fills in what follows from other values.
+/// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other.
+void check_mesh_request(MeshRequest& request);
+
+/// Told before any work: what is written is not what is read, no name is written twice, and the
+/// work folder neither is one of these files, nor lies in one, nor has one in it.
+/// REQUIRES: the work folder of the request is settled.
+/// ERRORS: mw::Error(kUsage) naming flag and path.
+void require_paths_apart(const MeshRequest& request);
+
+/// A file that is to be replaced is empty or one that this program wrote.
+/// ERRORS: mw::Error(kUsage) naming --force.
+void require_own_output(const std::filesystem::path& output);
+
+}  // namespace mw::cli

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a run of `mwmesh mesh` says at its end.
+#include "engine/cli/mesh/mesh_summary.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "engine/cli/options/values.h"
+#include "engine/cli/report_names.h"
+
+namespace mw::cli {
+namespace {
+
+/// Says what bounds and windows count in, where that is not the volume's voxels.
+void print_lattice(const engine::LatticeFacts& lattice) {
+  const Index3 shape = lattice.shape, layers = lattice.layers;
+  if (layers == Index3{1, 1, 1}) return;
+  std::cout << "lattice     " << shape.x << " x " << shape.y << " x " << shape.z
+            << ", voxels cut into " << layers.x << " x " << layers.y << " x " << layers.z
+            << " layers\n";
+}
+
+/// Says what the coordinates are, where the file does.
+void print_space(const io::VolumeSpace& space) {
+  std::string what;
+  if (space.frame != io::WorldFrame::kOwn) what = name(space.frame);
+  if (!space.unit.empty()) what += (what.empty() ? "" : ", ") + space.unit;
+  if (!is_upright(space)) what += (what.empty() ? "" : ", ") + std::string("axes turned");
+  if (!what.empty()) std::cout << "coordinates " << what << "\n";
+}
+
+void print_certificate(const report::FinishedRun& run) {
+  const std::string checked =
+      std::string("topology, partition, radius ratio") +
+      (run.why_no_volumes.empty() ? ", distance and volumes hold" : " and distance hold");
+  std::cout << "certificate " << (run.certificate ? checked : "none: " + run.why_no_certificate)
+            << "\n";
+}
+
+std::string name_of(RawLabel label, const report::FinishedRun& run) {
+  return label_text(label, run.labels.is_signed(), run.volume.names);
+}
+
+/// How many there are, and what the first few are called.
+void print_labels(const report::FinishedRun& run, const LabelTets& tets) {
+  constexpr std::size_t kMaxListed = 6;
+  const std::size_t all = run.labels.size(), count = tets.counts().size();
+  std::cout << "labels      ";
+  if (count > 0 && count < all) std::cout << count << " of ";
+  std::cout << all;
+  std::size_t listed = 0;
+  for (const auto& [label, number] : tets.counts()) {
+    if (listed == kMaxListed) break;
+    std::cout << (listed++ == 0 ? ": " : ", ") << name_of(label, run);
+  }
+  if (listed < count) std::cout << ", ...";
+  if (all == 1) std::cout << "; the volume has no other, so the mesh is a filled box";
+  std::cout << "\n";
+}
+
+/// Label 0, where nobody chose and it is most of the mesh, is what lies around the others.
+void print_background(const report::FinishedRun& run, const MeshRequest& request,
+                      const LabelTets& tets) {
+  const auto& counts = tets.counts();
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const engine::LabelChoice& choice = request.job.choice;
+  if (choice.labels || choice.background || counts.size() < 2 || most->first != 0) return;
+  const double share =
+      100 * static_cast<double>(most->second) / static_cast<double>(run.engine.tets);
+  std::cout << "background  label 0 is meshed, too, " << format_figure(share)
+            << " % of the tets; --background 0 leaves it out\n";
+}
+
+}  // namespace
+
+void LabelTets::write_tets(std::span<const io::TetRows> /*tets*/,
+                           std::span<const RawLabel> labels) {
+  // Tets of a label come in long runs.
+  for (std::size_t at = 0; at < labels.size();) {
+    const auto* const end = std::find_if(labels.data() + at, labels.data() + labels.size(),
+                                         [&](RawLabel label) { return label != labels[at]; });
+    const auto next = static_cast<std::size_t>(end - labels.data());
+    counts_[labels[at]] += next - at;
+    at = next;
+  }
+}
+
+void print_summary(const report::FinishedRun& run, const MeshRequest& request,
+                   const LabelTets& tets) {
+  const double seconds = run.resources.wall_seconds;
+  const Index3 shape = run.volume.shape;
+  const double share = 100 * report::vertex_fraction(run.engine.vertices, shape);
+  std::cout << "vertices    " << run.engine.vertices << " (" << format_fixed(share, 2)
+            << " % of the voxel corners)\n"
+            << "tets        " << run.engine.tets << "\n";
+  print_labels(run, tets);
+  print_background(run, request, tets);
+  report::print_specks(run.specks);
+  print_lattice(run.engine.lattice);
+  print_space(run.volume.space);
+  print_certificate(run);
+  std::cout << "seconds     " << format_figure(seconds) << "\n"
+            << "voxels/s    " << format_figure(static_cast<double>(shape.product()) / seconds)
+            << "\n"
+            << "peak memory " << format_bytes(run.resources.peak_rss_bytes) << "\n";
+}
+
+}  // namespace mw::cli

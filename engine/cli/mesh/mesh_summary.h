@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a run of `mwmesh mesh` says at its end.
+#pragma once
+
+#include <map>
+
+#include "engine/cli/mesh/mesh_request.h"
+#include "engine/report/run_report.h"
+
+namespace mw::cli {
+
+/// How many tets of each label pass by.
+class LabelTets : public io::MeshSink {
+ public:
+  void begin(const io::MeshHeader& /*header*/) override {}
+  void write_vertices(std::span<const io::Position> /*positions*/) override {}
+  void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
+  void finish() override {}
+
+  /// Empty where the mesh was written by several processes.
+  [[nodiscard]] const std::map<RawLabel, std::uint64_t>& counts() const { return counts_; }
+
+ private:
+  std::map<RawLabel, std::uint64_t> counts_;
+};
+
+/// Figures for people, a line each on stdout.
+void print_summary(const report::FinishedRun& run, const MeshRequest& request,
+                   const LabelTets& tets);
+
+}  // namespace mw::cli

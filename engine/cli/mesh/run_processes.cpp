@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cli/mesh/run_processes.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "engine/march/march.h"
+#include "io/mesh/open_mesh.h"
+
+namespace mw::cli {
+namespace {
+
+engine::Processes* processes_of_program = nullptr;
+
+/// Cores of the machine; those that this process may use can be fewer.
+int cores_of_machine() {
+  return static_cast<int>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN)));
+}
+
+int threads_of_process(int asked, int processes_here) {
+  if (asked > 0) return std::max(1, asked / processes_here);
+  const int own = engine::thread_count(0), machine = cores_of_machine();
+  const int share = std::max(1, machine / processes_here);
+  if (own == machine) return share;
+  if (own < share) {
+    spdlog::warn(
+        "this process may use {} of {} cores, and its share of them is {}: let mpirun bind "
+        "less tightly (--bind-to none, or --map-by ppr:{}:node:PE={})",
+        own, machine, share, processes_here, share);
+  }
+  return own;
+}
+
+/// Empty where several processes can write the mesh.
+std::string obstacle(const MeshRequest& request, bool can_be_shared, bool is_certified) {
+  if (run_processes().count() == 1) return "there is no other";
+  if (!can_be_shared) return "only a .vtkhdf of tet4 can be written by several";
+  if (is_certified) return "it makes the certificate";
+  return request.html.empty() ? "" : "it draws the page";
+}
+
+}  // namespace
+
+engine::Processes& run_processes() {
+  return processes_of_program == nullptr ? engine::one_process() : *processes_of_program;
+}
+
+bool runs_are_divided() {
+  return processes_of_program != nullptr;
+}
+
+void divide_runs_among(engine::Processes& processes) {
+  processes_of_program = &processes;
+}
+
+void take_part(MeshRequest& request) {
+  engine::RunHooks& run = request.job.run;
+  run.processes = &run_processes();
+  if (!runs_are_divided()) return;
+  const int here = run_processes().count_here();
+  run.store.memory /= static_cast<std::uint64_t>(here);
+  run.threads = threads_of_process(run.threads, here);
+  if (run_processes().speaks()) return;
+  request.job.certify = engine::Certify::kOff;
+  request.progress = ProgressKind::kNone;
+  request.report.clear();
+  request.html.clear();
+  request.trace.clear();
+}
+
+SharedOutput open_shared_output(const MeshRequest& request, bool is_certified) {
+  if (!runs_are_divided()) return {};
+  SharedOutput out{.mesh = io::open_shared_mesh(request.output, request.element), .why_alone = ""};
+  if (!run_processes().speaks()) return out;
+  out.why_alone = obstacle(request, out.mesh != nullptr, is_certified);
+  if (out.why_alone.empty()) {
+    out.mesh->create();
+  } else {
+    out.mesh.reset();
+  }
+  return out;
+}
+
+}  // namespace mw::cli

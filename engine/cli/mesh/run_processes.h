@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The processes that this program shares its run with, and what each one's part is.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/cli/mesh/mesh_request.h"
+#include "engine/run/processes.h"
+#include "io/mesh/shared_mesh.h"
+
+namespace mw::cli {
+
+/// Those that `mwmesh mesh` is divided among; one by default.
+[[nodiscard]] engine::Processes& run_processes();
+/// Whether the program is one of those that mpirun starts, be it the only one.
+[[nodiscard]] bool runs_are_divided();
+/// Once a program, before any command runs.
+void divide_runs_among(engine::Processes& processes);
+
+/// Makes a request this process's part of it: threads and memory are those of the machine, and
+/// divided by the processes on it; only the process that speaks shows, checks and reports.
+void take_part(MeshRequest& request);
+
+/// What one process of a run writes the mesh into, together with the others.
+struct SharedOutput {
+  /// Of the process that speaks: made, unless it writes alone; of the others: for the case that
+  /// the first wants it.
+  std::unique_ptr<io::SharedMesh> mesh;
+  /// Of the process that speaks, where it writes alone: what for.
+  std::string why_alone;
+};
+
+/// is_certified: the process that speaks makes a certificate, for which the whole mesh has to pass
+/// by; so it has for a page.  ENSURES: nothing where runs_are_divided() is false.  ERRORS: those of
+/// the file, which is made by the process that speaks.
+[[nodiscard]] SharedOutput open_shared_output(const MeshRequest& request, bool is_certified);
+
+}  // namespace mw::cli

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// mwmesh surface: where labels of a mesh meet, as triangles.
+#include "engine/cli/command.h"
+#include "engine/cli/exit_code.h"
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
+#include "engine/cli/report_names.h"
+#include "engine/cli/surface/surface_output.h"
+#include "io/mesh/grouped/grouped_sink.h"
+#include "io/mesh/open_mesh.h"
+#include "io/surface/open_surface.h"
+#include "io/surface/surface.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+/// A mesh, and what is asked about it.
+class SurfaceJob {
+ public:
+  /// REQUIRES: all of them outlive it.
+  SurfaceJob(const SurfaceRequest& request, io::GroupedMesh& mesh, SurfaceOutput& output)
+      : request_(request),
+        source_{mesh, io::scratch_folder()},
+        plans_(mesh, request.closed),
+        labels_(io::surface_labels(mesh)),
+        output_(output) {}
+
+  void run() {
+    if (request_.target == SurfaceTarget::kFile) {
+      write(plans_of_file(), *output_.sink(0, {}));
+    } else {
+      write_each();
+    }
+    output_.finish(labels_->names);
+  }
+
+ private:
+  [[nodiscard]] std::string text_of(RawLabel label) const {
+    return label_text(label, labels_->table.is_signed(), labels_->names);
+  }
+
+  [[nodiscard]] Label rank_of(RawLabel label) const {
+    if (labels_->table.contains(label)) return labels_->table.dense(label);
+    throw Error(ErrorKind::kUsage, request_.mesh + ": the mesh has no label " +
+                                       format_label(label, labels_->table.is_signed()) +
+                                       "; mwmesh info " + request_.mesh +
+                                       " lists those that it has");
+  }
+
+  /// Those asked for, or all.
+  [[nodiscard]] std::vector<Label> ranks() const {
+    std::vector<Label> out;
+    for (const RawLabel label : request_.labels) out.push_back(rank_of(label));
+    if (!out.empty()) return out;
+    for (Label rank = 0; rank < labels_->table.size(); ++rank) out.push_back(rank);
+    return out;
+  }
+
+  [[nodiscard]] std::vector<io::ShellPlan> plans_of_file() const {
+    if (request_.pair) return plans_of_pair();
+    std::vector<io::ShellPlan> plans;
+    if (!request_.labels.empty()) {
+      for (const Label rank : ranks()) {
+        plans.push_back(plans_.of_label(rank));
+        require_facets(plans.back(), "label " + text_of(labels_->table.raw(rank)));
+      }
+    } else if (request_.manifold) {
+      plans = plans_.of_each_interface();
+      require_facets(plans.empty() ? io::ShellPlan{} : plans.front(), "the mesh");
+    } else {
+      plans.push_back(plans_.of_interfaces());
+      require_facets(plans.back(), "the mesh");
+    }
+    return plans;
+  }
+
+  [[nodiscard]] std::vector<io::ShellPlan> plans_of_pair() const {
+    const auto& [one, other] = *request_.pair;
+    io::ShellPlan plan = plans_.of_pair(rank_of(one), rank_of(other));
+    if (plan.parts.empty()) {
+      throw Error(ErrorKind::kUsage, request_.mesh + ": labels " + text_of(one) + " and " +
+                                         text_of(other) + " share no triangle");
+    }
+    return {std::move(plan)};
+  }
+
+  void require_facets(const io::ShellPlan& plan, const std::string& what) const {
+    if (!plan.parts.empty()) return;
+    throw Error(ErrorKind::kUsage, request_.mesh + ": " + what +
+                                       " has no interfaces, as no other label is there; --labels "
+                                       "without --open gives a surface that closes at the box");
+  }
+
+  void write(const std::vector<io::ShellPlan>& plans, io::SurfaceSink& sink) {
+    io::Surface(source_, labels_, plans, request_.manifold).write(sink);
+  }
+
+  void write_each() {
+    bool any = false;
+    for (const Label rank : ranks()) {
+      const io::ShellPlan plan = plans_.of_label(rank);
+      const RawLabel label = labels_->table.raw(rank);
+      if (!request_.labels.empty()) require_facets(plan, "label " + text_of(label));
+      if (plan.parts.empty()) continue;
+      write({plan}, *output_.sink(label, format_label(label, labels_->table.is_signed())));
+      any = true;
+    }
+    if (!any) require_facets({}, "the mesh");
+  }
+
+  const SurfaceRequest& request_;
+  io::SurfaceSource source_;
+  io::ShellPlans plans_;
+  std::shared_ptr<const io::SurfaceLabels> labels_;
+  SurfaceOutput& output_;
+};
+
+int run_surface(const SurfaceFlags& flags) {
+  const SurfaceRequest request = parse_surface_request(flags);
+  const std::unique_ptr<SurfaceOutput> output = open_surface_output(request);
+  io::GroupedSink grouped(io::scratch_folder(), nullptr);
+  io::copy_mesh(request.mesh, grouped);
+  SurfaceJob(request, grouped.mesh(), *output).run();
+  return kExitDone;
+}
+
+}  // namespace
+
+Command surface_command() {
+  const auto flags = std::make_shared<SurfaceFlags>();
+  Command command{.name = "surface",
+                  .about = "writes surfaces of labels, or where two of them meet",
+                  .options = {},
+                  .run = [flags](const OptionSet&) { return run_surface(*flags); },
+                  .note = mesh_note(),
+                  .names = [flags] { return names_of(flags->mesh); }};
+  add_surface_options(command.options, *flags);
+  return command;
+}
+
+}  // namespace mw::cli

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where surfaces go: one file, one a label, or a folder of precomputed meshes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "engine/cli/surface/surface_request.h"
+
+namespace mw::cli {
+
+/// What stands for the label in the path of --each.
+inline constexpr const char* kLabelPlaceholder = "{label}";
+
+/// "precomputed" and "draco".
+[[nodiscard]] bool is_folder_format(std::string_view format);
+
+class SurfaceOutput {
+ public:
+  virtual ~SurfaceOutput() = default;
+  /// For the next surface, which is that of `label`, called by these digits.
+  /// ERRORS: as SurfaceSink.
+  [[nodiscard]] virtual std::unique_ptr<io::SurfaceSink> sink(RawLabel label,
+                                                              const std::string& digits) = 0;
+  /// After all surfaces.
+  virtual void finish(const io::LabelNames& names) = 0;
+};
+
+/// Opens what can be opened before anything is known of the mesh; kFile is asked for one sink, and
+/// does not look at the label.
+[[nodiscard]] std::unique_ptr<SurfaceOutput> open_surface_output(const SurfaceRequest& request);
+
+}  // namespace mw::cli

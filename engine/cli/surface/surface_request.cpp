@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What mwmesh surface is asked for.
+#include "engine/cli/surface/surface_request.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
+#include "engine/cli/surface/surface_output.h"
+#include "io/surface/open_surface.h"
+#include "kernels/core/error.h"
+
+namespace mw::cli {
+namespace {
+
+constexpr const char* kSurfaceGroup = "Which surfaces";
+
+[[noreturn]] void fail(const std::string& message) {
+  throw Error(ErrorKind::kUsage, message);
+}
+
+double nm_of(const std::string& unit) {
+  const std::map<std::string, double> units{{"nm", 1}, {"um", 1e3}, {"mm", 1e6}, {"m", 1e9}};
+  const auto found = units.find(unit);
+  if (found == units.end()) fail("--unit " + unit + ": expected nm, um, mm or m");
+  return found->second;
+}
+
+std::vector<RawLabel> parse_label_list(const std::string& text) {
+  std::vector<RawLabel> labels;
+  for (const RawLabel label : parse_labels(text)) {
+    if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
+  }
+  return labels;
+}
+
+std::array<RawLabel, 2> parse_pair(const std::string& text) {
+  const std::vector<RawLabel> labels = parse_labels(text);
+  if (labels.size() != 2 || labels[0] == labels[1]) fail("expected two labels, as --pair 1,2");
+  return {labels[0], labels[1]};
+}
+
+/// By --format, else the extension; a path without one is a folder.
+std::string format_of(const SurfaceFlags& flags) {
+  const std::string extension = std::filesystem::path(flags.output).extension().string();
+  if (flags.format.empty()) {
+    if (extension.empty()) return "precomputed";
+    if (io::is_surface_path(flags.output)) return extension.substr(1);
+    fail("-o " + flags.output + ": extension '" + extension +
+         "' is no surface format known here; supported are " + io::surface_extensions() +
+         ", and a folder of precomputed meshes, which needs --format precomputed or draco if its "
+         "name has an extension");
+  }
+  if (is_folder_format(flags.format)) return flags.format;
+  if (!io::is_surface_path("x." + flags.format)) {
+    fail("--format " + flags.format + ": expected stl, ply, precomputed or draco");
+  }
+  if (io::is_surface_path(flags.output) && extension != "." + flags.format) {
+    fail("--format " + flags.format + " and -o " + flags.output + " contradict each other");
+  }
+  return flags.format;
+}
+
+bool names_each(const SurfaceFlags& flags) {
+  return flags.each || flags.output.find(kLabelPlaceholder) != std::string::npos;
+}
+
+/// Where each label goes: as it is with `{label}` in it, else into a folder.
+std::string pattern_of(const SurfaceFlags& flags, const std::string& format) {
+  if (flags.output.find(kLabelPlaceholder) != std::string::npos) return flags.output;
+  if (io::is_surface_path(flags.output)) {
+    fail("-o " + flags.output + ": with --each the name needs " + kLabelPlaceholder +
+         " where the label goes, as -o 'parts/" + kLabelPlaceholder + "." + format +
+         "'; or give a folder and --format " + format);
+  }
+  return (std::filesystem::path(flags.output) / (std::string(kLabelPlaceholder) + "." + format))
+      .string();
+}
+
+void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
+  const std::string format = format_of(flags);
+  if (is_folder_format(format)) {
+    if (request.pair) fail("--pair: precomputed meshes are surfaces of labels; write .ply or .stl");
+    if (flags.output.find(kLabelPlaceholder) != std::string::npos) {
+      fail("-o " + flags.output + ": one folder of precomputed meshes holds all labels");
+    }
+    request.target = SurfaceTarget::kFolder;
+    if (format == "draco") request.folder.kind = io::FragmentKind::kDraco;
+    if (!flags.unit.empty()) request.folder.nm_per_unit = nm_of(flags.unit);
+    return;
+  }
+  if (!flags.unit.empty()) fail("--unit: only precomputed meshes have a unit, nm");
+  if (names_each(flags)) {
+    request.target = SurfaceTarget::kEachFile;
+    request.output = pattern_of(flags, format);
+  } else if (!io::is_surface_path(flags.output)) {
+    fail("-o " + flags.output + ": the name needs the extension ." + format);
+  }
+}
+
+void add_output_options(OptionSet& options, SurfaceFlags& flags) {
+  options.add({.name = "output",
+               .value = "OUTPUT",
+               .help = "file: " + io::surface_extensions() + "; or a folder of precomputed meshes",
+               .group = kOutputGroup,
+               .flags = "-o,--output",
+               .required = true,
+               .assign = into(flags.output)});
+  options.add({.name = "each",
+               .help = "a file for each label, as -o 'parts/{label}.stl' says by itself",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .assign = into(flags.each)});
+  options.add({.name = "format",
+               .value = "FORMAT",
+               .help = "stl, ply, precomputed or draco [by the extension]",
+               .group = kOutputGroup,
+               .assign = into(flags.format)});
+  options.add({.name = "unit",
+               .value = "UNIT",
+               .help = "nm, um, mm or m: of the mesh, for precomputed meshes [nm]",
+               .group = kOutputGroup,
+               .assign = into(flags.unit)});
+}
+
+}  // namespace
+
+void add_surface_options(OptionSet& options, SurfaceFlags& flags) {
+  add_mesh_option(options, flags.mesh, "mesh to read");
+  options.add({.name = "labels",
+               .value = "LIST",
+               .help = "the surface of each of these, with what lies on the box",
+               .group = kSurfaceGroup,
+               .kind = ValueKind::kLabels,
+               .flags = "--labels,--label",
+               .assign = into(flags.labels, parse_label_list)});
+  options.add({.name = "pair",
+               .value = "A,B",
+               .help = "the interface of these two",
+               .group = kSurfaceGroup,
+               .kind = ValueKind::kLabels,
+               .assign = into(flags.pair, parse_pair)});
+  options.add({.name = "open",
+               .help = "without what lies on the sides of the box",
+               .group = kSurfaceGroup,
+               .kind = ValueKind::kSwitch,
+               .assign = into(flags.open)});
+  options.add({.name = "manifold",
+               .help = "doubles vertices where a surface touches itself or another one",
+               .group = kSurfaceGroup,
+               .kind = ValueKind::kSwitch,
+               .assign = into(flags.manifold)});
+  add_output_options(options, flags);
+}
+
+SurfaceRequest parse_surface_request(const SurfaceFlags& flags) {
+  SurfaceRequest request{.mesh = flags.mesh.string(),
+                         .output = flags.output,
+                         .folder = {},
+                         .labels = flags.labels,
+                         .pair = flags.pair,
+                         .manifold = flags.manifold,
+                         .closed = !flags.open};
+  if (flags.pair && (!flags.labels.empty() || names_each(flags))) {
+    fail(std::string("--pair: not together with --labels, --each or ") + kLabelPlaceholder);
+  }
+  set_target(flags, request);
+  return request;
+}
+
+}  // namespace mw::cli

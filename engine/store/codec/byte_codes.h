@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Numbers of few bytes, which block codec and journal are written with, and what both sides of the
+// codec share; the layout itself is told in block_codec.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/file/byte_order.h"
+
+namespace mw::engine {
+
+/// Most bytes of a varint: 7 bits a byte, low ones first, the high bit says that more follow.
+inline constexpr std::size_t kMaxVarintBytes = 10;
+
+/// Small numbers of either sign as small numbers: 0, -1, 1, -2 become 0, 1, 2, 3.
+[[nodiscard]] inline std::uint64_t zigzag(std::int64_t value) {
+  return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
+}
+[[nodiscard]] inline std::int64_t unzigzag(std::uint64_t code) {
+  return static_cast<std::int64_t>(code >> 1 ^ (0 - (code & 1)));
+}
+
+/// Appends to a buffer that grows.
+class ByteWriter {
+ public:
+  void varint(std::uint64_t value) {
+    room(kMaxVarintBytes);
+    for (; value >= 0x80; value >>= 7) bytes_[size_++] = static_cast<std::byte>(value | 0x80);
+    bytes_[size_++] = static_cast<std::byte>(value);
+  }
+  /// The low `count` bytes of value, least significant first.  REQUIRES: count <= 8.
+  void low_bytes(std::uint64_t value, std::size_t count) {
+    room(sizeof value);
+    io::store_little(value, bytes_.data() + size_);
+    size_ += count;
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// What was written; can be changed in place.
+  [[nodiscard]] std::span<std::byte> written() { return std::span(bytes_).first(size_); }
+
+ private:
+  void room(std::size_t more) {
+    if (bytes_.size() < size_ + more) bytes_.resize(2 * (size_ + more));
+  }
+
+  std::vector<std::byte> bytes_;
+  std::size_t size_ = 0;
+};
+
+/// Thrown by ByteReader; who knows what the bytes are turns it into an mw::Error.
+struct BadBytes {
+  const char* reason;
+};
+
+/// Reads what ByteWriter wrote.  ERRORS: BadBytes at the end and for a varint beyond 64 bits.
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  [[nodiscard]] std::uint64_t varint() {
+    std::uint64_t value = 0;
+    for (unsigned shift = 0;; shift += 7) {
+      const auto byte = static_cast<std::uint64_t>(next());
+      if (shift == 63 && byte > 1) throw BadBytes{"a number has more than 64 bits"};
+      value |= (byte & 0x7f) << shift;
+      if (byte < 0x80) return value;
+    }
+  }
+  [[nodiscard]] std::uint64_t low_bytes(std::size_t count) {
+    if (count > rest_.size()) throw BadBytes{"it ends too early"};
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      value |= static_cast<std::uint64_t>(rest_[i]) << 8 * i;
+    }
+    rest_ = rest_.subspan(count);
+    return value;
+  }
+  /// A number of things that take at least one byte each, so that nobody makes room for more.
+  [[nodiscard]] std::size_t count() {
+    const std::uint64_t value = varint();
+    if (value > rest_.size()) throw BadBytes{"it is too short for what it says it holds"};
+    return static_cast<std::size_t>(value);
+  }
+  /// A varint below limit.
+  [[nodiscard]] std::uint64_t below(std::uint64_t limit) {
+    const std::uint64_t value = varint();
+    if (value >= limit) throw BadBytes{"a number is out of range"};
+    return value;
+  }
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::byte next() {
+    if (rest_.empty()) throw BadBytes{"it ends too early"};
+    const std::byte byte = rest_.front();
+    rest_ = rest_.subspan(1);
+    return byte;
+  }
+
+  std::span<const std::byte> rest_;
+};
+
+inline constexpr std::uint64_t kBlockMagic = 0x0242574DU;  ///< "MWB", version 2
+inline constexpr std::size_t kBlockHeadBytes = 16;
+inline constexpr std::size_t kBlockSumAt = 4;
+inline constexpr std::size_t kBlockSizeAt = 8;  ///< here the checksummed part begins
+inline constexpr std::uint64_t kSameAsFirst = 9;
+inline constexpr unsigned kDoubleBytes = 8;
+
+/// The ten doubles of a quadric (a, b, c) bit by bit.
+using QuadricBits = std::array<std::uint64_t, 10>;
+
+}  // namespace mw::engine

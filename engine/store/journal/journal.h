@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The journal: which windows are done and where their blocks are, in records that count or do not.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/store/journal/work_file.h"
+#include "engine/store/table/extent_allocator.h"
+
+namespace mw::engine {
+
+/// Where a block's bytes are.
+struct JournalBlock {
+  std::uint64_t slot = 0;  ///< RunLayout::slot
+  Extent extent;
+  std::uint32_t sum = 0;           ///< io::checksum of the bytes
+  std::uint64_t memory_bytes = 0;  ///< of the block, decoded
+
+  friend bool operator==(const JournalBlock&, const JournalBlock&) = default;
+};
+
+/// A group of windows whose results become visible together: the blocks as they are after all of
+/// them.  A block listed replaces what earlier records say of it; a block of a later march that is
+/// listed for the first time replaces its parts, too.
+struct JournalRecord {
+  std::vector<std::uint64_t> windows;  ///< RunLayout::window
+  std::vector<JournalBlock> blocks;
+
+  friend bool operator==(const JournalRecord&, const JournalRecord&) = default;
+};
+
+/// An append-only file.  All numbers little-endian; "var" is a varint
+/// (engine/store/codec/byte_codes.h).
+///
+///     offset  size  what
+///     0       8     "MWJRNL" and the version of this layout, 0 1
+///     8       -     records, one after the other, then zeros up to the end of the file
+///     record: 4     length of its body in bytes, more than 0
+///             4     CRC-32 of the body
+///             -     body: number of the record var (0, 1, ...)
+///                   windows var; their numbers var
+///                   blocks var; for each slot, offset, size, checksum, decoded size, all var
+///
+/// A record that is cut off, or whose checksum or number is wrong, ends the journal: it and what
+/// follows never happened.
+class Journal {
+ public:
+  /// Opens a journal, or begins one in an empty file.
+  /// ERRORS: mw::Error(kInput) when the file is something else; those of WorkFile.
+  explicit Journal(std::unique_ptr<WorkFile> file);
+
+  /// Calls `use` for every whole record, in order, and cuts off the rest.
+  /// ENSURES: the records survive a power cut, even those of a run that was killed before it synced
+  /// them; the space of blocks that they replace may be used again.
+  void replay(const std::function<void(const JournalRecord&)>& use);
+  /// The same for the first `count` records, of a journal that stays as it is.
+  /// ERRORS: mw::Error(kInput) when there are fewer.
+  void scan(std::uint64_t count, const std::function<void(const JournalRecord&)>& use);
+  /// ENSURES: on return the record survives a power cut.
+  /// REQUIRES: replay() was called, and not scan(); what the record points to has been synced.
+  void append(const JournalRecord& record);
+
+  /// Number of whole records; after replay().
+  [[nodiscard]] std::uint64_t records() const { return records_; }
+
+ private:
+  void begin();
+  void make_room(std::uint64_t size);
+  /// The record at end_, and moves end_ behind it; false at the end of the journal.
+  bool read_next(JournalRecord& record);
+
+  std::unique_ptr<WorkFile> file_;
+  std::uint64_t end_ = 0;
+  std::uint64_t records_ = 0;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Making, locking, checking and removing a work folder; settings to lines of text.
+#include "engine/store/journal/workdir.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "engine/settings/setting_table.h"
+#include "engine/store/journal/journal.h"
+#include "engine/store/journal/mapped_file.h"
+#include "io/file/errors.h"
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/sink/atomic_file.h"
+#include "io/file/sink/partial_file.h"
+#include "io/file/text_numbers.h"
+
+namespace mw::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLockFile = "lock";
+constexpr const char* kSettingsFile = "settings.txt";
+// In the order of removal: a kill on the way leaves nothing that looks like saved work.
+constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettingsFile, kLockFile};
+constexpr const char* kPartialSettings = ".settings.txt.partial-";  // AtomicFile, after a kill
+
+// Sizes of many labels make long lines; those that differ are shown in part.
+constexpr std::uintmax_t kMaxSettings = 16 << 20;
+constexpr std::size_t kMaxShown = 120;
+constexpr std::size_t kMaxTold = 8;
+
+/// Left by a kill in an unlucky instant.
+bool is_left_over(const std::string& name) {
+  return name.starts_with(kPartialSettings) || name.starts_with(io::kScratchPrefix);
+}
+
+bool is_ours(const std::string& name) {
+  return is_left_over(name) || std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
+}
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+  throw Error(ErrorKind::kUsage, path.string() + ": " + why);
+}
+
+using Lines = std::map<std::string, std::string>;
+
+Lines lines_of(const std::string& text) {
+  constexpr std::string_view kIs = " = ";
+  Lines out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t at = line.find(kIs);
+    if (at != line.npos) out[line.substr(0, at)] = line.substr(at + kIs.size());
+  }
+  return out;
+}
+
+std::optional<std::string> value_of(const Lines& lines, const std::string& name) {
+  const auto found = lines.find(name);
+  return found == lines.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string shown(const std::optional<std::string>& value) {
+  return value ? io::printable(*value, kMaxShown) : "(not there)";
+}
+
+/// As identity_text() and the program write it.
+bool is_plain(const std::string& text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
+}
+
+/// What the settings of a run could be; a damaged file may be anything.
+std::string content_of(const fs::path& path) {
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(path, failed);
+  std::string content(failed ? 0 : std::min(size, kMaxSettings), '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(in.gcount()));
+  return content;
+}
+
+/// Nothing is there afterwards.
+void clear_away(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) io::fail_output(path.string(), "remove", error.value());
+}
+
+/// The locked file is still the one with that name: a run that ends removes it.
+bool is_at(const io::FileDescriptor& file, const fs::path& path) {
+  struct stat held {};
+  struct stat named {};
+  return ::fstat(file.get(), &held) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+}
+
+std::string triple(const std::array<double, 3>& v) {
+  return io::text(v[0], ",", v[1], ",", v[2]);
+}
+
+std::string volume_text(const io::VolumeInfo& volume) {
+  const Index3 shape = volume.shape;
+  const io::VolumeSpace& space = volume.space;
+  return io::text("shape = ", shape.x, ",", shape.y, ",", shape.z, "\n",                    //
+                  "type = ", io::name(volume.type), volume.scaled ? ", scaled" : "", "\n",  //
+                  "spacing = ", triple(space.spacing), "\n",                                //
+                  "axes = ", triple(space.axes[0]), " ", triple(space.axes[1]), " ",
+                  triple(space.axes[2]), "\n",  //
+                  "origin = ", triple(space.origin), "\n");
+}
+
+}  // namespace
+
+std::string differences(const std::string& before, const std::string& now) {
+  const Lines old_lines = lines_of(before), new_lines = lines_of(now);
+  Lines names = old_lines;
+  names.insert(new_lines.begin(), new_lines.end());
+  std::string out;
+  std::size_t told = 0;
+  for (const auto& [name, any] : names) {
+    const auto was = value_of(old_lines, name), is = value_of(new_lines, name);
+    if (was == is) continue;
+    if (++told > kMaxTold) continue;
+    out += (out.empty() ? "" : "; ") + io::printable(name, kMaxShown) + " was " + shown(was) +
+           " and is " + shown(is);
+  }
+  if (told > kMaxTold) out += io::text("; and ", told - kMaxTold, " more");
+  return out;
+}
+
+Workdir::Workdir(const fs::path& path, bool resume, const std::string& settings)
+    : path_(fs::absolute(path).lexically_normal()) {
+  if (!path_.has_filename()) path_ = path_.parent_path();
+  lock();
+  if (has_saved_work()) {
+    resumes_ = keep_ = true;
+    if (!resume) {
+      refuse(path_,
+             "holds the saved work of a run that did not end; add --resume to go on with "
+             "it, or delete the folder to start again");
+    }
+    check_settings(settings);
+    return;
+  }
+  try {
+    start_afresh(settings);
+  } catch (...) {
+    remove_files();
+    throw;
+  }
+}
+
+Workdir::~Workdir() {
+  if (!keep_) remove_files();
+}
+
+void Workdir::make_folder() {
+  if (::mkdir(path_.c_str(), 0777) == 0) return;
+  if (errno != EEXIST) io::fail_output(path_.string(), "create the work folder", errno);
+  if (!fs::is_directory(path_)) refuse(path_, "is not a folder; give another --workdir");
+  refuse_files_of_others();
+}
+
+void Workdir::refuse_files_of_others() const {
+  std::error_code error;
+  const fs::directory_iterator entries(path_, error);
+  if (error) io::fail_output(path_.string(), "read the work folder", error.value());
+  for (const auto& entry : entries) {
+    const std::string name = entry.path().filename().string();
+    if (is_ours(name)) continue;
+    refuse(path_, "is no work folder of mwmesh: it holds " + name + "; give an empty or a new one");
+  }
+}
+
+void Workdir::lock() {
+  const fs::path path = path_ / kLockFile;
+  do {
+    make_folder();
+    lock_ = io::FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    if (!lock_.valid() && errno == ENOENT) continue;  // another run has just removed its folder
+    if (!lock_.valid()) io::fail_output(path.string(), "create", errno);
+    if (::flock(lock_.get(), LOCK_EX | LOCK_NB) == 0) continue;
+    if (errno != EWOULDBLOCK) io::fail_output(path.string(), "lock", errno);
+    keep_ = true;
+    refuse(path_, "another mwmesh is at work here; wait for it or give another --workdir");
+  } while (!lock_.valid() || !is_at(lock_, path));
+}
+
+bool Workdir::has_saved_work() {
+  if (!fs::exists(path_ / kJournalFile)) return false;
+  Journal journal(open(kJournalFile));
+  journal.replay([](const JournalRecord&) {});
+  return journal.records() > 0;
+}
+
+void Workdir::check_settings(const std::string& settings) const {
+  const std::string before = content_of(path_ / kSettingsFile);
+  if (before == settings) return;
+  const std::string different = differences(before, settings);
+  if (different.empty() || !is_plain(before)) {
+    refuse(path_, io::text("cannot go on, its ", kSettingsFile,
+                           " is damaged: delete the folder to start again"));
+  }
+  refuse(path_, "cannot go on, its work is that of another run: " + different +
+                    "; give the same input and settings, or delete the folder to start again");
+}
+
+void Workdir::start_afresh(const std::string& settings) {
+  clear_away(path_ / kJournalFile);
+  clear_away(path_ / kBlocksFile);
+  io::AtomicFile file(path_ / kSettingsFile);
+  file.append(settings);
+  file.commit();
+}
+
+void Workdir::remove_files() const {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(path_, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (is_left_over(name)) fs::remove(entry.path(), ignored);
+  }
+  for (const char* name : kFiles) {
+    fs::remove(path_ / name, ignored);
+    // A journal that a power cut brings back without the others would look like saved work.
+    if (name == kJournalFile) io::sync_folder(path_);
+  }
+  fs::remove(path_, ignored);
+}
+
+std::unique_ptr<WorkFile> Workdir::open(const std::string& name) {
+  return std::make_unique<MappedFile>(path_ / name);
+}
+
+std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  std::string out = volume_text(volume);
+  for (const Setting& setting : setting_table()) {
+    const std::string value = setting.text(settings);
+    out += setting.name + " = " + (value.empty() ? "none" : value) + "\n";
+  }
+  return out;
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where each block of a run is: in memory, on disk, or both; and which one leaves memory next.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "engine/store/journal/journal.h"
+#include "engine/store/memory_budget.h"
+#include "engine/store/run_layout.h"
+#include "engine/store/table/segment_file.h"
+
+namespace mw::engine {
+
+/// A block as bytes in memory.  Whoever shares it pins it; its part of the budget is given back
+/// with the last pin.
+struct EncodedBlock {
+  std::vector<std::byte> bytes;
+  std::uint64_t memory_bytes = 0;  ///< decoded
+  MemoryBudget::Reservation room;
+};
+using BlockPin = std::shared_ptr<const EncodedBlock>;
+
+/// A version of a block; it has at least one of the two.
+struct StoredBlock {
+  BlockPin cached;
+  std::uint64_t offset = 0;
+  std::uint32_t size = 0;  ///< on disk; 0: not there
+  std::uint32_t sum = 0;
+  std::uint32_t memory_kib = 0;
+  bool recorded = false;  ///< a record of the journal, written or being written, points to it
+
+  [[nodiscard]] Extent extent() const { return {offset, size}; }
+  [[nodiscard]] bool empty() const { return cached == nullptr && size == 0; }
+};
+
+/// Memory for so many bytes of a table, which may evict blocks from it.
+using TableRoom = std::function<MemoryBudget::Reservation(std::uint64_t bytes)>;
+
+/// The blocks of a run by slot, in pages that are there as long as one of their blocks is: a
+/// process that has a part of a run's blocks has that part of the table.  Copy on write: an extent
+/// that a record points to is not used again before a later record is durable, see take_retired().
+/// Thread safety: none; but pins, and extents of blocks that nobody replaces, may be read at any
+/// time.
+class BlockTable {
+ public:
+  /// Without a disk nothing can be evicted.  room: asked for each page; null: there is room for all
+  /// of them.  The references outlive it.
+  BlockTable(const RunLayout& layout, const DoneWindows& done, SegmentFile* disk,
+             TableRoom room = {});
+
+  [[nodiscard]] const StoredBlock& at(std::uint64_t slot) const;
+
+  /// Forgets the block, if there is one.
+  void remove(std::uint64_t slot);
+  /// REQUIRES: no block there.  ERRORS: those of the room; then nothing has changed.
+  void put(std::uint64_t slot, BlockPin block);
+  /// A block that the journal tells of replaces the one that is there; the extents are not yet
+  /// taken.  ERRORS: those of the room.
+  void restore(const JournalBlock& block);
+  /// Takes the extents of all restored blocks.
+  /// ERRORS: mw::Error(kInput) when they overlap or lie outside the file.
+  void take_extents();
+
+  /// Drops from memory the block that is needed last, writing it first if it is not on disk.
+  /// ENSURES: false when there is none, or no disk.
+  bool evict_one();
+  /// Writes the block if it is not on disk, and what a record says of it.  REQUIRES: a disk.
+  [[nodiscard]] JournalBlock record(std::uint64_t slot);
+  /// Extents that no block has any more but some record points to.  They may be released when the
+  /// next record is durable.
+  [[nodiscard]] std::vector<Extent> take_retired() { return std::exchange(retired_, {}); }
+
+  [[nodiscard]] std::uint64_t evicted() const { return evicted_; }
+  [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
+
+ private:
+  using Turn = std::pair<std::uint64_t, std::uint64_t>;  ///< next use, slot
+  static constexpr std::uint64_t kPageBlocks = 256;
+  struct Page {
+    MemoryBudget::Reservation room;
+    std::uint64_t held = 0;  ///< blocks that are not empty
+    std::array<StoredBlock, kPageBlocks> blocks;
+  };
+  friend std::uint64_t index_bytes(const RunLayout& layout);
+  friend std::uint64_t least_index_bytes(const RunLayout& layout);
+
+  /// REQUIRES: there is one.
+  [[nodiscard]] StoredBlock& held(std::uint64_t slot);
+  /// Of an empty block, which must be filled next.
+  [[nodiscard]] StoredBlock& fresh(std::uint64_t slot);
+  void clear(std::uint64_t slot);
+  [[nodiscard]] Turn turn(std::uint64_t slot) const;
+  void forget_parts(const BlockKey& key);
+  void write(StoredBlock& block);
+
+  const RunLayout& layout_;
+  const DoneWindows& done_;
+  SegmentFile* disk_;
+  TableRoom room_;
+  std::vector<std::unique_ptr<Page>> pages_;
+  std::set<Turn> cached_;  ///< a block's turn changes only when a window over it is done
+  std::vector<Extent> retired_;
+  std::uint64_t evicted_ = 0;
+  std::uint64_t bytes_written_ = 0;
+};
+
+/// Memory that the tables of a run take, blocks apart, with all their pages.
+[[nodiscard]] std::uint64_t index_bytes(const RunLayout& layout);
+/// The same without any page, for a table that asks for room.
+[[nodiscard]] std::uint64_t least_index_bytes(const RunLayout& layout);
+
+/// What identifies the bytes of a version: the checksum that its encoding holds.
+[[nodiscard]] std::uint32_t sum_of(std::span<const std::byte> encoded);
+
+}  // namespace mw::engine

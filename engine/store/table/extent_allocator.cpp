@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Free runs by offset and by size.
+#include "engine/store/table/extent_allocator.h"
+
+#include <iterator>
+
+#include "kernels/core/assert.h"
+
+namespace mw::engine {
+namespace {
+
+std::uint64_t whole_sectors(std::uint64_t size) {
+  constexpr std::uint64_t kSector = ExtentAllocator::kSectorBytes;
+  return (size + kSector - 1) / kSector * kSector;
+}
+
+}  // namespace
+
+void ExtentAllocator::add(std::uint64_t offset, std::uint64_t size) {
+  free_.emplace(offset, size);
+  by_size_.emplace(size, offset);
+}
+
+void ExtentAllocator::remove(Runs::iterator run) {
+  by_size_.erase({run->second, run->first});
+  free_.erase(run);
+}
+
+void ExtentAllocator::grow(std::uint64_t end) {
+  MW_ASSERT(end >= end_ && end % kSectorBytes == 0);
+  if (end == end_) return;
+  const Extent more{end_, end - end_};
+  end_ = end;
+  release(more);
+}
+
+std::optional<Extent> ExtentAllocator::allocate(std::uint64_t size) {
+  const std::uint64_t needed = whole_sectors(size);
+  const auto best = by_size_.lower_bound({needed, 0});
+  if (best == by_size_.end()) return std::nullopt;
+  const Extent extent{best->second, size};
+  const bool taken = take(extent);
+  MW_ASSERT(taken);
+  static_cast<void>(taken);
+  return extent;
+}
+
+bool ExtentAllocator::take(const Extent& extent) {
+  const std::uint64_t needed = whole_sectors(extent.size);
+  auto run = free_.upper_bound(extent.offset);
+  if (run == free_.begin()) return false;
+  --run;
+  const auto [offset, size] = *run;
+  const std::uint64_t before = extent.offset - offset;
+  if (before > size || needed > size - before) return false;
+  remove(run);
+  if (before > 0) add(offset, before);
+  if (before + needed < size) add(extent.offset + needed, size - before - needed);
+  return true;
+}
+
+void ExtentAllocator::release(const Extent& extent) {
+  std::uint64_t offset = extent.offset, size = whole_sectors(extent.size);
+  auto next = free_.lower_bound(offset);
+  MW_ASSERT(next == free_.end() || next->first >= offset + size);
+  if (next != free_.end() && next->first == offset + size) {
+    size += next->second;
+    remove(next++);
+  }
+  if (next != free_.begin()) {
+    const auto before = std::prev(next);
+    MW_ASSERT(before->first + before->second <= offset);
+    if (before->first + before->second == offset) {
+      offset = before->first;
+      size += before->second;
+      remove(before);
+    }
+  }
+  add(offset, size);
+}
+
+std::uint64_t ExtentAllocator::free_bytes() const {
+  std::uint64_t sum = 0;
+  for (const auto& [offset, size] : free_) sum += size;
+  return sum;
+}
+
+}  // namespace mw::engine

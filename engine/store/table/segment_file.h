@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Bytes of blocks on disk: one file that grows by segments, dealt out in extents.
+#pragma once
+
+#include <memory>
+
+#include "engine/store/journal/work_file.h"
+#include "engine/store/table/extent_allocator.h"
+
+namespace mw::engine {
+
+/// Nothing is overwritten: an extent is used again only after release().
+/// Thread safety: read(), prefetch() and sync() may run beside everything; the others one at a
+/// time.  ERRORS: those of WorkFile.
+class SegmentFile {
+ public:
+  /// Everything in the file is free until take() says otherwise.
+  explicit SegmentFile(std::unique_ptr<WorkFile> file);
+
+  [[nodiscard]] Extent write(std::span<const std::byte> bytes);
+  void release(const Extent& extent) { free_.release(extent); }
+  /// ENSURES: false when the extent is outside the file or overlaps another.
+  [[nodiscard]] bool take(const Extent& extent) { return free_.take(extent); }
+
+  void read(const Extent& extent, const UseBytes& use) const {
+    file_->read(extent.offset, extent.size, use);
+  }
+  void prefetch(const Extent& extent) const { file_->prefetch(extent.offset, extent.size); }
+  void sync() { file_->sync(); }
+
+ private:
+  /// REQUIRES: no free run of this size.
+  void grow(std::uint64_t size);
+
+  std::unique_ptr<WorkFile> file_;
+  ExtentAllocator free_;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Memory of the machine and of this process, as the kernel counts it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <istream>
+#include <optional>
+#include <string_view>
+
+namespace mw::engine {
+
+/// In bytes, the amount in the line "NAME: N kB" of a file like /proc/meminfo or
+/// /proc/self/status; empty when there is no such line.
+[[nodiscard]] std::optional<std::uint64_t> proc_bytes(std::istream& file, std::string_view name);
+
+/// The budget when none is given: half of the memory that is available, or of the control group's
+/// limit if that is less.  It may differ from run to run; no result depends on it.
+[[nodiscard]] std::uint64_t default_memory_budget();
+
+/// The least limit of the control groups that a process is in, version 2 or 1; none is a number too
+/// large.  `own_groups` as /proc/self/cgroup, `root` as /sys/fs/cgroup.
+[[nodiscard]] std::uint64_t cgroup_limit(const std::filesystem::path& root,
+                                         std::istream& own_groups);
+
+/// Pages of the process in memory now; 0 where the kernel does not tell.
+[[nodiscard]] std::uint64_t resident_bytes();
+
+/// The allocator keeps what is given back to it, for each thread apart; a budget that counts what
+/// is in use can therefore be exceeded.  This returns such memory to the kernel when the process
+/// holds more than `most`.  No result depends on it.
+/// Cost: 10 us; milliseconds when there is much to return.  Thread safety: yes.
+void return_free_memory_above(std::uint64_t max);
+
+/// From now on large pieces of memory go back to the kernel when they are freed, so that they never
+/// count twice against a budget.  (glibc would keep larger and larger ones as they come and go,
+/// which saves the time of getting them anew.)
+void return_large_pieces_at_once();
+
+/// Where address space is limited (`ulimit -v`), lets threads share the pools of the allocator, of
+/// which each would take 64 MiB of it.  REQUIRES: called before there are other threads.
+void save_address_space();
+
+}  // namespace mw::engine

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Parcels: a block's slot, the window that left it, its decoded size, and its bytes.
+#include "engine/team/blocks/block_traffic.h"
+
+#include <utility>
+
+#include "engine/team/output/line_share.h"
+
+namespace mw::engine {
+namespace {
+
+Arrivals::Window window_of(const RunLayout& layout, const WindowKey& key) {
+  return {key.march, layout.order(key.march).rank(key.window)};
+}
+
+/// The rank that needs a version next.
+int user_of(const BlockRoute& route, const Partition& partition, const FinalUsers& final_users,
+            const BlockVersion& version) {
+  const auto next = route.next_user(version);
+  return next ? partition.rank_of(*next) : final_users.rank_of(version.block.block);
+}
+
+FinalUsers final_users_of(const RunLayout& layout, const Partition& partition, FinalBlocksGo go) {
+  if (go == FinalBlocksGo::kToFirst) return {};
+  return {go, layout.grid(layout.marches() - 1).blocks().y, line_owners(layout, partition)};
+}
+
+}  // namespace
+
+BlockTraffic::Attached::Attached(BlockTraffic& traffic, RunStore& store) : traffic_(traffic) {
+  BlockTraffic* to = &traffic;
+  traffic.rooms_ = IncomingRooms::of(store);
+  traffic.team_.listen(
+      {.parcel =
+           [to, &store](const Team::Head& head, std::vector<std::byte> bytes,
+                        std::shared_ptr<void> ticket) {
+             to->receive(store, head, std::move(bytes), std::move(ticket));
+           },
+       .room = [rooms = traffic.rooms_](std::uint64_t bytes) { return rooms->take(bytes); },
+       .signalled = [to](std::uint64_t number) { to->signalled_ = number; },
+       .sent = [to] { to->arrivals_.wake(); },
+       .failed = [to](const Error& error) { to->end(std::make_exception_ptr(error)); }});
+}
+
+BlockTraffic::Attached::~Attached() {
+  traffic_.team_.listen({});
+  traffic_.rooms_->close();
+  traffic_.team_.let_go();
+}
+
+void BlockTraffic::deal(Partition partition, FinalBlocksGo go) {
+  partition_ = std::move(partition);
+  final_users_ = final_users_of(layout_, partition_, go);
+}
+
+BlockVersion BlockTraffic::version_of(const Team::Head& head) const {
+  const BlockKey block = layout_.key(head[0]);
+  return {block, {block.march, layout_.order(block.march).window(head[1])}};
+}
+
+void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes,
+                           std::shared_ptr<void> ticket) {
+  const BlockVersion version = version_of(head);
+  try {
+    store.receive(version, std::move(bytes), head[2], rooms_->claim(ticket));
+  } catch (const std::exception&) {
+    // No room: the march ends with it, if it still runs, or the output.
+    return end(std::current_exception());
+  }
+  ticket.reset();  // whoever finds no room now is not to wait for it
+  note(version);
+  ++received_;
+  arrivals_.wake();
+}
+
+void BlockTraffic::end(std::exception_ptr error) {
+  team_.fail(error);
+  arrivals_.fail(std::move(error));
+  const std::lock_guard lock(mutex_);  // whoever waits has looked before, or will after
+  changed_.notify_all();
+}
+
+void BlockTraffic::note(const BlockVersion& version) {
+  if (const auto next = route_.next_user(version)) return arrivals_.add(window_of(layout_, *next));
+  {
+    const std::lock_guard lock(mutex_);
+    ++final_blocks_;
+  }
+  changed_.notify_all();
+}
+
+int BlockTraffic::next_rank(const BlockVersion& version) const {
+  return user_of(route_, partition_, final_users_, version);
+}
+
+bool BlockTraffic::stays(const BlockVersion& version) const {
+  return next_rank(version) == team_.rank();
+}
+
+void BlockTraffic::send(const BlockVersion& version, BlockPin block) {
+  bytes_sent_ += block->bytes.size();
+  const Team::Head head{layout_.slot(version.block),
+                        layout_.order(version.block.march).rank(version.from.window),
+                        block->memory_bytes};
+  const std::vector<std::byte>* bytes = &block->bytes;
+  const int to = next_rank(version);
+  {
+    const std::lock_guard lock(mutex_);
+    ++sent_to_[static_cast<std::size_t>(to)];
+  }
+  team_.send(to, head, SharedBytes(std::move(block), bytes));
+}
+
+void BlockTraffic::committed(std::span<const BlockVersion> versions) {
+  for (const BlockVersion& version : versions) note(version);
+}
+
+TrafficFacts BlockTraffic::facts() const {
+  TrafficFacts out{.blocks = 0, .bytes = bytes_sent_};
+  for (std::uint64_t blocks : sent_to()) out.blocks += blocks;
+  return out;
+}
+
+std::vector<std::uint64_t> BlockTraffic::sent_to() const {
+  const std::lock_guard lock(mutex_);
+  return sent_to_;
+}
+
+void BlockTraffic::wait_for_output() {
+  std::int64_t blocks = 0;
+  for_each_index(layout_.grid(layout_.marches() - 1).blocks(), [&](Index3 block) {
+    if (final_users_.rank_of(block) == team_.rank()) ++blocks;
+  });
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return final_blocks_ == blocks || arrivals_.error() != nullptr; });
+  if (const auto error = arrivals_.error()) std::rethrow_exception(error);
+}
+
+std::vector<std::uint64_t> blocks_sent(const RunLayout& layout, const Partition& partition,
+                                       int ranks, FinalBlocksGo go) {
+  const BlockRoute route(layout);
+  const FinalUsers final_users = final_users_of(layout, partition, go);
+  std::vector<std::uint64_t> out(static_cast<std::size_t>(ranks));
+  for (std::uint32_t march = 0; march < layout.marches(); ++march) {
+    const WindowGrid& grid = layout.grid(march);
+    for_each_index(grid.windows(), [&](Index3 window) {
+      const WindowKey key{march, window};
+      const int from = partition.rank_of(key);
+      for (Index3 block : grid.blocks_of(window)) {
+        if (user_of(route, partition, final_users, {{march, block}, key}) != from) {
+          ++out[static_cast<std::size_t>(from)];
+        }
+      }
+    });
+  }
+  return out;
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Blocks between the processes of a run: each version goes to the one that needs it next.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+
+#include "engine/march/arrivals.h"
+#include "engine/store/run_store.h"
+#include "engine/team/blocks/block_route.h"
+#include "engine/team/blocks/incoming_rooms.h"
+#include "engine/team/blocks/partition.h"
+#include "engine/team/team.h"
+
+namespace mw::engine {
+
+/// Where the blocks go that the last march leaves.
+enum class FinalBlocksGo : std::uint8_t {
+  kToFirst,   ///< rank 0 writes the mesh
+  kToOwners,  ///< of lines (line_share.h): all write it together
+};
+
+/// Who gets them.
+struct FinalUsers {
+  FinalBlocksGo go = FinalBlocksGo::kToFirst;
+  std::int64_t lines_y = 1;           ///< of blocks
+  std::vector<std::uint32_t> owners;  ///< by line; only kToOwners
+
+  [[nodiscard]] int rank_of(Index3 block) const {
+    if (go == FinalBlocksGo::kToFirst) return 0;
+    return static_cast<int>(owners[static_cast<std::size_t>(block.z * lines_y + block.y)]);
+  }
+};
+
+/// What a process has sent.
+struct TrafficFacts {
+  std::uint64_t blocks = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// Sends versions whose next user is elsewhere, takes in those that come, and counts the inputs of
+/// own windows.  Nobody asks for a block: it comes as soon as it is ready.
+/// Thread safety: as BlockRouter; the others from one thread.
+class BlockTraffic : public BlockRouter {
+ public:
+  /// The references outlive it.
+  BlockTraffic(const RunLayout& layout, Team& team)
+      : layout_(layout),
+        route_(layout),
+        team_(team),
+        sent_to_(static_cast<std::size_t>(team.ranks())) {}
+
+  /// While it lives, what comes goes into the store.
+  class Attached {
+   public:
+    Attached(BlockTraffic& traffic, RunStore& store);
+    Attached(const Attached&) = delete;
+    Attached& operator=(const Attached&) = delete;
+    /// ENSURES: no block is held by the exchange any more.
+    ~Attached();
+
+   private:
+    BlockTraffic& traffic_;
+  };
+
+  /// Before anything is committed.
+  void deal(Partition partition, FinalBlocksGo go);
+  [[nodiscard]] FinalBlocksGo final_blocks_go() const { return final_users_.go; }
+  /// By line of the final blocks.  REQUIRES: kToOwners.
+  [[nodiscard]] const std::vector<std::uint32_t>& line_owners() const {
+    return final_users_.owners;
+  }
+
+  [[nodiscard]] Arrivals& arrivals() { return arrivals_; }
+  [[nodiscard]] bool is_mine(const WindowKey& key) const {
+    return partition_.rank_of(key) == team_.rank();
+  }
+  [[nodiscard]] std::uint32_t inputs(const WindowKey& key) const {
+    return static_cast<std::uint32_t>(route_.inputs(key).size());
+  }
+  [[nodiscard]] TrafficFacts facts() const;
+
+  /// The last number that another rank has signalled; they only grow.
+  [[nodiscard]] std::uint64_t signalled() const { return signalled_; }
+  /// Parcels that were sent to each rank, and those that are in the store here.
+  [[nodiscard]] std::vector<std::uint64_t> sent_to() const;
+  [[nodiscard]] std::uint64_t received() const { return received_; }
+  /// Ends march and output of all ranks with this error.
+  void end(std::exception_ptr error);
+
+  /// Waits until all blocks of the last march that go to this rank are in the store.
+  /// ERRORS: that of the rank that failed.
+  void wait_for_output();
+
+  [[nodiscard]] bool stays(const BlockVersion& version) const override;
+  void send(const BlockVersion& version, BlockPin block) override;
+  void committed(std::span<const BlockVersion> versions) override;
+  [[nodiscard]] bool is_carrying() const override {
+    return !team_.is_idle() || (rooms_ != nullptr && !rooms_->is_empty());
+  }
+
+ private:
+  /// ticket: of rooms_, or null.
+  void receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes,
+               std::shared_ptr<void> ticket);
+  [[nodiscard]] int next_rank(const BlockVersion& version) const;
+  [[nodiscard]] BlockVersion version_of(const Team::Head& head) const;
+  void note(const BlockVersion& version);
+
+  const RunLayout& layout_;
+  BlockRoute route_;
+  Team& team_;
+  Partition partition_;
+  FinalUsers final_users_;
+  Arrivals arrivals_;
+  std::atomic<std::uint64_t> signalled_ = 0;
+  std::atomic<std::uint64_t> received_ = 0;
+  std::atomic<std::uint64_t> bytes_sent_ = 0;
+  std::shared_ptr<IncomingRooms> rooms_;  ///< while attached
+
+  mutable std::mutex mutex_;  ///< guards the next lines
+  std::condition_variable changed_;
+  std::int64_t final_blocks_ = 0;  ///< here
+  std::vector<std::uint64_t> sent_to_;
+};
+
+/// Predicts how many blocks each rank sends in a run: a pure function.
+[[nodiscard]] std::vector<std::uint64_t> blocks_sent(const RunLayout& layout,
+                                                     const Partition& partition, int ranks,
+                                                     FinalBlocksGo go = FinalBlocksGo::kToFirst);
+
+}  // namespace mw::engine

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows of the vertices of one process's blocks, where several write the mesh.
+#pragma once
+
+#include "engine/team/output/claims.h"
+
+namespace mw::engine {
+
+// Rows ascend by the first block that references a vertex, then by id, as VertexRows gives them out
+// for all blocks.  Here a process knows its own blocks only, whole lines of them.  It numbers their
+// vertices by itself (local rows), and has to learn of which ones the first block is another's, and
+// which rows these have.  A vertex that two processes reference is known to the owner of its home
+// line, its judge: whoever references it and is not the judge claims it.
+//
+//   1  each claims; 2  the judge answers which block is first of all; now each knows how many of
+//   its vertices are new in each of its lines, and with those of all lines where its rows begin; 3
+//   whoever has the first block tells the judge the row; 4  the judge tells the others.
+
+/// Numbers by rank, then by claim.
+using ClaimLists = std::vector<std::vector<std::uint64_t>>;
+
+/// Of a claim: not to be told.
+inline constexpr std::uint64_t kNoRow = ~std::uint64_t{0};
+
+/// What a claim takes that is made, and one that is judged, beside VertexRows: themselves, lists of
+/// numbers to and from other processes, and these as bytes of messages.
+inline constexpr std::uint64_t kBytesPerClaim = 2 * sizeof(Claim) + 8 + 16 + 4 * 8;
+inline constexpr std::uint64_t kBytesPerJudged = 2 * sizeof(Claim) + 40 + 8 + 16 + 4 * 8;
+
+/// Pure: messages are the caller's to carry.  Members are called in the order in which they stand.
+/// Memory: kBytesPerClaim and kBytesPerJudged, 24 bytes a line, and VertexRows, of own blocks.
+/// Cost: O(log) a vertex.
+class PartRows {
+ public:
+  /// mine: this process's claims, by the judge's rank; theirs: those that it judges, by the
+  /// claimant's.  uses: of own blocks.  share outlives it.
+  PartRows(const LineShare& share, VertexUses uses, std::vector<std::vector<Claim>> mine,
+           const std::vector<std::vector<Claim>>& theirs);
+
+  /// Once each own block, ascending, with its vertices ascending by id.
+  void count(Index3 block, std::span<const BlockVertex> vertices);
+  /// Of their claims: the first block of all that reference the vertex.
+  [[nodiscard]] ClaimLists firsts() const;
+  /// The same of mine.
+  void take_firsts(const ClaimLists& firsts);
+  /// By own line, ascending: how many vertices have their first block in it.
+  [[nodiscard]] std::vector<std::uint64_t> new_vertices() const;
+  /// By own line: the row of the first of them.
+  void place(std::span<const std::uint64_t> first_rows);
+  /// Of my claims: the row, where the first block is own.
+  [[nodiscard]] ClaimLists given_rows() const;
+  /// The same of theirs.
+  void take_given_rows(const ClaimLists& rows);
+  /// Of their claims: the row.
+  [[nodiscard]] ClaimLists found_rows() const;
+  /// The same of mine.
+  void take_found_rows(const ClaimLists& rows);
+
+  struct Assigned {
+    std::vector<std::uint64_t> rows;  ///< of the whole mesh, by vertex
+    std::vector<std::size_t> added;   ///< vertices whose first block this is
+  };
+  /// As count(), once more.
+  [[nodiscard]] Assigned assign(Index3 block, std::span<const BlockVertex> vertices);
+
+  /// See VertexRows.
+  [[nodiscard]] std::size_t remembered() const { return rows_.remembered(); }
+
+ private:
+  /// A vertex that is judged here.
+  struct Judged {
+    Claim claim;                   ///< of the first of all that reference it
+    std::uint64_t local = kNoRow;  ///< unless no own block references it
+    std::uint64_t row = kNoRow;
+  };
+  /// A vertex that has a local row, but its first block elsewhere.
+  struct Foreign {
+    std::uint64_t local = 0;
+    std::uint64_t row = kNoRow;
+  };
+  /// An own line.
+  struct Line {
+    std::uint64_t first_local = 0;
+    std::uint64_t foreign_before = 0;
+    std::uint64_t first_row = 0;
+  };
+
+  void note(std::uint64_t block, const BlockVertex& vertex, std::uint64_t local);
+  [[nodiscard]] bool is_first_here(const Judged& judged) const;
+  [[nodiscard]] std::size_t foreign_before(std::uint64_t local) const;
+  [[nodiscard]] std::uint64_t row_of(std::uint64_t local) const;
+
+  const LineShare& share_;
+  VertexUses uses_;
+  VertexRows rows_;
+  std::vector<std::vector<Claim>> mine_;
+  ClaimLists locals_;                             ///< of mine
+  std::vector<Judged> judged_;                    ///< ascending by home and id
+  std::vector<std::vector<std::size_t>> theirs_;  ///< their claims, as places in judged_
+  std::vector<Foreign> foreign_;                  ///< ascending
+  std::vector<Line> lines_;
+};
+
+}  // namespace mw::engine

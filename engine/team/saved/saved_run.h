@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What the processes of an earlier run left in their folders, for other processes to go on from.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "engine/store/journal/journal.h"
+#include "engine/team/blocks/block_route.h"
+
+namespace mw::engine {
+
+/// A block as the last epoch has it.
+struct SavedBlock {
+  BlockVersion version;
+  std::uint64_t memory_bytes = 0;  ///< decoded
+  std::size_t folder = 0;
+  Extent extent;
+  std::uint32_t sum = 0;
+};
+
+/// Reads the journals of all processes up to the last epoch that counts.  Many processes may do so
+/// at once; nothing is changed.
+class SavedRun {
+ public:
+  /// folders: one a process of that run; epochs: records of each journal that count.
+  /// ERRORS: mw::Error(kInput) when they are damaged, or do not fit together.
+  SavedRun(const RunLayout& layout, std::vector<std::filesystem::path> folders,
+           std::uint64_t epochs);
+
+  [[nodiscard]] const DoneWindows& done() const { return done_; }
+  /// All blocks that some window or the output still needs, ascending.
+  void for_each_block(const std::function<void(const SavedBlock&)>& use) const;
+  /// Its bytes.  ERRORS: mw::Error(kInput) when they are not those that were written.
+  [[nodiscard]] std::vector<std::byte> read(const SavedBlock& block) const;
+
+ private:
+  void scan(std::size_t folder, std::uint64_t epochs);
+  void take(std::size_t folder, const JournalBlock& block,
+            std::map<std::uint64_t, JournalBlock>& blocks) const;
+  [[nodiscard]] WindowKey last_done_over(const BlockKey& key) const;
+
+  const RunLayout& layout_;
+  std::vector<std::filesystem::path> folders_;
+  std::vector<std::unique_ptr<WorkFile>> files_;  ///< of blocks
+  DoneWindows done_;
+  std::map<std::uint64_t, std::pair<std::size_t, JournalBlock>> blocks_;  ///< by slot
+};
+
+}  // namespace mw::engine

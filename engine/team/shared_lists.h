@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Lists that ranks send to one another or add up, in messages that stay small.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+
+#include "engine/team/team.h"
+
+namespace mw::engine {
+
+/// How lists go.
+struct SwapOptions {
+  /// Of a message.  All ranks have the same.
+  std::size_t max_bytes = std::size_t{1} << 22U;
+  /// Optional: told how many numbers will come, before they do; may throw.
+  std::function<void(std::uint64_t count)> expect;
+};
+
+/// The list that each rank has for this one, by rank, when `mine` are those for each.
+/// Memory: beside the lists two messages from and to each rank.  ERRORS: as Team::gather().
+template <typename T>
+[[nodiscard]] std::vector<std::vector<T>> swap_lists(Team& team,
+                                                     const std::vector<std::vector<T>>& mine,
+                                                     const SwapOptions& options = {}) {
+  const auto ranks = static_cast<std::size_t>(team.ranks());
+  const std::size_t part = std::max<std::size_t>(options.max_bytes / sizeof(T), 1);
+  std::vector<std::vector<std::byte>> messages(ranks);
+  std::uint64_t longest = 0;
+  for (std::size_t to = 0; to < ranks; ++to) {
+    const std::uint64_t size = mine[to].size();
+    longest = std::max(longest, size);
+    messages[to] = bytes_of(&size, 1);
+  }
+  std::uint64_t coming = 0;
+  std::vector<std::vector<T>> out(ranks);
+  const auto sizes = team.trade(std::move(messages));
+  for (const auto& size : sizes) coming += list_of<std::uint64_t>(size).at(0);
+  if (options.expect) options.expect(coming);
+  for (std::size_t from = 0; from < ranks; ++from) {
+    out[from].reserve(list_of<std::uint64_t>(sizes[from]).at(0));
+  }
+  for (const auto& said : team.gather(bytes_of(&longest, 1))) {
+    longest = std::max(longest, list_of<std::uint64_t>(said).at(0));
+  }
+  for (std::size_t begin = 0; begin < longest; begin += part) {
+    messages.assign(ranks, {});
+    for (std::size_t to = 0; to < ranks; ++to) {
+      if (begin >= mine[to].size()) continue;
+      messages[to] = bytes_of(mine[to].data() + begin, std::min(part, mine[to].size() - begin));
+    }
+    const auto came = team.trade(std::move(messages));
+    for (std::size_t from = 0; from < ranks; ++from) {
+      const std::vector<T> list = list_of<T>(came[from]);
+      out[from].insert(out[from].end(), list.begin(), list.end());
+    }
+  }
+  return out;
+}
+
+/// Replaces each element of rank 0's list by fold(fold(its own, rank 1's), rank 2's) and so on.
+/// Memory: max_bytes a rank, on rank 0.  REQUIRES: all lists are of one size, all ranks have the
+/// same max_bytes.  ERRORS: as Team::gather().
+template <typename T, typename Fold>
+void fold_lists(Team& team, std::vector<T>& mine, Fold fold,
+                std::size_t max_bytes = std::size_t{1} << 22U) {
+  const std::size_t part = std::max<std::size_t>(max_bytes / sizeof(T), 1);
+  for (std::size_t begin = 0; begin < mine.size(); begin += part) {
+    std::vector<std::vector<std::byte>> messages(static_cast<std::size_t>(team.ranks()));
+    if (!team.is_first()) {
+      messages[0] = bytes_of(mine.data() + begin, std::min(part, mine.size() - begin));
+    }
+    const auto came = team.trade(std::move(messages));
+    for (std::size_t from = 1; team.is_first() && from < came.size(); ++from) {
+      const std::vector<T> theirs = list_of<T>(came[from]);
+      for (std::size_t i = 0; i < theirs.size(); ++i) {
+        mine[begin + i] = fold(mine[begin + i], theirs[i]);
+      }
+    }
+  }
+}
+
+}  // namespace mw::engine
