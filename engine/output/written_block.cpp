@@ -77,10 +77,12 @@ void give_rows(std::vector<io::TetRows>& tets, std::span<const std::uint64_t> ro
 
 io::MeshHeader header_of(const io::DenseVolume& volume, const LabelSelection& selection,
                          std::uint64_t tets, const std::optional<io::MeshPromises>& promises) {
-  io::MeshHeader out{.tets = tets,
-                     .labels_signed = volume.table().is_signed(),
-                     .names = written_names(volume, selection),
-                     .record = {.box = box_of(volume.info()), .promises = promises}};
+  io::MeshHeader out{
+      .tets = tets,
+      .labels_signed = volume.table().is_signed(),
+      .names = written_names(volume, selection),
+      .record = {
+          .box = box_of(volume.info()), .promises = promises, .frame = volume.info().space.frame}};
   tell_choice(selection, volume.table(), out.record);
   return out;
 }

@@ -15,8 +15,9 @@ namespace mw::io {
 /// or `medit:ref`, else the only one, else null.
 [[nodiscard]] const std::string* choose_label(const std::vector<std::string>& names);
 
-inline constexpr const char* kLabelId = "label_id";          ///< as the cell array of labels
-inline constexpr const char* kLabelName = "label_name";      ///< strings
+inline constexpr const char* kLabelId = "label_id";  ///< as the cell array of labels
+inline constexpr const char* kLabelName =
+    "label_name";  ///< strings, or bytes with a NUL behind each
 inline constexpr const char* kLabelColour = "label_colour";  ///< 4 x u8
 
 /// The arrays of a file, one row a label.

@@ -15,6 +15,7 @@ constexpr const char* kLabels = "labels";
 constexpr const char* kSmooth = "smooth";
 constexpr const char* kVoxel = "voxel";
 constexpr const char* kNone = "none";
+constexpr const char* kFrame = "frame";
 constexpr const char* kOnly = "only_labels";
 constexpr const char* kWithout = "without_labels";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
@@ -88,6 +89,7 @@ std::string record_text(const MeshRecord& record) {
   Json out = Json::object();
   if (record.box) out["box"] = box_json(*record.box);
   if (record.promises) out["promises"] = promises_json(*record.promises);
+  if (record.frame != WorldFrame::kOwn) out[kFrame] = name(record.frame);
   add_labels(record.only_labels, kOnly, out);
   add_labels(record.without_labels, kWithout, out);
   return out.empty() ? std::string() : out.dump();
@@ -100,6 +102,11 @@ MeshRecord parse_record(std::string_view text, std::string_view file) {
   const JsonFields fields(value, std::string(file), kRecordName);
   if (fields.has("box")) record.box = box_in(fields.object("box"));
   if (fields.has("promises")) record.promises = promises_in(fields.object("promises"));
+  if (fields.has(kFrame)) {
+    record.frame = word_in(fields, kFrame, name(WorldFrame::kRas), name(WorldFrame::kLps))
+                       ? WorldFrame::kRas
+                       : WorldFrame::kLps;
+  }
   record.only_labels = labels_in(fields, kOnly);
   record.without_labels = labels_in(fields, kWithout);
   if (!record.only_labels.empty() && !record.without_labels.empty()) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/volume/volume_space.h"
 #include "kernels/core/label.h"
 
 namespace mw::io {
@@ -41,6 +42,7 @@ inline constexpr const char* kRecordName = "mwmesh";
 struct MeshRecord {
   std::optional<MeshBox> box;  ///< of the volume, whether its labels are all in the mesh or not
   std::optional<MeshPromises> promises;
+  WorldFrame frame = WorldFrame::kOwn;  ///< of coordinates
   // What the volume's labels are that the mesh holds; at most one has any, neither where all are.
   std::vector<RawLabel> only_labels;
   std::vector<RawLabel> without_labels;
@@ -50,9 +52,9 @@ struct MeshRecord {
 
 /// {"box": {"origin": [...], "x": [...], "y": [...], "z": [...]}, "promises": {"max_distance": 1.5,
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none"},
-/// "only_labels": [...], "without_labels": [...]}, without what is not known; empty when nothing
-/// is.  Labels are numbers of 64 bits with a sign.  ASCII, no line end; numbers come back to the
-/// bit.
+/// "frame": "ras", "only_labels": [...], "without_labels": [...]}, without what is not known; empty
+/// when nothing is.  Labels are numbers of 64 bits with a sign.  ASCII, no line end; numbers come
+/// back to the bit.
 [[nodiscard]] std::string record_text(const MeshRecord& record);
 
 /// Nothing of an empty text.  ERRORS: mw::Error(kInput) naming file and field.  Whether a run can

@@ -54,6 +54,7 @@ Surface::Surface(const SurfaceSource& source, std::shared_ptr<const SurfaceLabel
                  const std::vector<ShellPlan>& plans, bool manifold)
     : vertices_(source.folder), triangles_(source.folder) {
   header_.labels = std::move(labels);
+  header_.frame = source.mesh.header().record.frame;
   for (const ShellPlan& plan : plans) add_shell(source, plan, manifold);
 }
 

@@ -69,6 +69,11 @@ std::uint64_t SurfaceHeader::triangles() const {
   return sum;
 }
 
+std::string space_comment(const SurfaceHeader& header) {
+  if (header.frame == WorldFrame::kOwn) return {};
+  return header.frame == WorldFrame::kRas ? "SPACE=RAS" : "SPACE=LPS";
+}
+
 bool RunCursor::next() {
   bool other = !begun_;
   begun_ = true;

@@ -17,6 +17,7 @@
 #include "io/labels/label_table.h"
 #include "io/mesh/grouped/box_sides.h"
 #include "io/names/label_names.h"
+#include "io/volume/volume_space.h"
 
 namespace mw::io {
 
@@ -68,6 +69,7 @@ struct SurfaceShell {
 struct SurfaceHeader {
   std::shared_ptr<const SurfaceLabels> labels;
   std::vector<SurfaceShell> shells;
+  WorldFrame frame = WorldFrame::kOwn;  ///< of coordinates
 
   [[nodiscard]] std::uint64_t vertices() const;
   [[nodiscard]] std::uint64_t triangles() const;
@@ -107,6 +109,10 @@ class RunCursor {
   std::uint64_t seen_ = 0;  ///< triangles of the run
   bool begun_ = false;
 };
+
+/// "SPACE=RAS" or "SPACE=LPS", as 3D Slicer finds it in comments of files; empty where the frame is
+/// not known.
+[[nodiscard]] std::string space_comment(const SurfaceHeader& header);
 
 /// At the end of the file, least significant byte first.
 template <class T>

@@ -32,7 +32,8 @@ class VtkDocument {
   /// REQUIRES: array is a DataArray of the document.
   [[nodiscard]] std::vector<std::uint64_t> integers(pugi::xml_node array, std::uint64_t count);
   [[nodiscard]] std::vector<double> reals(pugi::xml_node array, std::uint64_t count);
-  /// REQUIRES: array is an Array of strings, each with a NUL behind it.  At most 64 MiB of them.
+  /// REQUIRES: array is an Array of strings, or a DataArray of bytes; each string has a NUL behind
+  /// it. At most 64 MiB of them.
   [[nodiscard]] std::vector<std::string> strings(pugi::xml_node array);
 
  private:

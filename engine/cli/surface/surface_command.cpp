@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh surface: where labels of a mesh meet, as triangles.
+#include <iostream>
+
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/options/shared_options.h"
@@ -34,6 +36,7 @@ class SurfaceJob {
       write_each();
     }
     output_.finish(labels_->names);
+    print_frame();
   }
 
  private:
@@ -84,6 +87,13 @@ class SurfaceJob {
                                          text_of(other) + " share no triangle");
     }
     return {std::move(plan)};
+  }
+
+  void print_frame() const {
+    const io::WorldFrame frame = source_.mesh.header().record.frame;
+    const bool known = frame != io::WorldFrame::kOwn;
+    std::cout << "coordinates " << (known ? name(frame) : "in a frame that the mesh does not name")
+              << "\n";
   }
 
   void require_facets(const io::ShellPlan& plan, const std::string& what) const {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/file/file_descriptor.h"
+#include "io/file/sink/partial_file.h"
 
 namespace mw::io {
 
@@ -21,10 +22,10 @@ namespace mw::io {
 /// in one step. The destructor of a file that was not committed removes the partial one. ERRORS
 /// (all members): mw::Error(kResource) when the disk is full; kUsage when the path cannot be
 /// written.  Thread safety: none.
-class AtomicFile {
+class AtomicFile : public PlacedOutput {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
-  ~AtomicFile();
+  ~AtomicFile() override;
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
@@ -33,7 +34,7 @@ class AtomicFile {
   void append(std::string_view text);
   /// Writes bytes at offset, unbuffered, over what was appended there; does not move the place
   /// where append() writes.
-  void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
   /// What is in the file there; zeros behind its end.  Sees what write_at() wrote, not what
   /// append() still buffers.
   void read_at(std::uint64_t offset, std::span<std::byte> out) const;

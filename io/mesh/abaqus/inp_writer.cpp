@@ -5,7 +5,6 @@
 
 #include "io/file/errors.h"
 #include "io/file/scratch/external_sort.h"
-#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/medit/medit.h"
 
 namespace mw::io {
@@ -18,11 +17,6 @@ constexpr std::string_view kInpEnds = "** END OF MESH";
 
 constexpr std::uint64_t kMaxNumber = 999'999'999;
 
-/// "1, 2, 3", numbers from 1 on for rows from 0 on.
-void append_rows(std::string& line, std::span<const std::uint64_t> rows) {
-  for (const std::uint64_t row : rows) line += text(", ", row + 1);
-}
-
 /// The face of a C3D4 or C3D10 that lies opposite to a corner: S1 has its nodes 1 2 3, S2 1 4 2,
 /// S3 2 4 3, S4 3 4 1.
 const char* face_name(std::uint64_t opposite) {
@@ -30,33 +24,41 @@ const char* face_name(std::uint64_t opposite) {
   return kFaces[opposite];
 }
 
-/// `** label 7 "name" 255 0 0 255`, as in MEDIT files; empty where that is longer than the 256
-/// characters that Abaqus allows.
-std::string inp_comment(const LabelName& row, bool is_signed) {
+/// `** Grey_matter: label 7 "Grey matter" 255 0 0 255`; the label alone where that is longer than
+/// the 256 characters that Abaqus allows.
+std::string inp_comment(const std::string& set, const LabelName& row, bool is_signed) {
   constexpr std::size_t kMaxBytes = 256;
-  std::string line = medit_comment(row, is_signed);
-  line.replace(0, 1, "**");
-  line.pop_back();
-  return line.size() > kMaxBytes ? std::string() : line;
+  const auto comment = [&](const LabelName& told) {
+    std::string line = medit_comment(told, is_signed);
+    line.pop_back();
+    return text("** ", set, ":", line.substr(1));
+  };
+  const std::string line = comment(row);
+  return line.size() > kMaxBytes ? comment({.label = row.label, .colour = row.colour}) : line;
 }
 
 }  // namespace
 
 void InpWriter::write(GroupedMesh& mesh) {
   check_counts(mesh);
-  write_head(mesh);
+  const PlainNames names(mesh);
+  write_head(mesh, names);
   write_nodes(mesh);
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) write_elements(mesh, rank);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    write_elements(mesh, mesh.label_tets()[rank], names.volume(rank));
+  }
   const std::vector<FacetGroup>& groups = mesh.facet_groups();
   for (std::size_t g = 0; g < groups.size();) {
+    FacetGroup all = groups[g];
     // Groups of a side, which have one name, are neighbours.
-    const std::string name = plain_facet_name(mesh.table(), groups[g]);
-    RowRange facets = groups[g].facets;
-    while (++g < groups.size() && plain_facet_name(mesh.table(), groups[g]) == name) {
-      facets.end = groups[g].facets.end;
+    while (++g < groups.size() && all.side != Side::kInterface && groups[g].side == all.side) {
+      all.facets.end = groups[g].facets.end;
     }
-    write_node_set(mesh, name, facets);
-    write_surface(mesh, name, facets);
+    write_node_set(mesh, names.facets(all), all.facets);
+    write_surface(mesh, names.facets(all), all.facets, false);
+    if (all.side == Side::kInterface) {
+      write_surface(mesh, names.facets(all, true), all.facets, true);
+    }
   }
   line(kInpEnds);
   file_.commit();
@@ -69,17 +71,20 @@ void InpWriter::check_counts(const GroupedMesh& mesh) const {
                                       " are needed; write .msh or .vtkhdf"));
 }
 
-void InpWriter::write_head(const GroupedMesh& mesh) {
+void InpWriter::write_head(const GroupedMesh& mesh, const PlainNames& names) {
   line("*HEADING");
   line(text("Tetrahedra of ", mesh.table().size(), " labels"));
   line(kInpBegins);
-  line("** Element set LABEL_7: label 7 (LABEL_M7: -7).");
-  line("** Surface FACE_1_2: where labels 1 and 2 meet, faces of the elements of label 1.");
+  line(
+      "** Element set LABEL_7: label 7 (LABEL_M7: -7).  Sets of labels with names are listed "
+      "below.");
+  line("** Surface FACE_1_2: where labels 1 and 2 meet, faces of the elements of label 1;");
+  line("** FACE_2_1: the same faces, of the elements of label 2.");
   line("** Surfaces X_MIN to Z_MAX: sides of the box; OUTER: what else bounds the mesh.");
-  line("** Node sets have the nodes of the surface of the same name.");
-  for (const LabelName& row : mesh.names().rows()) {
-    const std::string comment = inp_comment(row, mesh.table().is_signed());
-    if (!comment.empty()) line(comment);
+  line("** Node sets have the nodes of the surface of the same name (FACE_2_1: see FACE_1_2).");
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    const LabelName* const row = mesh.names().find(mesh.table().raw(rank));
+    if (row != nullptr) line(inp_comment(names.volume(rank), *row, mesh.table().is_signed()));
   }
 }
 
@@ -91,24 +96,26 @@ void InpWriter::write_nodes(GroupedMesh& mesh) {
   }
 }
 
-void InpWriter::write_elements(GroupedMesh& mesh, Label rank) {
+void InpWriter::write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name) {
   const bool quadratic = mesh.element() == Element::kTet10;
-  line(text("*ELEMENT, TYPE=", quadratic ? "C3D10" : "C3D4",
-            ", ELSET=", plain_volume_name(mesh.table(), rank)));
-  const RowRange tets = mesh.label_tets()[rank];
+  line(text("*ELEMENT, TYPE=", quadratic ? "C3D10" : "C3D4", ", ELSET=", name));
   for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
     std::string numbers = text(t + 1);
-    append_rows(numbers, mesh.tet(t));
-    if (quadratic) append_rows(numbers, mesh.middles(t));
+    for (const std::uint64_t row : mesh.tet_nodes(t)) numbers += text(", ", row + 1);
     line(numbers);
   }
 }
 
-void InpWriter::write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets) {
+void InpWriter::write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets,
+                              bool of_second) {
   line("*SURFACE, TYPE=ELEMENT, NAME=", name);
   for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
     const Facet facet = mesh.facet(f);
-    line(text(facet.tet + 1, face_name(facet.opposite)));
+    if (of_second) {
+      line(text(facet.second_tet + 1, face_name(facet.second_opposite)));
+    } else {
+      line(text(facet.tet + 1, face_name(facet.opposite)));
+    }
   }
 }
 
@@ -116,13 +123,8 @@ void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRa
   constexpr std::size_t kSortBytes = 8 << 20;
   constexpr std::size_t kMaxItems = 16;  // of a data line
   ExternalSort<1> rows(folder_, kSortBytes);
-  const auto add = [&](std::span<const std::uint64_t> more) {
-    for (const std::uint64_t row : more) rows.add({row});
-  };
   for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
-    const Facet facet = mesh.facet(f);
-    add(facet.rows);
-    if (mesh.element() == Element::kTet10) add(mesh.facet_middles(facet));
+    for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) rows.add({row});
   }
   line("*NSET, NSET=", name);
   std::string items;

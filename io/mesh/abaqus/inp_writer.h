@@ -7,15 +7,16 @@
 #include <string>
 
 #include "io/file/sink/atomic_file.h"
-#include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/grouped/group_names.h"
 
 namespace mw::io {
 
-/// Nodes are 1 + row, elements C3D4 or C3D10 from 1 on, in a set LABEL_7 a label (LABEL_M7 of
-/// -7).  An interface is a surface FACE_1_2 of faces of the lower label's elements, so its normals
-/// point out of that; a side of the box is one surface X_MIN .. Z_MAX (or OUTER) of all labels.  Of
-/// each the nodes are a node set of the same name.  Labels' names and colours are comments, as in
-/// MEDIT files.
+/// Nodes are 1 + row, elements C3D4 or C3D10 from 1 on, in a set a label, which has its name, or
+/// LABEL_7 (LABEL_M7 of -7): see PlainNames.  An interface is two surfaces of the same faces,
+/// FACE_1_2 of the lower label's elements and FACE_2_1 of the other's, as contact and ties want
+/// them; a side of the box is one surface X_MIN .. Z_MAX (or OUTER) of all labels.  The nodes of
+/// each, of an interface once, are a node set of the same name.  Comments say which set a named
+/// label is, with its name and colour as in MEDIT files.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
 /// which is all that Abaqus has numbers for.
 class InpWriter : public GroupedWriter {
@@ -27,10 +28,10 @@ class InpWriter : public GroupedWriter {
 
  private:
   void check_counts(const GroupedMesh& mesh) const;
-  void write_head(const GroupedMesh& mesh);
+  void write_head(const GroupedMesh& mesh, const PlainNames& names);
   void write_nodes(GroupedMesh& mesh);
-  void write_elements(GroupedMesh& mesh, Label rank);
-  void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets);
+  void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);
+  void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets);
   void line(std::string_view line, std::string_view more = {});
 

@@ -46,24 +46,19 @@ std::vector<std::string> part_names(const GroupedMesh& mesh) {
   return out;
 }
 
-/// `<tag id="7">1,2,3</tag>`.
-template <class Numbers>
-void append_row(AtomicFile& file, std::string_view tag, std::uint64_t id, const Numbers& numbers) {
+/// Rows count from 1 in the file.
+void append_cell(AtomicFile& file, std::string_view tag, std::uint64_t id, const NodeRows& rows) {
   NumberLine line(',');
-  for (const auto number : numbers) line.add(number);
+  for (const std::uint64_t row : rows) line.add(row + 1);
   file.append(text("      <", tag, " id=\"", id, "\">", line.numbers(), "</", tag, ">\n"));
 }
 
-/// Rows count from 1 in the file.
-template <class Rows>
-void append_cell(AtomicFile& file, std::string_view tag, std::uint64_t id, Rows rows) {
-  for (std::uint64_t& row : rows) ++row;
-  append_row(file, tag, id, rows);
-}
-
-std::array<std::uint64_t, 6> six_rows(GroupedMesh& mesh, const Facet& facet) {
-  const std::array<std::uint64_t, 3> middles = mesh.facet_middles(facet);
-  return {facet.rows[0], facet.rows[1], facet.rows[2], middles[0], middles[1], middles[2]};
+/// Nodes of a facet as they are seen from its other side.
+NodeRows turned(const NodeRows& nodes) {
+  constexpr std::array<std::size_t, 6> kOrder{0, 2, 1, 5, 4, 3};
+  NodeRows out;
+  for (std::size_t i = 0; i < nodes.size(); ++i) out.add({nodes.begin() + kOrder[i], 1});
+  return out;
 }
 
 }  // namespace
@@ -106,7 +101,9 @@ void FebioWriter::write_materials(const std::vector<std::string>& parts,
 void FebioWriter::write_nodes(GroupedMesh& mesh) {
   file_.append("    <Nodes name=\"nodes\">\n");
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
-    append_row(file_, "node", row + 1, mesh.node(row));
+    NumberLine line(',');
+    for (const double x : mesh.node(row)) line.add(x);
+    file_.append(text("      <node id=\"", row + 1, "\">", line.numbers(), "</node>\n"));
   }
   file_.append("    </Nodes>\n");
 }
@@ -115,30 +112,31 @@ void FebioWriter::write_part(GroupedMesh& mesh, RowRange tets, const std::string
   const bool ten = mesh.element() == Element::kTet10;
   file_.append(text("    <Elements type=\"", ten ? "tet10" : "tet4", "\" name=\"", name, "\">\n"));
   for (std::uint64_t tet = tets.begin; tet < tets.end; ++tet) {
-    if (ten) {
-      append_cell(file_, "elem", tet + 1, ten_rows(mesh, tet));
-    } else {
-      append_cell(file_, "elem", tet + 1, mesh.tet(tet));
-    }
+    append_cell(file_, "elem", tet + 1, mesh.tet_nodes(tet));
   }
   file_.append("    </Elements>\n");
 }
 
 void FebioWriter::write_surfaces(GroupedMesh& mesh) {
+  const GroupNames names(mesh);
   UniqueNames unique;
   for (const NumberedFacets& run : number_facets(mesh)) {
-    file_.append(text("    <Surface name=\"", unique.next(run.name), "\">\n"));
-    for (std::uint64_t i = run.facets.begin; i < run.facets.end; ++i) {
-      const Facet facet = mesh.facet(i);
-      const std::uint64_t id = i - run.facets.begin + 1;
-      if (mesh.element() == Element::kTet10) {
-        append_cell(file_, "tri6", id, six_rows(mesh, facet));
-      } else {
-        append_cell(file_, "tri3", id, facet.rows);
-      }
-    }
-    file_.append("    </Surface>\n");
+    write_surface(mesh, run.facets, unique.next(run.name), false);
+    if (run.side != Side::kInterface) continue;
+    const FacetGroup seen_from_second{.first = run.second, .second = run.first};
+    write_surface(mesh, run.facets, unique.next(names.facets(seen_from_second)), true);
   }
+}
+
+void FebioWriter::write_surface(GroupedMesh& mesh, RowRange facets, const std::string& name,
+                                bool is_turned) {
+  const char* const tag = mesh.element() == Element::kTet10 ? "tri6" : "tri3";
+  file_.append(text("    <Surface name=\"", name, "\">\n"));
+  for (std::uint64_t i = facets.begin; i < facets.end; ++i) {
+    const NodeRows nodes = mesh.facet_nodes(mesh.facet(i));
+    append_cell(file_, tag, i - facets.begin + 1, is_turned ? turned(nodes) : nodes);
+  }
+  file_.append("    </Surface>\n");
 }
 
 void FebioWriter::write_domains(const std::vector<std::string>& parts) {

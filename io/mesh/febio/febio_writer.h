@@ -13,7 +13,8 @@ namespace mw::io {
 ///   Material     one a label, of its name, a neo-Hookean placeholder; ids are 1 to the number of
 ///                labels, as FEBio wants them: the numbers of M.feb.labels.csv (label_numbers.h)
 ///   Mesh         Nodes; Elements tet4 or tet10 for each label; a Surface (tri3 or tri6) for each
-///                interface and each side of the box; all ids count from 1
+///                side of the box, and two for each interface: liver|cyst with normals out of the
+///                liver, cyst|liver the other way; all ids count from 1
 ///   MeshDomains  part to material
 /// Parts and surfaces have the names of group_names.h, with _2 and so on behind one that was there.
 class FebioWriter : public GroupedWriter {
@@ -27,6 +28,8 @@ class FebioWriter : public GroupedWriter {
   void write_nodes(GroupedMesh& mesh);
   void write_part(GroupedMesh& mesh, RowRange tets, const std::string& name);
   void write_surfaces(GroupedMesh& mesh);
+  /// name: escaped.
+  void write_surface(GroupedMesh& mesh, RowRange facets, const std::string& name, bool is_turned);
   void write_domains(const std::vector<std::string>& parts);
 
   AtomicFile file_;

@@ -23,9 +23,11 @@ namespace mw::io {
 /// elements of which none is a tet.
 [[nodiscard]] MeshData read_msh(const std::filesystem::path& path);
 
-/// A volume a label, whose tag and physical group are the label's number (LabelNumbers: 1 to
-/// 2^31 - 1), and a surface a facet group, tagged from 1 on, with normals out of the lower label.
-/// Physical surfaces: 1 x_min, 2 x_max, .. 6 z_max, 7 outer, of all labels together; from 8 on the
+/// A volume a label, whose tag and physical group are the label's number (LabelNumbers: from 1 to
+/// what leaves room for the surfaces), and a surface a facet group, with normals out of the lower
+/// label.  Where L is the largest number of a label in the file, surfaces are tagged from L + 1 on,
+/// and physical surfaces are L + 1 x_min, L + 2 x_max, .. L + 6 z_max, L + 7 outer, of all labels
+/// together; from L + 8 on the
 /// interfaces, in the order of their labels.  Names are GroupNames'; those that are longer than
 /// Gmsh reads are "LABEL_7", "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
 /// The table of labels is written beside it.  Entities may be in several pieces, which Gmsh's
@@ -60,7 +62,6 @@ class MshWriter : public GroupedWriter {
   void write_elements(const Contents& contents);
   void put_facets(GroupedMesh& mesh, RowRange facets);
   void put_tets(GroupedMesh& mesh, RowRange tets);
-  void put_nodes_of_element(std::span<const std::uint64_t> rows);
 
   MshEncoder out_;
   AtomicFile labels_;

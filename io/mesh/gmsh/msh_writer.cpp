@@ -4,6 +4,7 @@
 #include "io/mesh/gmsh/msh.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
@@ -14,15 +15,29 @@ namespace {
 
 constexpr std::int32_t kSurface = 2;
 constexpr std::int32_t kVolume = 3;
+/// Gmsh has the middle of edge 2 3 before that of 1 3.
+constexpr std::array<std::size_t, 10> kGmshOrder{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 
-std::int32_t surface_tag(std::size_t group) {
-  return static_cast<std::int32_t>(group) + 1;
+/// Surfaces have numbers above those of labels: many programs have one space of numbers for all
+/// dimensions.
+LabelNumbers numbers_of(const GroupedMesh& mesh) {
+  const auto surfaces = static_cast<std::int64_t>(kSides + mesh.facet_groups().size());
+  return LabelNumbers(mesh.table(), {.max = std::numeric_limits<std::int32_t>::max() - surfaces});
+}
+
+std::int32_t above(const LabelNumbers& labels, std::size_t number) {
+  return static_cast<std::int32_t>(labels.largest() + static_cast<std::int64_t>(number));
+}
+
+std::int32_t surface_tag(const LabelNumbers& labels, std::size_t group) {
+  return above(labels, group + 1);
 }
 
 /// Interfaces are the first groups.
-std::int32_t physical_surface(const FacetGroup& group, std::size_t index) {
-  if (group.side != Side::kInterface) return static_cast<std::int32_t>(group.side);
-  return static_cast<std::int32_t>(kSides + index);
+std::int32_t physical_surface(const LabelNumbers& labels, const FacetGroup& group,
+                              std::size_t index) {
+  const bool interface = group.side == Side::kInterface;
+  return above(labels, interface ? kSides + index : static_cast<std::size_t>(group.side));
 }
 
 /// Gmsh documents 127 bytes and knows no way to write a quote.
@@ -38,12 +53,14 @@ std::string name_line(std::int32_t dimension, std::int64_t tag, const std::strin
 }
 
 /// By label, the surfaces around it; negative where their normals point into it.
-std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh) {
+std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh,
+                                                   const LabelNumbers& labels) {
   std::vector<std::vector<std::int32_t>> tags(mesh.table().size());
   const std::vector<FacetGroup>& groups = mesh.facet_groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    tags[groups[g].first].push_back(surface_tag(g));
-    if (groups[g].second != kExterior) tags[groups[g].second].push_back(-surface_tag(g));
+    const std::int32_t tag = surface_tag(labels, g);
+    tags[groups[g].first].push_back(tag);
+    if (groups[g].second != kExterior) tags[groups[g].second].push_back(-tag);
   }
   return tags;
 }
@@ -51,7 +68,7 @@ std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh) {
 }  // namespace
 
 void MshWriter::write(GroupedMesh& mesh) {
-  Contents contents{mesh, LabelNumbers(mesh.table()), NodeClasses(mesh, folder_)};
+  Contents contents{mesh, numbers_of(mesh), NodeClasses(mesh, folder_)};
   write_format();
   write_physical_names(contents);
   write_entities(contents);
@@ -63,7 +80,7 @@ void MshWriter::write(GroupedMesh& mesh) {
 
 MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {
   const std::size_t groups = contents.mesh.facet_groups().size();
-  if (entity < groups) return {kSurface, surface_tag(entity)};
+  if (entity < groups) return {kSurface, surface_tag(contents.numbers, entity)};
   if (contents.mesh.table().size() == 0) return {kVolume, 1};
   const auto rank = static_cast<Label>(entity - groups);
   return {kVolume, static_cast<std::int32_t>(contents.numbers[rank])};
@@ -91,8 +108,8 @@ void MshWriter::write_physical_names(const Contents& contents) {
         g == 0 || group.side == Side::kInterface || group.side != mesh.facet_groups()[g - 1].side;
     if (!new_group) continue;
     const std::string plain = plain_facet_name(mesh.table(), group);
-    lines.push_back(
-        name_line(kSurface, physical_surface(group, g), gmsh_name(names.facets(group), plain)));
+    lines.push_back(name_line(kSurface, physical_surface(contents.numbers, group, g),
+                              gmsh_name(names.facets(group), plain)));
   }
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const std::string plain = plain_volume_name(mesh.table(), rank);
@@ -115,11 +132,11 @@ void MshWriter::write_entities(const Contents& contents) {
   }
   out_.end_row();
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    put_entity(contents, g, physical_surface(groups[g], g));
+    put_entity(contents, g, physical_surface(contents.numbers, groups[g], g));
     out_.put(std::uint64_t{0});  // no curves
     out_.end_row();
   }
-  const std::vector<std::vector<std::int32_t>> surfaces = surfaces_of(mesh);
+  const std::vector<std::vector<std::int32_t>> surfaces = surfaces_of(mesh, contents.numbers);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const std::size_t entity = groups.size() + rank;
     put_entity(contents, entity, tag_of(contents, entity).tag);
@@ -206,10 +223,8 @@ void MshWriter::write_elements(const Contents& contents) {
 
 void MshWriter::put_facets(GroupedMesh& mesh, RowRange facets) {
   for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
-    const Facet facet = mesh.facet(f);
     out_.put(f + 1);
-    put_nodes_of_element(facet.rows);
-    if (mesh.element() == Element::kTet10) put_nodes_of_element(mesh.facet_middles(facet));
+    for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) out_.put(row + 1);
     out_.end_row();
   }
 }
@@ -217,18 +232,12 @@ void MshWriter::put_facets(GroupedMesh& mesh, RowRange facets) {
 void MshWriter::put_tets(GroupedMesh& mesh, RowRange tets) {
   for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
     out_.put(mesh.facet_count() + t + 1);
-    put_nodes_of_element(mesh.tet(t));
-    if (mesh.element() == Element::kTet10) {
-      auto middles = mesh.middles(t);
-      std::swap(middles[4], middles[5]);  // Gmsh has edge 2 3 before 1 3
-      put_nodes_of_element(middles);
+    const NodeRows nodes = mesh.tet_nodes(t);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      out_.put(nodes.begin()[kGmshOrder[i]] + 1);
     }
     out_.end_row();
   }
-}
-
-void MshWriter::put_nodes_of_element(std::span<const std::uint64_t> rows) {
-  for (const std::uint64_t row : rows) out_.put(row + 1);
 }
 
 }  // namespace mw::io

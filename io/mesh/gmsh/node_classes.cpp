@@ -21,9 +21,7 @@ void add_facet_uses(GroupedMesh& mesh, Pairs& uses) {
   for (std::uint64_t group = 0; group < mesh.facet_groups().size(); ++group) {
     const RowRange facets = mesh.facet_groups()[group].facets;
     for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
-      const Facet facet = mesh.facet(f);
-      add_uses(facet.rows, group, uses);
-      if (mesh.element() == Element::kTet10) add_uses(mesh.facet_middles(facet), group, uses);
+      add_uses(mesh.facet_nodes(mesh.facet(f)), group, uses);
     }
   }
 }
@@ -32,8 +30,7 @@ void add_tet_uses(GroupedMesh& mesh, Pairs& uses) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const std::uint64_t entity = mesh.facet_groups().size() + rank;
     for (std::uint64_t t = mesh.label_tets()[rank].begin; t < mesh.label_tets()[rank].end; ++t) {
-      add_uses(mesh.tet(t), entity, uses);
-      if (mesh.element() == Element::kTet10) add_uses(mesh.middles(t), entity, uses);
+      add_uses(mesh.tet_nodes(t), entity, uses);
     }
   }
 }

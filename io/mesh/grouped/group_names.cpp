@@ -5,7 +5,6 @@
 #include "io/mesh/grouped/group_names.h"
 
 #include <cctype>
-#include <map>
 
 #include "io/file/errors.h"
 #include "io/names/csv_names.h"
@@ -20,6 +19,33 @@ std::string plain_digits(const LabelTable& table, Label rank) {
 }
 
 constexpr std::int64_t kFirstInterface = kSides;
+
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+bool is_plain(char c) {
+  return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
+std::string in_capitals(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
+/// A '_' for all that is not allowed between two characters that are; empty where none is.
+std::string plain_text(std::string_view name) {
+  std::string out;
+  bool gap = false;
+  for (const char c : name) {
+    gap = gap || !is_plain(c);
+    if (!is_plain(c)) continue;
+    if (gap && !out.empty()) out += '_';
+    gap = false;
+    out += c;
+  }
+  return out.empty() || is_letter(out.front()) ? out : "L_" + out;
+}
 
 }  // namespace
 
@@ -62,9 +88,61 @@ std::string plain_facet_name(const LabelTable& table, const FacetGroup& group) {
   if (group.side == Side::kInterface) {
     return "FACE_" + plain_digits(table, group.first) + "_" + plain_digits(table, group.second);
   }
-  std::string name = side_name(group.side);
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return in_capitals(side_name(group.side));
+}
+
+PlainNames::PlainNames(const GroupedMesh& mesh) {
+  for (std::size_t side = 0; side < kSides; ++side) {
+    taken_.insert(in_capitals(side_name(static_cast<Side>(side))));
+  }
+  name_volumes(mesh);
+  for (const FacetGroup& group : mesh.facet_groups()) {
+    if (group.side != Side::kInterface) continue;
+    name_interface(mesh, group.first, group.second);
+    name_interface(mesh, group.second, group.first);
+  }
+}
+
+void PlainNames::name_volumes(const GroupedMesh& mesh) {
+  const LabelTable& table = mesh.table();
+  std::vector<std::string> wanted;
+  std::map<std::string, std::size_t> uses;
+  for (Label rank = 0; rank < table.size(); ++rank) {
+    wanted.push_back(plain_text(mesh.names().name(table.raw(rank))));
+    if (wanted.back().empty()) wanted.back() = plain_volume_name(table, rank);
+    ++uses[in_capitals(wanted.back())];
+  }
+  for (Label rank = 0; rank < table.size(); ++rank) {
+    const std::string number = plain_digits(table, rank);
+    const bool only_one = uses[in_capitals(wanted[rank])] == 1;
+    volumes_.push_back(take(only_one ? wanted[rank] : wanted[rank] + "_" + number, number));
+  }
+}
+
+void PlainNames::name_interface(const GroupedMesh& mesh, Label from, Label to) {
+  const LabelTable& table = mesh.table();
+  const auto part = [&](Label rank) {
+    const bool named = !plain_text(mesh.names().name(table.raw(rank))).empty();
+    return named ? volumes_[rank] : plain_digits(table, rank);
+  };
+  interfaces_[{from, to}] = take(text("FACE_", part(from), "_", part(to)),
+                                 text(plain_digits(table, from), "_", plain_digits(table, to)));
+}
+
+std::string PlainNames::take(const std::string& wanted, const std::string& number) {
+  constexpr std::size_t kMaxBytes = 80;
+  std::string name = wanted;
+  for (int i = 1; name.size() > kMaxBytes || !taken_.insert(in_capitals(name)).second; ++i) {
+    const std::string behind = text("_", number, i == 1 ? std::string() : text("_", i));
+    name = wanted.substr(0, kMaxBytes - behind.size()) + behind;
+  }
   return name;
+}
+
+std::string PlainNames::facets(const FacetGroup& group, bool of_second) const {
+  if (group.side != Side::kInterface) return in_capitals(side_name(group.side));
+  return interfaces_.at(of_second ? std::pair(group.second, group.first)
+                                  : std::pair(group.first, group.second));
 }
 
 std::vector<NumberedFacets> number_facets(const GroupedMesh& mesh) {

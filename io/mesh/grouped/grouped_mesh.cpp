@@ -4,6 +4,7 @@
 #include "io/mesh/grouped/grouped_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mw::io {
 
@@ -57,9 +58,8 @@ double share_along(const MeshBox& box, std::size_t axis, const Position& p) {
   return along / length;
 }
 
-constexpr std::uint64_t kBatchRows = 4096;
-
 void write_nodes(GroupedMesh& mesh, MeshSink& sink) {
+  constexpr std::uint64_t kBatchRows = 4096;
   std::vector<Position> batch;
   for (std::uint64_t at = 0; at < mesh.node_count(); at += batch.size()) {
     batch.resize(std::min(kBatchRows, mesh.node_count() - at));
@@ -70,13 +70,8 @@ void write_nodes(GroupedMesh& mesh, MeshSink& sink) {
 
 void write_cells(GroupedMesh& mesh, Label rank, TenNodeSink& sink) {
   const RowRange range = mesh.label_tets()[rank];
-  std::vector<TenRows> batch;
-  std::vector<RawLabel> labels;
-  for (std::uint64_t at = range.begin; at < range.end; at += batch.size()) {
-    batch.resize(std::min(kBatchRows, range.end - at));
-    labels.assign(batch.size(), mesh.table().raw(rank));
-    for (std::size_t i = 0; i < batch.size(); ++i) batch[i] = ten_rows(mesh, at + i);
-    sink.write_ten_nodes(batch, labels);
+  for (std::uint64_t tet = range.begin; tet < range.end; ++tet) {
+    sink.write_cell(mesh.tet_nodes(tet), mesh.table().raw(rank));
   }
 }
 
@@ -94,12 +89,17 @@ Side BoxSides::side_of(const std::array<Position, 3>& corners) const {
   return Side::kOuter;
 }
 
-TenRows ten_rows(GroupedMesh& mesh, std::uint64_t tet) {
-  TenRows out{};
-  const TetRows corners = mesh.tet(tet);
-  const std::array<std::uint64_t, 6> middles = mesh.middles(tet);
-  std::copy(corners.begin(), corners.end(), out.begin());
-  std::copy(middles.begin(), middles.end(), out.begin() + corners.size());
+NodeRows GroupedMesh::tet_nodes(std::uint64_t number) {
+  NodeRows out;
+  out.add(tets_[number]);
+  if (element_ == Element::kTet10) out.add(middles_[number]);
+  return out;
+}
+
+NodeRows GroupedMesh::facet_nodes(const Facet& facet) {
+  NodeRows out;
+  out.add(facet.rows);
+  if (element_ == Element::kTet10) out.add(facet_middles(facet));
   return out;
 }
 

@@ -4,7 +4,9 @@
 // edges.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "io/file/scratch/scratch_file.h"
@@ -38,11 +40,31 @@ struct Facet {
   std::array<std::uint64_t, 3> rows{};  ///< its normal (by the right hand) points out of `first`
   std::uint64_t tet = 0;                ///< that of label `first`
   std::uint64_t opposite = 0;           ///< which corner of that tet is not in it, 0 to 3
+  // Of an interface the same of label `second`.
+  std::uint64_t second_tet = 0;
+  std::uint64_t second_opposite = 0;
 };
 
 /// The six edges of a tet by its corners, in the order of VTK's, Abaqus' and FEBio's ten nodes.
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
+/// Nodes of a tet or of a facet: its corners, and with kTet10 behind them the middles of its edges,
+/// those of a tet in the order of kTetEdges, those of a facet as edges 0 1, 1 2 and 2 0.
+class NodeRows {
+ public:
+  [[nodiscard]] const std::uint64_t* begin() const { return rows_.data(); }
+  [[nodiscard]] const std::uint64_t* end() const { return rows_.data() + size_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  void add(std::span<const std::uint64_t> rows) {
+    std::copy(rows.begin(), rows.end(), rows_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += rows.size();
+  }
+
+ private:
+  std::array<std::uint64_t, 10> rows_{};
+  std::size_t size_ = 0;
+};
 
 /// Everything waits in temporary files, so memory (8 MiB a list that is looked into) does not grow
 /// with the mesh.  Rows of nodes: vertices as they came, then middles of edges, edges ascending by
@@ -74,6 +96,7 @@ class GroupedMesh {
   [[nodiscard]] Label label_of(std::uint64_t tet) const;
   /// Rows of the middles of kTetEdges.  REQUIRES: kTet10.
   [[nodiscard]] std::array<std::uint64_t, 6> middles(std::uint64_t tet) { return middles_[tet]; }
+  [[nodiscard]] NodeRows tet_nodes(std::uint64_t number);
 
   /// Ascending by side, first, second.
   [[nodiscard]] const std::vector<FacetGroup>& facet_groups() const { return facet_groups_; }
@@ -82,6 +105,7 @@ class GroupedMesh {
   [[nodiscard]] Facet facet(std::uint64_t number) { return facets_[number]; }
   /// Rows of the middles of the facet's edges 0 1, 1 2 and 2 0.  REQUIRES: kTet10.
   [[nodiscard]] std::array<std::uint64_t, 3> facet_middles(const Facet& facet);
+  [[nodiscard]] NodeRows facet_nodes(const Facet& facet);
 
  private:
   friend class MeshGrouping;
@@ -123,17 +147,12 @@ class GroupedWriter {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-using TenRows = std::array<std::uint64_t, 10>;  ///< corners, then the middles of kTetEdges
-
 /// A sink that writes tets of one kind or the other.
 class TenNodeSink : public MeshSink {
  public:
-  /// In the place of write_tets().  REQUIRES: as that; the sink was made for kTet10.
-  virtual void write_ten_nodes(std::span<const TenRows> tets, std::span<const RawLabel> labels) = 0;
+  /// A tet of ten nodes, in the place of write_tets().  REQUIRES: the sink was made for kTet10.
+  virtual void write_cell(std::span<const std::uint64_t> rows, RawLabel label) = 0;
 };
-
-/// The corners of a tet and the middles of its edges.
-[[nodiscard]] TenRows ten_rows(GroupedMesh& mesh, std::uint64_t tet);
 
 /// Streams a grouped mesh of kTet10 into such a sink.
 class TenNodeWriter : public GroupedWriter {

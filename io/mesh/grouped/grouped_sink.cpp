@@ -48,8 +48,8 @@ class MeshGrouping {
   /// Three ascending rows, and 4 * tet + opposite corner.
   using FaceRecord = std::array<std::uint64_t, 4>;
   using Faces = ExternalSort<4>;
-  /// Side << 32 | first, second, 4 * tet + opposite corner.
-  using Facets = ExternalSort<3>;
+  /// Side << 32 | first, second, 4 * tet + opposite corner of the first, and of the second.
+  using Facets = ExternalSort<4>;
 
   void find_box();
   void sort_tets(Faces& faces);
@@ -182,18 +182,20 @@ void MeshGrouping::add_facet(std::span<const FaceRecord> sharing, Facets& facets
     std::array<Position, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i) corners[i] = mesh_.vertices_[sharing[0][i]];
     const auto side = static_cast<std::uint64_t>(BoxSides(mesh_.box_).side_of(corners));
-    facets.add({side << 32 | one, kExterior, sharing[0][3]});
+    facets.add({side << 32 | one, kExterior, sharing[0][3], 0});
     return;
   }
   const Label other = mesh_.label_of(sharing[1][3] >> 2);
   if (one == other) return;
+  const std::size_t lower = one < other ? 0 : 1;
   // Side::kInterface is 0.
-  facets.add({std::min(one, other), std::max(one, other), sharing[one < other ? 0 : 1][3]});
+  facets.add(
+      {std::min(one, other), std::max(one, other), sharing[lower][3], sharing[1 - lower][3]});
 }
 
 void MeshGrouping::number_facets(Facets& facets) {
   std::vector<FacetGroup>& groups = mesh_.facet_groups_;
-  facets.each([&](const std::array<std::uint64_t, 3>& record) {
+  facets.each([&](const Facets::Record& record) {
     const FacetGroup group{.side = static_cast<Side>(record[0] >> 32),
                            .first = static_cast<Label>(record[0] & 0xffffffffU),
                            .second = static_cast<Label>(record[1])};
@@ -206,7 +208,11 @@ void MeshGrouping::number_facets(Facets& facets) {
     ++groups.back().facets.end;
     const std::uint64_t tet = record[2] >> 2;
     const std::uint64_t opposite = record[2] & 3;
-    mesh_.facets_.append({facet_rows(mesh_.tets_[tet], opposite), tet, opposite});
+    mesh_.facets_.append({.rows = facet_rows(mesh_.tets_[tet], opposite),
+                          .tet = tet,
+                          .opposite = opposite,
+                          .second_tet = record[3] >> 2,
+                          .second_opposite = record[3] & 3});
   });
 }
 

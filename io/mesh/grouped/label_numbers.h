@@ -3,6 +3,7 @@
 // Labels of 64 bits in formats whose numbers are smaller.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -30,6 +31,10 @@ class LabelNumbers {
 
   /// By rank.
   [[nodiscard]] std::int64_t operator[](Label rank) const { return numbers_[rank]; }
+  /// 0 of no labels.
+  [[nodiscard]] std::int64_t largest() const {
+    return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end());
+  }
 
  private:
   std::vector<std::int64_t> numbers_;

@@ -18,53 +18,12 @@
 
 namespace mw::io {
 
-/// Addresses of the columns.
-struct VtkhdfPlaces {
-  std::uint64_t connectivity = 0;
-  std::uint64_t offsets = 0;
-  std::uint64_t types = 0;
-  std::uint64_t labels = 0;
-  std::uint64_t points = 0;  ///< behind all others: still to be reserved
-};
-
 /// The first rooms of a file.
-[[nodiscard]] VtkhdfPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets);
-
-/// Writes rows, from any on.  Cost: 3 MiB of buffers.  ERRORS: as the output.
-class VtkhdfColumns {
- public:
-  VtkhdfColumns() = default;
-  /// output outlives it.
-  VtkhdfColumns(PlacedOutput& output, const VtkhdfPlaces& places, Element element);
-
-  /// Before the first rows, too.  With tet 0 goes the first of the offsets, which there is even
-  /// without tets.
-  void go_to(const RowPlace& place);
-  void write_vertices(std::span<const Position> positions);
-  /// rows: of node_count(element).
-  void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
-  /// REQUIRES: tets.size() == labels.size(); made for kTet4.
-  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
-  void flush();
-
-  /// The next rows.
-  [[nodiscard]] const RowPlace& place() const { return place_; }
-
- private:
-  using Column = Hdf5Column<std::uint64_t>;
-
-  Element element_ = Element::kTet4;
-  RowPlace place_;
-  Column connectivity_;
-  Column offsets_;
-  Hdf5Column<std::uint8_t> types_;
-  Column labels_;
-  Hdf5Column<double> points_;
-};
+[[nodiscard]] ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets);
 
 /// Writes all that tells of the columns, and gives the file its name.
 /// REQUIRES: all rows are in the file, and the points' room is reserved.
-void commit_vtkhdf(Hdf5Output& output, const VtkhdfPlaces& places, Element element,
+void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element element,
                    const MeshHeader& header, std::uint64_t vertices);
 
 /// VTKHDF 1.0, one UnstructuredGrid of one partition, which VTK 9.1 and ParaView 5.11 read:
@@ -79,26 +38,18 @@ void commit_vtkhdf(Hdf5Output& output, const VtkhdfPlaces& places, Element eleme
 ///     FieldData          names of labels, where there are any, as in /mwmesh (add_vtkhdf_facts())
 /// No time stamps: equal meshes are equal bytes.
 /// Cost: 4 MiB of buffers.  Thread safety: none.
-class VtkhdfSink : public TenNodeSink {
+class VtkhdfSink : public ColumnSink {
  public:
   explicit VtkhdfSink(const std::filesystem::path& path, Element element = Element::kTet4)
-      : output_(path), element_(element) {}
+      : ColumnSink(element), output_(path) {}
 
   void begin(const MeshHeader& header) override;
-  void write_vertices(std::span<const Position> positions) override;
-  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
-  void write_ten_nodes(std::span<const TenRows> tets, std::span<const RawLabel> labels) override;
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return 4 << 20; }
 
  private:
-  [[nodiscard]] bool has_room(std::size_t tets) const;
-
   Hdf5Output output_;
-  Element element_;
-  MeshHeader header_;
-  VtkhdfPlaces places_;
-  VtkhdfColumns columns_;
+  ColumnPlaces places_;
 };
 
 /// The bytes of VtkhdfSink: its columns are in one piece each, so that every row has a place that
@@ -131,7 +82,7 @@ class VtkhdfShared : public SharedMesh {
   std::uint64_t vertices_ = 0;      ///< the maker's
   std::filesystem::path partial_;
   std::optional<JoinedPartial> part_;  ///< what rows are written through
-  VtkhdfColumns columns_;
+  MeshColumns columns_;
 };
 
 /// VTKHDF of type UnstructuredGrid, version 1 or 2 (one time step); partitions are put one after

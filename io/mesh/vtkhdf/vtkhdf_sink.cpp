@@ -5,7 +5,6 @@
 #include "io/file/errors.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/vtkhdf/vtkhdf.h"
-#include "kernels/core/assert.h"
 
 namespace mw::io {
 namespace {
@@ -18,8 +17,8 @@ Hdf5DataSet one(Hdf5Output& output, const char* name, std::uint64_t count) {
 
 }  // namespace
 
-VtkhdfPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets) {
-  VtkhdfPlaces out;
+ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets) {
+  ColumnPlaces out;
   out.connectivity = rooms.reserve(node_count(element) * tets * sizeof(std::uint64_t));
   out.offsets = rooms.reserve((tets + 1) * sizeof(std::uint64_t));
   out.types = rooms.reserve(tets);
@@ -28,53 +27,7 @@ VtkhdfPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets)
   return out;
 }
 
-VtkhdfColumns::VtkhdfColumns(PlacedOutput& output, const VtkhdfPlaces& places, Element element)
-    : element_(element),
-      connectivity_(output, places.connectivity),
-      offsets_(output, places.offsets),
-      types_(output, places.types),
-      labels_(output, places.labels),
-      points_(output, places.points) {}
-
-void VtkhdfColumns::go_to(const RowPlace& place) {
-  place_ = place;
-  points_.go_to(3 * place.vertex);
-  connectivity_.go_to(node_count(element_) * place.tet);
-  types_.go_to(place.tet);
-  labels_.go_to(place.tet);
-  offsets_.go_to(place.tet == 0 ? 0 : place.tet + 1);
-  if (place.tet == 0) offsets_.add(0);
-}
-
-void VtkhdfColumns::write_vertices(std::span<const Position> positions) {
-  for (const Position& position : positions) {
-    for (const double x : position) points_.add(x);
-  }
-  place_.vertex += positions.size();
-}
-
-void VtkhdfColumns::write_cell(std::span<const std::uint64_t> rows, RawLabel label) {
-  for (const std::uint64_t row : rows) connectivity_.add(row);
-  types_.add(vtk_type(element_));
-  labels_.add(label);
-  ++place_.tet;
-  offsets_.add(node_count(element_) * place_.tet);
-}
-
-void VtkhdfColumns::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
-  MW_ASSERT(tets.size() == labels.size() && element_ == Element::kTet4);
-  for (std::size_t i = 0; i < tets.size(); ++i) write_cell(tets[i], labels[i]);
-}
-
-void VtkhdfColumns::flush() {
-  connectivity_.flush();
-  offsets_.flush();
-  types_.flush();
-  labels_.flush();
-  points_.flush();
-}
-
-void commit_vtkhdf(Hdf5Output& output, const VtkhdfPlaces& places, Element element,
+void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element element,
                    const MeshHeader& header, std::uint64_t vertices) {
   const std::uint64_t tets = header.tets, corners = node_count(element) * tets;
   Hdf5Group grid{.name = "VTKHDF",
@@ -96,38 +49,14 @@ void commit_vtkhdf(Hdf5Output& output, const VtkhdfPlaces& places, Element eleme
 }
 
 void VtkhdfSink::begin(const MeshHeader& header) {
-  header_ = header;
-  places_ = place_vtkhdf(output_.rooms(), element_, header.tets);
-  columns_ = VtkhdfColumns(output_, places_, element_);
-  columns_.go_to({0, 0});
-}
-
-void VtkhdfSink::write_vertices(std::span<const Position> positions) {
-  columns_.write_vertices(positions);
-}
-
-/// Rows beyond those that were announced would be written over others.
-bool VtkhdfSink::has_room(std::size_t tets) const {
-  return columns_.place().tet + tets <= header_.tets;
-}
-
-void VtkhdfSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
-  MW_ASSERT(tets.size() == labels.size() && has_room(tets.size()));
-  columns_.write_tets(tets, labels);
-}
-
-void VtkhdfSink::write_ten_nodes(std::span<const TenRows> tets, std::span<const RawLabel> labels) {
-  MW_ASSERT(tets.size() == labels.size() && has_room(tets.size()));
-  MW_ASSERT(element_ == Element::kTet10);
-  for (std::size_t i = 0; i < tets.size(); ++i) columns_.write_cell(tets[i], labels[i]);
+  places_ = place_vtkhdf(output_.rooms(), element(), header.tets);
+  place_columns(header, output_.file(), places_);
 }
 
 void VtkhdfSink::finish() {
-  check_sink_counts(output_.name(), header_, columns_.place().tet);
-  columns_.flush();
-  const std::uint64_t vertices = columns_.place().vertex;
+  const std::uint64_t vertices = finish_columns(output_.name()).vertex;
   static_cast<void>(output_.reserve(vertices * sizeof(Position)));
-  commit_vtkhdf(output_, places_, element_, header_, vertices);
+  commit_vtkhdf(output_, places_, element(), header(), vertices);
 }
 
 void VtkhdfShared::create() {
@@ -155,7 +84,7 @@ void VtkhdfShared::lay_out(const MeshHeader& header, std::uint64_t vertices) {
 void VtkhdfShared::begin(std::uint64_t tets) {
   Hdf5Rooms rooms;
   part_.emplace(partial_);
-  columns_ = VtkhdfColumns(*part_, place_vtkhdf(rooms, Element::kTet4, tets), Element::kTet4);
+  columns_ = MeshColumns(*part_, place_vtkhdf(rooms, Element::kTet4, tets), Element::kTet4);
 }
 
 void VtkhdfShared::sync() {

@@ -40,25 +40,28 @@ bool is_integer(pugi::xml_node array) {
   return type && !type->is_float;
 }
 
-/// The three arrays.
+/// The three arrays.  Names are bytes, no strings: meshio reads no file with strings.
 std::string name_arrays(const LabelNames& names, bool labels_signed) {
   if (names.empty()) return {};
   const std::size_t count = names.rows().size();
-  std::string ids, strings, colours;
+  std::string ids, characters, colours;
+  std::size_t bytes = 0;
   for (const LabelName& row : names.rows()) {
     ids += id_text(row.label, labels_signed) + " ";
-    for (const char c : row.name) strings += text(static_cast<unsigned char>(c), " ");
-    strings += "0\n";
+    for (const char c : row.name) characters += text(static_cast<unsigned char>(c), " ");
+    characters += "0\n";
+    bytes += row.name.size() + 1;
     for (const std::uint8_t part : field_colour(row)) colours += text(part, " ");
     colours += "\n";
   }
   return text(open_tag("DataArray", labels_signed ? "Int64" : "UInt64", kLabelId, 1, count), ids,
-              "\n      </DataArray>\n", open_tag("Array", "String", kLabelName, 1, count), strings,
-              "      </Array>\n", open_tag("DataArray", "UInt8", kLabelColour, 4, count), colours,
+              "\n      </DataArray>\n", open_tag("DataArray", "UInt8", kLabelName, 1, bytes),
+              characters, "      </DataArray>\n",
+              open_tag("DataArray", "UInt8", kLabelColour, 4, count), colours,
               "      </DataArray>\n");
 }
 
-/// Bytes, no string: meshio reads no file with strings.
+/// Bytes, as names are.
 std::string record_array(const MeshRecord& record) {
   const std::string value = record_text(record);
   if (value.empty()) return {};
@@ -118,7 +121,8 @@ std::string vtu_fields(const MeshHeader& header) {
 LabelNames read_vtu_names(VtkDocument& document) {
   const pugi::xml_node fields = document.grid().child("FieldData");
   const pugi::xml_node ids = find_array(fields, "DataArray", kLabelId);
-  const pugi::xml_node names = find_array(fields, "Array", kLabelName);
+  pugi::xml_node names = find_array(fields, "DataArray", kLabelName);
+  if (!names) names = find_array(fields, "Array", kLabelName);  // strings
   const pugi::xml_node colours = find_array(fields, "DataArray", kLabelColour);
   if (!ids || !names || !is_integer(ids)) return {};
   FieldNames read{.ids = document.integers(ids, tuples_of(ids, document)),

@@ -14,9 +14,9 @@
 
 namespace mw::io {
 
-/// The element FieldData with the arrays of field_names.h, where there are names, and a string
-/// `mwmesh`, the record, where there is one; else empty.  Everything is
-/// written as numbers, as VTK writes strings in text, so nothing needs escaping.
+/// The element FieldData with the arrays of field_names.h, where there are names, and an array
+/// `mwmesh`, the bytes of the record, where there is one; else empty.  Everything is written as
+/// numbers, so nothing needs escaping.
 [[nodiscard]] std::string vtu_fields(const MeshHeader& header);
 
 /// Nothing when the document has no such arrays; those of VTK's writers are read as well.

@@ -132,12 +132,12 @@ std::string document_text(const std::string& grids) {
 
 /// A column with room for all of its numbers.
 template <class T>
-Hdf5Column<T> column_of(Hdf5Output& output, std::uint64_t numbers) {
-  return {output, output.reserve(numbers * sizeof(T))};
+FileColumn<T> column_of(Hdf5Output& output, std::uint64_t numbers) {
+  return {output.file(), output.reserve(numbers * sizeof(T))};
 }
 
 template <class T, class Row>
-void add_row(Hdf5Column<T>& column, const Row& row) {
+void add_row(FileColumn<T>& column, const Row& row) {
   for (const auto number : row) column.add(number);
 }
 
@@ -215,7 +215,7 @@ void XdmfWriter::write(GroupedMesh& mesh) {
 Hdf5DataSet XdmfWriter::nodes(GroupedMesh& mesh) {
   auto column = column_of<double>(numbers_, 3 * mesh.node_count());
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) add_row(column, mesh.node(row));
-  return column.finish("geometry", Hdf5Kind::kFloat64, {mesh.node_count(), 3});
+  return finish_column(column, "geometry", Hdf5Kind::kFloat64, {mesh.node_count(), 3});
 }
 
 Hdf5DataSet XdmfWriter::topology(GroupedMesh& mesh) {
@@ -224,14 +224,10 @@ Hdf5DataSet XdmfWriter::topology(GroupedMesh& mesh) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const RowRange range = mesh.label_tets()[rank];
     for (std::uint64_t tet = range.begin; tet < range.end; ++tet) {
-      if (mesh.element() == Element::kTet10) {
-        add_row(column, ten_rows(mesh, tet));
-      } else {
-        add_row(column, mesh.tet(tet));
-      }
+      add_row(column, mesh.tet_nodes(tet));
     }
   }
-  return column.finish("topology", Hdf5Kind::kInt64, {mesh.tet_count(), nodes});
+  return finish_column(column, "topology", Hdf5Kind::kInt64, {mesh.tet_count(), nodes});
 }
 
 Hdf5DataSet XdmfWriter::labels(const GroupedMesh& mesh) {
@@ -240,7 +236,7 @@ Hdf5DataSet XdmfWriter::labels(const GroupedMesh& mesh) {
   for (Label rank = 0; rank < table.size(); ++rank) {
     for (std::uint64_t i = 0; i < mesh.label_tets()[rank].size(); ++i) column.add(table.raw(rank));
   }
-  return column.finish("label", table.is_signed() ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64,
+  return finish_column(column, "label", table.is_signed() ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64,
                        {mesh.tet_count()});
 }
 
@@ -251,21 +247,18 @@ Hdf5DataSet XdmfWriter::cell_tags(const GroupedMesh& mesh, const LabelNumbers& n
       column.add(static_cast<std::int32_t>(numbers[rank]));
     }
   }
-  return column.finish("Values", Hdf5Kind::kInt32, {mesh.tet_count()});
+  return finish_column(column, "Values", Hdf5Kind::kInt32, {mesh.tet_count()});
 }
 
 Hdf5DataSet XdmfWriter::facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs) {
-  const bool ten = mesh.element() == Element::kTet10;
-  const std::uint64_t nodes = ten ? 6 : 3, count = facets_of(runs);
+  const std::uint64_t nodes = mesh.element() == Element::kTet10 ? 6 : 3, count = facets_of(runs);
   auto column = column_of<std::uint64_t>(numbers_, nodes * count);
   for (const NumberedFacets& run : runs) {
     for (std::uint64_t i = run.facets.begin; i < run.facets.end; ++i) {
-      const Facet facet = mesh.facet(i);
-      add_row(column, facet.rows);
-      if (ten) add_row(column, mesh.facet_middles(facet));
+      add_row(column, mesh.facet_nodes(mesh.facet(i)));
     }
   }
-  return column.finish("topology", Hdf5Kind::kInt64, {count, nodes});
+  return finish_column(column, "topology", Hdf5Kind::kInt64, {count, nodes});
 }
 
 Hdf5DataSet XdmfWriter::facet_tags(const std::vector<NumberedFacets>& runs) {
@@ -276,7 +269,7 @@ Hdf5DataSet XdmfWriter::facet_tags(const std::vector<NumberedFacets>& runs) {
       column.add(static_cast<std::int32_t>(run.number));
     }
   }
-  return column.finish("Values", Hdf5Kind::kInt32, {count});
+  return finish_column(column, "Values", Hdf5Kind::kInt32, {count});
 }
 
 }  // namespace mw::io

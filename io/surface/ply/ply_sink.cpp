@@ -43,6 +43,9 @@ void PlySink::begin(const SurfaceHeader& header) {
 }
 
 void PlySink::append_comments() {
+  if (const std::string space = space_comment(header_); !space.empty()) {
+    file_.append("comment " + space + "\n");
+  }
   const LabelTable& table = header_.labels->table;
   for (const Label rank : ranks_of(header_)) {
     const RawLabel raw = table.raw(rank);

@@ -42,6 +42,7 @@ void StlSink::begin(const SurfaceHeader& header) {
   const std::uint64_t count = header.triangles();
   check_max(name_, "triangles", count, std::numeric_limits<std::uint32_t>::max());
   std::string title(kTitle);
+  if (const std::string space = space_comment(header); !space.empty()) title += "; " + space;
   title.resize(kTitleBytes, ' ');
   file_.append(title);
   append_little(file_, static_cast<std::uint32_t>(count));

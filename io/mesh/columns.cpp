@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows of a mesh go into columns.
+#include "io/mesh/columns.h"
+
+#include "kernels/core/assert.h"
+
+namespace mw::io {
+
+MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element)
+    : element_(element),
+      connectivity_(output, places.connectivity),
+      offsets_(output, places.offsets),
+      types_(output, places.types),
+      labels_(output, places.labels),
+      points_(output, places.points) {}
+
+void MeshColumns::go_to(const RowPlace& place) {
+  place_ = place;
+  points_.go_to(3 * place.vertex);
+  connectivity_.go_to(node_count(element_) * place.tet);
+  types_.go_to(place.tet);
+  labels_.go_to(place.tet);
+  offsets_.go_to(place.tet == 0 ? 0 : place.tet + 1);
+  if (place.tet == 0) offsets_.add(0);
+}
+
+void MeshColumns::write_vertices(std::span<const Position> positions) {
+  for (const Position& position : positions) {
+    for (const double x : position) points_.add(x);
+  }
+  place_.vertex += positions.size();
+}
+
+void MeshColumns::write_cell(std::span<const std::uint64_t> rows, RawLabel label) {
+  for (const std::uint64_t row : rows) connectivity_.add(row);
+  types_.add(vtk_type(element_));
+  labels_.add(label);
+  ++place_.tet;
+  offsets_.add(node_count(element_) * place_.tet);
+}
+
+void MeshColumns::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
+  MW_ASSERT(tets.size() == labels.size() && element_ == Element::kTet4);
+  for (std::size_t i = 0; i < tets.size(); ++i) write_cell(tets[i], labels[i]);
+}
+
+void MeshColumns::flush() {
+  connectivity_.flush();
+  offsets_.flush();
+  types_.flush();
+  labels_.flush();
+  points_.flush();
+}
+
+void ColumnSink::place_columns(const MeshHeader& header, PlacedOutput& output,
+                               const ColumnPlaces& places) {
+  header_ = header;
+  columns_ = MeshColumns(output, places, element_);
+  columns_.go_to({0, 0});
+}
+
+void ColumnSink::write_vertices(std::span<const Position> positions) {
+  columns_.write_vertices(positions);
+}
+
+/// Rows beyond those that were announced would be written over others.
+bool ColumnSink::has_room(std::size_t tets) const {
+  return columns_.place().tet + tets <= header_.tets;
+}
+
+void ColumnSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
+  MW_ASSERT(tets.size() == labels.size() && has_room(tets.size()));
+  columns_.write_tets(tets, labels);
+}
+
+void ColumnSink::write_cell(std::span<const std::uint64_t> rows, RawLabel label) {
+  MW_ASSERT(rows.size() == node_count(element_) && has_room(1));
+  columns_.write_cell(rows, label);
+}
+
+RowPlace ColumnSink::finish_columns(std::string_view file) {
+  check_sink_counts(file, header_, columns_.place().tet);
+  columns_.flush();
+  return columns_.place();
+}
+
+}  // namespace mw::io
