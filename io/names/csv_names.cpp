@@ -243,7 +243,7 @@ bool is_csv_line(std::string_view line) {
   return separator_of(line) != '\0';
 }
 
-LabelNames parse_csv_names(std::string_view text, std::string_view file) {
+LabelNames parse_csv_names(std::string_view text, std::string_view file, bool repeats) {
   CsvRecords records(text, separator_of(first_row(text)), file);
   std::vector<ReadName> rows;
   CsvRecord record;
@@ -254,7 +254,10 @@ LabelNames parse_csv_names(std::string_view text, std::string_view file) {
   const Table table(file, columns);
   if (!has_header) rows.push_back({table.row(record), record.line});
   while (records.next(record)) rows.push_back({table.row(record), record.line});
-  return names_of_rows(rows, file);
+  if (!repeats) return names_of_rows(rows, file);
+  std::vector<LabelName> names;
+  for (ReadName& row : rows) names.push_back(std::move(row.name));
+  return LabelNames(std::move(names));
 }
 
 }  // namespace mw::io

@@ -50,8 +50,10 @@ class CsvRecords {
 ///               point in the number, or color, colour, hex: #rrggbb or #rrggbbaa.
 /// Other columns are ignored.  Without such a row the first column is the label, the second its
 /// name.
-/// ERRORS: mw::Error(kInput) naming file and line.
-[[nodiscard]] LabelNames parse_csv_names(std::string_view text, std::string_view file);
+/// ERRORS: mw::Error(kInput) naming file and line; without `repeats`, as mesh files have them, also
+///         those of names_of_rows().
+[[nodiscard]] LabelNames parse_csv_names(std::string_view text, std::string_view file,
+                                         bool repeats = false);
 
 /// Whether the line has one of the separators.
 [[nodiscard]] bool is_csv_line(std::string_view line);

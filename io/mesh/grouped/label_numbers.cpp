@@ -106,7 +106,7 @@ std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh) {
   CsvRecord record;
   if (!records.next(record)) fail_input(source->name(), {}, "is empty", "convert the mesh anew");
   while (records.next(record)) take_record(record, source->name(), map);
-  map.names = parse_csv_names(*content, source->name());
+  map.names = parse_csv_names(*content, source->name(), true);
   return map;
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "io/names/label_names.h"
@@ -58,12 +59,15 @@ inline std::optional<Colour> random_colour(std::mt19937& random) {
   return colour;
 }
 
-/// Rows of different labels, ascending, each with a name or a colour or both.
+/// Rows of different labels, ascending, each with a name of its own or a colour or both.
 inline LabelNames random_names(std::mt19937& random, std::size_t count) {
   std::vector<LabelName> rows;
   for (std::size_t i = 0; i < count; ++i) {
     const RawLabel label = below(random, 3) == 0 ? RawLabel{random()} << 32U : below(random, 1000);
-    rows.push_back({label, random_name(random), random_colour(random)});
+    const std::string name = random_name(random);
+    const bool is_taken = std::any_of(rows.begin(), rows.end(),
+                                      [&](const LabelName& row) { return row.name == name; });
+    rows.push_back({label, is_taken ? "" : name, random_colour(random)});
   }
   return LabelNames(std::move(rows));
 }

@@ -73,9 +73,6 @@ TEST(ReadNames, CsvByItsHeader) {
 TEST(ReadNames, CsvWithoutHeader) {
   expect_same_names(parse("18446744073709551615,big\n7,\"a \"\"b\"\"\nc\",9\n"),
                     LabelNames({{7, "a \"b\" c", {}}, {~RawLabel{0}, "big", {}}}));
-  // Two's complement: the last of two rows of one label counts.
-  expect_same_names(parse("18446744073709551615,big\n-1,last\n"),
-                    LabelNames({{~RawLabel{0}, "last", {}}}));
 }
 
 /// Writers of the test's own, names quoted as each format has it.
@@ -143,6 +140,9 @@ TEST(ReadNames, BadLinesAreNamed) {
   expect_refused("id,name\n1,\"a\n2,b\n", {"line 2", "quote"});
   expect_refused("id,name,color\n1,a,#12345\n", {"line 2", "#12345", "#rrggbb"});
   expect_refused("id,name,r,g,b\n1,a,1,2,300\n", {"line 2", "300"});
+  // Two's complement: one label.
+  expect_refused("18446744073709551615,big\n-1,last\n", {"line 2", "label -1 is in line 1"});
+  expect_refused("1 a 0 0 0 255\n# c\n2 a 0 0 0 255\n", {"line 3", "'a' is in line 1"});
   expect_refused("size,weight\n1,2\n", {"line 1", "id and name"});
   expect_refused("id,weight\n1,2\n", {"line 1"});
   expect_refused(std::string("i\0d\0,\0", 6), {"UTF-16"});
