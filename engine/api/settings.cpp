@@ -5,6 +5,7 @@
 
 #include "engine/api/guarded.h"
 #include "engine/api/jobs.h"
+#include "engine/settings/near_words.h"
 #include "engine/settings/setting_table.h"
 
 namespace mw::api {
@@ -17,13 +18,16 @@ std::string library_name(const std::string& name) {
 }
 
 const engine::Setting& find(std::string_view name) {
-  std::string all;
+  std::vector<std::string> all;
+  std::string listed;
   for (const engine::Setting& setting : engine::setting_table()) {
-    const std::string known = library_name(setting.name);
-    if (known == name) return setting;
-    all += (all.empty() ? "" : ", ") + known;
+    all.push_back(library_name(setting.name));
+    if (all.back() == name) return setting;
+    listed += (listed.empty() ? "; there are " : ", ") + all.back();
   }
-  throw Error(ErrorKind::kUsage, std::string(name) + ": no such setting; there are " + all);
+  const std::string near = engine::did_you_mean(name, all);
+  throw Error(ErrorKind::kUsage,
+              std::string(name) + ": no such setting" + (near.empty() ? listed : near));
 }
 
 /// Errors name the setting as the library does.

@@ -320,7 +320,7 @@ TEST(LibrarySettings, AreThoseOfTheProgram) {
   }
   EXPECT_EQ(settings.set("max_distance", "none").get("max_distance"), "none");
   EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("max_distanse", "1"); }),
-              HasSubstr("max_distance"));
+              HasSubstr("did you mean max_distance?"));
   const auto refusal = [&](const char* name, const char* text) {
     return failure(ErrorKind::kUsage, [&] { settings.set(name, text); });
   };
