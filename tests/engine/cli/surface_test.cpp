@@ -47,6 +47,23 @@ TEST_F(SurfaceCommand, RefusesWhatTheMeshDoesNotHave) {
   expect_failure(2, "surface v.vtu --pair 4,4 -o s.stl", "two labels");
 }
 
+/// As 3D Slicer looks for it, and as is printed.
+TEST_F(SurfaceCommand, SaysWhichFrameItWrote) {
+  make_mesh();
+  EXPECT_NE(run("surface v.vtu -o s.stl").out.find("does not name"), std::string::npos);
+  EXPECT_EQ(read("s.stl").find("SPACE="), std::string::npos);
+  write("w.nrrd",
+        "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 4 4 4\n"
+        "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n" +
+            std::string(32, '1') + std::string(32, '2'));
+  for (const char* frame : {"lps", "ras"}) {
+    expect_done("mesh w.nrrd -o w.vtu --frame " + std::string(frame));
+    EXPECT_EQ(run("surface w.vtu -o s.stl").out, "coordinates " + std::string(frame) + "\n");
+    const std::string space = frame == std::string("lps") ? "SPACE=LPS" : "SPACE=RAS";
+    EXPECT_LT(read("s.stl").find(space), 80U);
+  }
+}
+
 TEST_F(SurfaceCommand, AMeshOfOneLabelHasItsSurfaceAlone) {
   expect_done("synth voronoi --shape 8,8,8 --labels 1 --seed 1 -o v.npy");
   expect_done("mesh v.npy -o v.vtu");

@@ -12,6 +12,7 @@ import unittest
 from program import run
 
 try:
+    from vtkmodules.vtkCommonCore import vtkStringArray
     from vtkmodules.vtkIOHDF import vtkHDFReader
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 except ImportError as missing:
@@ -39,6 +40,11 @@ def names_in(grid):
     ids, names, colours = (
         fields.GetAbstractArray(key) for key in ("label_id", "label_name", "label_colour")
     )
+    if not names.IsA("vtkStringArray"):  # a .vtu of ours: bytes, a NUL behind each name
+        parts = bytes(int(names.GetTuple1(i)) for i in range(names.GetNumberOfTuples())).split(b"\0")
+        names = vtkStringArray()
+        for part in parts[:-1]:
+            names.InsertNextValue(part.decode())
     rows = {}
     for i in range(ids.GetNumberOfTuples()):
         colour = tuple(int(part) for part in colours.GetTuple(i))

@@ -153,6 +153,14 @@ TEST(MeshNames, VtuFieldDataAsVtkWritesIt) {
   expect_same_names(read(kIds + "<Array type=\"String\" Name=\"label_name\" NumberOfTuples=\"2\" "
                                 "format=\"binary\">BAAAAAAAAABhAGIA</Array>"),
                     LabelNames({{7, "a", {}}, {static_cast<RawLabel>(-9), "b", {}}}));
+  // As it is written here, and as VTK writes that again.
+  for (const char* array :
+       {"format=\"ascii\">97 195 169 0 98 0", "format=\"binary\">BgAAAAAAAABhw6kAYgA="}) {
+    expect_same_names(
+        read(kIds + "<DataArray type=\"UInt8\" Name=\"label_name\" NumberOfTuples=\"6\" " + array +
+             "</DataArray>"),
+        LabelNames({{7, "aé", {}}, {static_cast<RawLabel>(-9), "b", {}}}));
+  }
   EXPECT_TRUE(read(kIds).empty());
   EXPECT_TRUE(read("<DataArray type=\"Float64\" Name=\"label_id\" NumberOfTuples=\"1\" "
                    "format=\"ascii\">7</DataArray><Array type=\"String\" Name=\"label_name\" "

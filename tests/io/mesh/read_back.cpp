@@ -65,9 +65,9 @@ Nodes nodes_of(const std::vector<std::string>& items, std::size_t first) {
   return out;
 }
 
-/// `** label -7 "name" 1 2 3 4`
+/// `** SET: label -7 "name" 1 2 3 4`
 LabelName name_in(const std::string& comment) {
-  std::istringstream words(comment.substr(comment.find("label ") + 6));
+  std::istringstream words(comment.substr(comment.find(": label ") + 8));
   std::string label;
   LabelName out;
   words >> label >> std::quoted(out.name);
@@ -79,19 +79,31 @@ LabelName name_in(const std::string& comment) {
   return out;
 }
 
+/// "LABEL_7", "LABEL_M7" of -7.
+RawLabel label_of_set(const std::string& set) {
+  EXPECT_TRUE(set.starts_with("LABEL_")) << set;
+  const bool below_zero = set.starts_with("LABEL_M");
+  const RawLabel size = std::stoull(set.substr(below_zero ? 7 : 6));
+  return below_zero ? RawLabel{0} - size : size;
+}
+
 MeshData read_inp(const std::filesystem::path& path) {
   std::istringstream lines(test::content_of(path));
   MeshData mesh;
   std::vector<LabelName> names;
+  std::map<std::string, RawLabel> named;  // by set
   std::vector<Nodes> tets;
   std::string line, keyword, set;
   while (std::getline(lines, line)) {
-    if (line.starts_with("** label ")) names.push_back(name_in(line));
+    if (const std::size_t at = line.find(": label "); line.starts_with("** ") && at < 84) {
+      names.push_back(name_in(line));
+      named[line.substr(3, at - 3)] = names.back().label;
+    }
     if (line.starts_with("**")) continue;
     if (line.starts_with("*")) {
       keyword = line.substr(0, line.find(','));
-      const std::size_t at = line.find("ELSET=LABEL_");
-      if (at != line.npos) set = line.substr(at + 12);
+      const std::size_t at = line.find("ELSET=");
+      if (at != line.npos) set = line.substr(at + 6);
       continue;
     }
     const std::vector<std::string> items = split(line);
@@ -100,10 +112,8 @@ MeshData read_inp(const std::filesystem::path& path) {
       mesh.vertices.push_back(position_of(items, 1));
     } else if (keyword == "*ELEMENT") {
       tets.push_back(nodes_of(items, 1));
-      const bool below_zero = set[0] == 'M';
-      mesh.labels_signed = mesh.labels_signed || below_zero;
-      const RawLabel size = std::stoull(set.substr(below_zero ? 1 : 0));
-      add_tet(mesh, tets.back(), below_zero ? RawLabel{0} - size : size);
+      mesh.labels_signed = mesh.labels_signed || set.starts_with("LABEL_M");
+      add_tet(mesh, tets.back(), named.contains(set) ? named[set] : label_of_set(set));
     }
   }
   drop_middles(mesh, tets);

@@ -39,6 +39,26 @@ TEST(SurfaceFiles, SameBytesEachTime) {
   }
 }
 
+TEST(SurfaceFiles, SayWhichFrameTheyAreInAsSlicerLooksForIt) {
+  const TempDir dir;
+  for (const auto& [frame, space] :
+       {std::pair(WorldFrame::kRas, "SPACE=RAS"), std::pair(WorldFrame::kLps, "SPACE=LPS"),
+        std::pair(WorldFrame::kOwn, "")}) {
+    MeshData data = named_mesh(2);
+    data.record.frame = frame;
+    for (const char* extension : kExtensions) {
+      const auto path = dir.path() / (std::string("s") + extension);
+      write_file(data, path);
+      const std::string content = content_of(path);
+      const bool is_stl = path.extension() == ".stl";
+      const std::string head = content.substr(0, is_stl ? 80 : content.find("element vertex"));
+      EXPECT_EQ(head.find("SPACE=") != head.npos, frame != WorldFrame::kOwn);
+      EXPECT_THAT(
+          head, testing::HasSubstr(is_stl || *space == 0 ? space : text("comment ", space, "\n")));
+    }
+  }
+}
+
 TEST(SurfaceFiles, NothingIsLeftOfOneThatWasNotFinished) {
   SurfaceMesh mesh(named_mesh(2));
   const ShellPlans plans(mesh.mesh(), true);

@@ -59,11 +59,10 @@ class Gmsh(unittest.TestCase):
         run("synth", "voronoi", "--shape", "14,12,10", "--labels", "6", "--seed", "2", "-o", "v.npy")
         wanted = ["--merge", f"1={LARGE}", "--spacing", "1,1.5,2", "--origin", "5,-3,7"]
         run("mesh", "v.npy", "-o", "v.vtu", "--names", "names.csv", *wanted)
-        run("mesh", "v.npy", "-o", "nameless.vtu", *wanted)  # meshio reads no strings in a .vtu
         run("convert", "v.vtu", "v.msh")
         run("convert", "v.vtu", "text.msh", "--ascii")
         cls.digest = run("digest", "v.vtu")
-        mesh = meshio.read("nameless.vtu")
+        mesh = meshio.read("v.vtu")
         cls.points = mesh.points
         cls.tets = mesh.cells_dict["tetra"]
         cls.labels = mesh.cell_data_dict["label"]["tetra"].ravel().astype(np.uint64)
@@ -144,8 +143,13 @@ class Gmsh(unittest.TestCase):
                             expected.setdefault(f"{'xyz'[axis]}_{name}", []).append(triangle)
         groups = self.groups(2)
         self.assertEqual(set(groups), set(expected))
-        for side, tag in zip(("x_min", "x_max", "y_min", "y_max", "z_min", "z_max"), range(1, 7)):
-            self.assertEqual(groups[side], tag)
+        largest = max(self.numbers.values())
+        for i, side in enumerate(("x_min", "x_max", "y_min", "y_max", "z_min", "z_max")):
+            self.assertEqual(groups[side], largest + 1 + i)
+        interfaces = sorted(tag for name, tag in groups.items() if "|" in name)
+        self.assertEqual(interfaces, list(range(largest + 8, largest + 8 + len(interfaces))))
+        entities = [tag for _, tag in gmsh.model.getEntities()]
+        self.assertEqual(len(entities), len(set(entities)))
         for name, tag in groups.items():
             found = self.elements(2, tag, 3)
             self.assertEqual(sorted(tuple(sorted(t)) for t in found), sorted(expected[name]))
@@ -210,7 +214,13 @@ class Gmsh(unittest.TestCase):
             found = np.column_stack([mesh.points[tets].sum(1), numbers])
             np.testing.assert_allclose(
                 mine[np.lexsort(mine.round(9).T)], found[np.lexsort(found.round(9).T)], atol=1e-9)
-            self.assertEqual(mesh.field_data["x_min"].tolist(), [1, 2])
+            self.assertEqual(mesh.field_data["x_min"].tolist(), [max(self.numbers.values()) + 1, 2])
+
+    def test_meshio_reads_names_in_a_vtu(self):
+        fields = meshio.read("v.vtu").field_data
+        names = bytes(fields["label_name"].ravel()).decode().split("\0")[:-1]
+        found = dict(zip(fields["label_id"].ravel().tolist(), names))
+        self.assertEqual(found, {2: "Größe", 3: 'a "b", c', LARGE: "far away"})
 
     def test_we_read_what_gmsh_makes_of_ours(self):
         run("mesh", "v.npy", "-o", "small.vtu", "--names", "names.csv")
