@@ -195,12 +195,11 @@ class Abaqus(unittest.TestCase):
     def test_calculix_finds_labels_by_their_names(self):
         """Sets have the labels' names, and both sides of an interface take loads that cancel out."""
         with open("names.csv", "w", encoding="utf-8") as file:
-            file.write('id,name\n2,Matrix (epoxy)\n3,cyst\n4,CYST\n5,"3rd, left"\n')
+            file.write('id,name\n1,"1st, left"\n2,Matrix (epoxy)\n3,cyst\n4,CYST\n')
         run("mesh", "v.npy", "-o", "named.inp", "--names", "names.csv")
         _, elements, sets, surfaces = parse("named.inp")
         found = {name for name, _ in elements.values()}
-        self.assertEqual(found, {"LABEL_1", "Matrix_epoxy", "cyst_3", "CYST_4", "L_3rd_left",
-                                 "LABEL_6"})
+        self.assertEqual(found, {"L_1st_left", "Matrix_epoxy", "cyst_3", "CYST_4"})
         with open("named.inp", encoding="utf-8") as file:
             comments = [line for line in file if line.startswith("**")]
         self.assertIn('** Matrix_epoxy: label 2 "Matrix (epoxy)"\n', comments)
