@@ -80,7 +80,7 @@ RunReport begun_report(const RunContext& run) {
 std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings,
                              const LabelNeed* need) {
   const Index3 shape = volume.info().shape;
-  const bool sized = !settings.sizes.labels.empty();
+  const bool sized = settings.sizes.rules.any();
   if (need == nullptr) return prepared_label_bytes(shape, sized);
   return prepared_label_bytes(bricks_of(*need, shape, settings), shape, sized);
 }

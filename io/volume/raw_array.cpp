@@ -80,10 +80,9 @@ std::int64_t group_end(const Rows& rows, std::int64_t first) {
 
 }  // namespace
 
-void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
-  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+template <typename Use>
+void RawArrayVolume::read_rows(const Box3& box, Use use) const {
   const Rows rows(info_, position_, box);
-  const VoxelCoding coding{info_.type, position_.order, position_.scaling};
   std::vector<std::byte> scratch;
   for (std::int64_t first = 0; first < rows.count();) {
     const std::int64_t last = group_end(rows, first);
@@ -91,15 +90,31 @@ void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
     scratch.resize(rows.file_offset(last - 1) + rows.bytes() - start);
     source_->read_at(start, scratch);
     for (std::int64_t row = first; row < last; ++row) {
-      const std::byte* bytes = scratch.data() + (rows.file_offset(row) - start);
-      const std::size_t good = decode_voxels(bytes, rows.length(), 1, coding,
-                                             out.data() + rows.out_offset(row), rows.out_stride());
-      if (good == rows.length()) continue;
-      fail_voxel(source_->name(), rows.voxel(row, static_cast<std::int64_t>(good)),
-                 bytes + good * static_cast<std::size_t>(byte_size(info_.type)), coding);
+      use(rows, row, scratch.data() + (rows.file_offset(row) - start));
     }
     first = last;
   }
+}
+
+void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
+  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+  const VoxelCoding coding{info_.type, position_.order, position_.scaling};
+  read_rows(box, [&](const Rows& rows, std::int64_t row, const std::byte* bytes) {
+    const std::size_t good = decode_voxels(bytes, rows.length(), 1, coding,
+                                           out.data() + rows.out_offset(row), rows.out_stride());
+    if (good == rows.length()) return;
+    fail_voxel(source_->name(), rows.voxel(row, static_cast<std::int64_t>(good)),
+               bytes + good * static_cast<std::size_t>(byte_size(info_.type)), coding);
+  });
+}
+
+void RawArrayVolume::read_numbers(const Box3& box, std::span<double> out) const {
+  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+  const VoxelCoding coding{info_.type, position_.order, position_.scaling};
+  read_rows(box, [&](const Rows& rows, std::int64_t row, const std::byte* bytes) {
+    decode_numbers(bytes, rows.length(), coding, out.data() + rows.out_offset(row),
+                   rows.out_stride());
+  });
 }
 
 }  // namespace mw::io

@@ -9,6 +9,7 @@
 #include "io/file/source/byte_source.h"
 #include "io/volume/decode.h"
 #include "io/volume/label_volume.h"
+#include "io/volume/number_volume.h"
 
 namespace mw::io {
 
@@ -20,7 +21,7 @@ struct ArrayLayout {
   VoxelScaling scaling{};
 };
 
-class RawArrayVolume : public LabelVolume {
+class RawArrayVolume : public LabelVolume, public NumberVolume {
  public:
   /// REQUIRES: the source holds all voxels (check_payload).
   RawArrayVolume(std::unique_ptr<ByteSource> source, VolumeInfo info, ArrayLayout position)
@@ -30,8 +31,13 @@ class RawArrayVolume : public LabelVolume {
   /// Cost: one pread for each run of rows that lie close together; at most 1 MiB or one row of
   /// scratch memory.
   void read(const Box3& box, std::span<RawLabel> out) const override;
+  void read_numbers(const Box3& box, std::span<double> out) const override;
 
  private:
+  /// Calls use(rows, row, bytes) for the rows of a box.
+  template <typename Use>
+  void read_rows(const Box3& box, Use use) const;
+
   std::unique_ptr<ByteSource> source_;
   VolumeInfo info_;
   ArrayLayout position_;
