@@ -20,7 +20,7 @@ CUTS = 4  # after each event
 AGAIN = 3  # of the states of each kind of file: the program goes on from there
 CONVERT = ["convert", "{mesh}.vtkhdf", "out/m.{kind}"]
 RUNS = {
-    "msh": CONVERT, "feb": CONVERT, "node": CONVERT,
+    "msh": CONVERT, "feb": CONVERT,
     "xdmf": [*CONVERT, "--element=tet10"],
 }
 

@@ -174,6 +174,11 @@ class Formats(unittest.TestCase):
             file.create_dataset("raw", data=numpy.zeros((5, 5), "f4"))
         self.check("plain.h5", *PLACE)
         self.check("plain.h5", "--dataset", "seg", *PLACE)
+        for libver in ("earliest", "latest"):
+            with h5py.File("lzf.h5", "w", libver=libver) as file:
+                file.create_dataset("seg", data=self.labels.astype(">i8"), chunks=(8, 7, 9),
+                                    compression="lzf", fletcher32=True, maxshape=(None, 18, None))
+            self.check("lzf.h5", *PLACE)
         with h5py.File("cremi.h5", "w") as file:
             data = file.create_dataset("volumes/labels/neuron_ids", data=self.labels.astype("u8"))
             data.attrs["resolution"] = SPACING[::-1]
@@ -204,13 +209,20 @@ class Formats(unittest.TestCase):
         self.assertEqual(run("digest", "cells.npy.vtkhdf"), run("digest", "cells.zarr.vtkhdf"))
 
     def test_zarr_v2(self):
-        zarr = needs("zarr")
-        for order, separator in (("C", "."), ("F", "/")):
-            store = zarr.DirectoryStore(f"v2{order}.zarr")
-            array = zarr.create(self.labels.shape, chunks=(8, 10, 6), dtype="<u8", order=order,
-                                store=store, dimension_separator=separator, overwrite=True)
+        zarr, packers = needs("zarr"), needs("numcodecs")
+        blosc = [packers.Blosc(cname=name, shuffle=shuffle) for name, shuffle in (
+            ("lz4", 1), ("lz4hc", 1), ("zstd", 2), ("zlib", 0), ("blosclz", -1), ("snappy", 1))]
+        for number, packer in enumerate((
+                None, packers.Zlib(), packers.GZip(), packers.Zstd(), packers.LZ4(), packers.BZ2(),
+                packers.LZMA(), *blosc)):
+            name, separator = f"v2{number}.zarr", "./"[number % 2]
+            array = zarr.create(self.labels.shape, chunks=(8, 10, 6), dtype="<u8",
+                                order="CF"[number // 2 % 2], store=zarr.DirectoryStore(name),
+                                dimension_separator=separator, compressor=packer,
+                                fill_value=0 if number % 3 else None,
+                                write_empty_chunks=number % 5 == 0)
             array[:] = self.labels
-            self.check(f"v2{order}.zarr", *PLACE)
+            self.check(name, *PLACE)
 
     def test_ome_ngff(self):
         zarr = needs("zarr")

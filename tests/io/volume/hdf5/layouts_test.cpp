@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Every layout, type, filter and index of chunks of HDF5 gives back the labels that were written.
-#include <random>
-
 #include "io/volume/open_volume.h"
 #include "tests/io/codec/packers.h"
 #include "tests/io/volume/hdf5/hdf5_files.h"
+#include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 namespace {
@@ -147,27 +146,43 @@ TEST(Hdf5, RandomBoxesEqualThePartOfTheWhole) {
   options.cache_bytes = 1 << 14;  // a few chunks, so that they come and go
   const auto volume = open_volume(path, options);
   EXPECT_EQ(volume->info().chunk, (Index3{9, 8, 7}));
-  std::mt19937 random(3);
-  const Box3 all{{0, 0, 0}, {50, 40, 30}};
-  for (int round = 0; round < 100; ++round) {
-    const auto cut = [&](std::int64_t n) {
-      const auto a = static_cast<std::int64_t>(random() % static_cast<unsigned>(n));
-      const auto b = static_cast<std::int64_t>(random() % static_cast<unsigned>(n));
-      return std::pair(std::min(a, b), std::max(a, b) + 1);
-    };
-    const auto [x0, x1] = cut(50);
-    const auto [y0, y1] = cut(40);
-    const auto [z0, z1] = cut(30);
-    const Box3 box{{x0, y0, z0}, {x1, y1, z1}};
-    std::vector<RawLabel> got(static_cast<std::size_t>(box.voxels()));
-    volume->read(box, got);
-    for (std::int64_t z = z0; z < z1; ++z) {
-      for (std::int64_t y = y0; y < y1; ++y) {
-        const auto begin = labels.begin() + all.offset({x0, y, z});
-        ASSERT_TRUE(std::equal(begin, begin + (x1 - x0), got.begin() + box.offset({x0, y, z})));
-      }
-    }
+  Random random(3);
+  expect_regions(random, *volume, {50, 40, 30}, labels, 100);
+}
+
+/// As h5py writes them: an enumeration of two names.
+TEST(Hdf5, BooleansAreNumbers) {
+  const TempDir dir;
+  const auto path = dir.path() / "a.h5";
+  const std::vector<std::int8_t> values{0, 1, 1, 0, 1, 0, 0, 1};
+  {
+    const Hdf5Handle file = create_hdf5(path);
+    const Hdf5Handle type(H5Tenum_create(H5T_STD_I8LE), &H5Tclose);
+    H5Tenum_insert(type.get(), "FALSE", &values[0]);
+    H5Tenum_insert(type.get(), "TRUE", &values[1]);
+    const std::array<hsize_t, 3> shape{2, 2, 2};
+    const Hdf5Handle space(H5Screate_simple(3, shape.data(), nullptr), &H5Sclose);
+    const Hdf5Handle set(H5Dcreate2(file.get(), "/labels", type.get(), space.get(), H5P_DEFAULT,
+                                    H5P_DEFAULT, H5P_DEFAULT),
+                         &H5Dclose);
+    ASSERT_GE(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
   }
+  EXPECT_EQ(read_all(*open_volume(path)), (std::vector<RawLabel>{0, 1, 1, 0, 1, 0, 0, 1}));
+}
+
+TEST(Hdf5, ChunksBeyondAnArrayThatShrankAreNoVoxels) {
+  const TempDir dir;
+  Hdf5Sample sample{.shape = {13, 11, 17}, .layout = H5D_CHUNKED, .chunk = {4, 5, 6}};
+  sample.max_shape = {H5S_UNLIMITED, 11, H5S_UNLIMITED};
+  const auto labels = labels_of(sample);
+  const auto path = one_data_set(dir, sample, labels);
+  {
+    const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), &H5Fclose);
+    const Hdf5Handle set(H5Dopen2(file.get(), "/labels", H5P_DEFAULT), &H5Dclose);
+    const std::array<hsize_t, 3> smaller{7, 11, 9};
+    ASSERT_GE(H5Dset_extent(set.get(), smaller.data()), 0);
+  }
+  EXPECT_EQ(read_all(*open_volume(path)), part_of(labels, {17, 11, 13}, {{0, 0, 0}, {9, 11, 7}}));
 }
 
 using Packer = std::function<std::string(const std::string&)>;
