@@ -10,7 +10,7 @@
 #include "engine/settings/promises.h"
 #include "engine/system/memory.h"
 #include "engine/version.h"
-#include "io/volume/volume_view.h"
+#include "io/volume/label_volume.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {

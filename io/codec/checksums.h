@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The checksums that chunks of stores carry.
+// The checksums that stores carry, their own and ours.
 #pragma once
 
 #include <cstddef>
@@ -18,5 +18,8 @@ namespace mw::io {
 /// Fletcher's checksum over numbers of 16 bits, most significant byte first; a last odd byte is the
 /// upper half of one: HDF5's filter 3.
 [[nodiscard]] std::uint32_t fletcher32(std::span<const std::byte> bytes);
+
+/// CRC-32 (ISO 3309) of the bytes.  Finds every change of up to 32 bits in a row.
+[[nodiscard]] std::uint32_t checksum(std::span<const std::byte> bytes);
 
 }  // namespace mw::io

@@ -4,7 +4,6 @@
 #include "io/codec/codec.h"
 
 #include "io/codec/stream.h"
-#include "io/codec/unpackers.h"
 
 namespace mw::io {
 

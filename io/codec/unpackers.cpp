@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks what libraries take piece by piece: gzip, zlib, bzip2, xz and Zstandard.
-#include "io/codec/unpackers.h"
+#include "io/codec/codec.h"
 
 #include <bzlib.h>
 #include <lzma.h>

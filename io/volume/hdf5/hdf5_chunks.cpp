@@ -9,9 +9,8 @@
 
 #include "io/codec/checksums.h"
 #include "io/codec/codec.h"
-#include "io/codec/unpackers.h"
 #include "io/file/errors.h"
-#include "io/volume/hdf5/describe.h"
+#include "io/volume/hdf5/description.h"
 
 namespace mw::io {
 namespace {

@@ -12,7 +12,6 @@
 #include "io/chunks/chunk.h"
 #include "io/file/source/byte_source.h"
 #include "io/volume/hdf5/description.h"
-#include "io/volume/hdf5/place.h"
 
 namespace mw::io {
 

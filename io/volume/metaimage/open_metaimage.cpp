@@ -10,7 +10,6 @@
 #include "io/file/source/inflated_source.h"
 #include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
-#include "io/volume/metaimage/metaimage_header.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {

@@ -10,7 +10,6 @@
 #include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
-#include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {

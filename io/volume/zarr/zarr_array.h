@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -90,5 +92,11 @@ void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
 /// The most that reading and unpacking a chunk takes beside its voxels that are in the volume: axes
 /// of one entry may have chunks of more.
 [[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes);
+
+/// A missing file, and a chunk that a shard does not have, are fill values: an error when those are
+/// no labels.  An index of a shard is read once and kept with the last used others.
+/// REQUIRES: the array is checked, and axes are its.
+[[nodiscard]] std::unique_ptr<ChunkSource> zarr_chunks(const std::filesystem::path& folder,
+                                                       const ZarrArray& array, const AxisMap& axes);
 
 }  // namespace mw::io

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Finds chunks of a Zarr array in files and in shards, and reads them.
-#include "io/volume/zarr/zarr_chunks.h"
-
 #include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
 
+#include "io/chunks/chunked_volume.h"
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
+#include "io/volume/zarr/multiscale.h"
 #include "io/volume/zarr/zarr_array.h"
 
 namespace mw::io {
@@ -32,7 +35,34 @@ std::uint64_t number_of(Index3 shard) {
   return static_cast<std::uint64_t>(Box3{{0, 0, 0}, kAll}.offset(shard));
 }
 
-}  // namespace
+/// Bytes of a shard's file.  Not compared to the size of the file.
+struct ShardRange {
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// Reads the indices of shards, and keeps those used last.  Thread safety: any.
+class ShardIndices {
+ public:
+  explicit ShardIndices(ShardCoding coding);
+
+  /// shard: its number along x, y and z; path: its file; chunk: its number in the shard along each
+  /// axis of the array.
+  /// ENSURES: empty when there is no such file, or no such chunk in it.
+  /// ERRORS: mw::Error(kInput) naming the file when its index is damaged.
+  [[nodiscard]] std::optional<ShardRange> find(Index3 shard, const std::filesystem::path& path,
+                                               const std::vector<std::int64_t>& chunk) const;
+  /// The most that is kept.
+  [[nodiscard]] std::uint64_t max_bytes() const;
+
+ private:
+  [[nodiscard]] std::uint64_t index_bytes() const;  ///< with the checksum
+  [[nodiscard]] std::optional<Chunk> read(const std::filesystem::path& path) const;
+  [[nodiscard]] std::uint64_t offset_of(const std::vector<std::int64_t>& chunk) const;
+
+  ShardCoding coding_;
+  mutable ChunkCache kept_;
+};
 
 ShardIndices::ShardIndices(ShardCoding coding)
     : coding_(std::move(coding)), kept_(kept_bytes(index_bytes())) {}
@@ -80,8 +110,6 @@ std::optional<ShardRange> ShardIndices::find(Index3 shard, const std::filesystem
   if (range.offset == kNone && range.bytes == kNone) return std::nullopt;
   return range;
 }
-
-namespace {
 
 /// What both kinds of files share.
 class ZarrChunks : public ChunkSource {
