@@ -7,6 +7,7 @@
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/voxel_lattice.h"
+#include "engine/run/run_context.h"
 #include "engine/settings/promises.h"
 #include "engine/system/memory.h"
 #include "engine/version.h"
@@ -79,6 +80,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
   check(opened.info(), job.settings);
+  check_unpacking(opened, job.settings, job.run);
   const StoppableVolume stoppable(opened, job.stop);
   const io::PreparedInput input(stoppable, job.steps,
                                 io::SpeckLimits::of_budget(job.run.store.memory));

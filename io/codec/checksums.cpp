@@ -31,8 +31,8 @@ constexpr std::array<std::uint32_t, 256> kTable = table();
 
 }  // namespace
 
-std::uint32_t crc32c(std::span<const std::byte> bytes) {
-  std::uint32_t rest = 0xffffffff;
+std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t before) {
+  std::uint32_t rest = ~before;
   for (const std::byte byte : bytes) {
     rest = (rest >> 8U) ^ kTable[(rest ^ std::to_integer<std::uint32_t>(byte)) & 0xffU];
   }

@@ -9,8 +9,9 @@
 
 namespace mw::io {
 
-/// CRC-32C (Castagnoli; RFC 3720, appendix B.4) of the bytes: Zarr's shards.
-[[nodiscard]] std::uint32_t crc32c(std::span<const std::byte> bytes);
+/// CRC-32C (Castagnoli; RFC 3720, appendix B.4) of the bytes: Zarr's shards.  before: that of the
+/// bytes in front of them.
+[[nodiscard]] std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 /// XXH32 of the bytes (xxHash fast digest algorithm, specification 0.1.1): lz4-java's blocks.
 [[nodiscard]] std::uint32_t xxhash32(std::span<const std::byte> bytes, std::uint32_t seed);

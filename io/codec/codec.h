@@ -5,9 +5,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "io/codec/stream.h"
 
 namespace mw::io {
 
@@ -35,6 +39,20 @@ enum class Codec {
 
 /// The most that unpack() takes in memory beside what it returns.
 [[nodiscard]] std::uint64_t max_scratch(Codec codec, std::size_t max);
+
+/// The same from a source to a file without a name in $TMPDIR or /tmp (of bytes that are not packed
+/// the source itself), piece by piece, for more than memory should hold.
+/// REQUIRES: max_streamed(codec) is something.
+/// ERRORS: also mw::Error(kResource) when the disk is full, and for a frame of Zstandard that looks
+/// back farther than kMaxZstdWindow.
+[[nodiscard]] std::shared_ptr<const ByteSource> unpack_to_file(
+    Codec codec, std::shared_ptr<const ByteSource> packed, std::uint64_t max);
+
+/// The most that unpack_to_file() takes in memory; nothing: the codec unpacks as a whole only.
+[[nodiscard]] std::optional<std::uint64_t> max_streamed(Codec codec);
+
+/// Levels up to 20 of Zstandard look back no farther.
+inline constexpr std::uint64_t kMaxZstdWindow = std::uint64_t{32} << 20U;
 
 // Of all: name is what errors call the packed bytes.  Memory: what comes out, at most `max` bytes,
 // and what is said.  Thread safety: any; no state of a library is shared.
@@ -86,6 +104,10 @@ inline constexpr std::uint64_t kMaxXzBytes = std::uint64_t{80} << 20U;
 /// .xz (LZMA2 in its container) by liblzma: one or several streams.  Memory: kMaxXzBytes.
 [[nodiscard]] std::vector<std::byte> unpack_xz(std::span<const std::byte> packed, std::size_t max,
                                                std::string_view name);
+
+/// What unpacks the streams of gzip, zlib, zstd, bzip2 and xz; null for the other codecs.  The name
+/// must outlive it.
+[[nodiscard]] std::unique_ptr<StreamDecoder> stream_decoder(Codec codec, const PackedName& name);
 
 /// LZF, h5py's filter: a stream of LibLZF without a header.
 [[nodiscard]] std::vector<std::byte> unpack_lzf(std::span<const std::byte> packed, std::size_t max,

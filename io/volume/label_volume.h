@@ -36,6 +36,7 @@ struct VolumeInfo {
   /// axis of 0: any.
   Index3 chunk{0, 0, 0};
   LabelNames names;  ///< what the file calls labels
+  std::string note;  ///< what was taken for what the file leaves open, for people; mostly empty
 };
 
 /// Whether labels of the volume are signed numbers.

@@ -23,6 +23,29 @@ struct ArrayLayout {
   VoxelScaling scaling{};
 };
 
+/// An array of voxels in a ByteSource.
+struct StoredArray {
+  std::uint64_t first = 0;  ///< where the voxel box.lo is, in voxels from `offset` on
+  Index3 strides;           ///< how many voxels further along x, y and z
+  VoxelCoding coding;
+  Box3 box;                  ///< its voxels
+  std::string name;          ///< what errors call it
+  std::uint64_t offset = 0;  ///< in bytes
+};
+
+/// Labels of a box, x fastest.
+struct ReadBox {
+  Box3 box;
+  std::span<RawLabel> labels;
+};
+
+/// Reads the voxels of a part, which is in the array and in the box that they go to.
+/// REQUIRES: strides not negative, all voxels within the source.
+/// Cost: one read for each run of rows that lie close together; at most 1 MiB or one row of memory.
+/// ERRORS: those of the source; mw::Error(kInput) for a voxel that is no label.
+void read_array(const ByteSource& source, const StoredArray& array, const Box3& part,
+                const ReadBox& to);
+
 class RawArrayVolume : public LabelVolume {
  public:
   /// REQUIRES: the source holds all voxels (check_payload).
@@ -30,8 +53,7 @@ class RawArrayVolume : public LabelVolume {
       : source_(std::move(source)), info_(std::move(info)), position_(position) {}
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
-  /// Cost: one pread for each run of rows that lie close together; at most 1 MiB or one row of
-  /// scratch memory.
+  /// Cost: that of read_array().
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
  private:

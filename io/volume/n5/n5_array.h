@@ -64,8 +64,12 @@ class N5Blocks : public ChunkSource {
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override { return path_of(chunk).string(); }
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box) const override;
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
+                                          ChunkPlace place) const override;
   [[nodiscard]] std::uint64_t scratch_bytes() const override;
+  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override {
+    return max_streamed(array_.codec);
+  }
 
  private:
   [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;

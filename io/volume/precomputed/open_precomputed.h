@@ -47,18 +47,26 @@ class PrecomputedChunks : public ChunkSource {
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override;
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box) const override;
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
+                                          ChunkPlace place) const override;
   [[nodiscard]] std::uint64_t scratch_bytes() const override;
+  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override;
 
  private:
   using Bytes = std::vector<std::byte>;
+  /// A chunk as the store has it.
+  struct Stored {
+    std::shared_ptr<const ByteSource> bytes;
+    bool is_gzip = false;
+    bool may_be_raw = false;  ///< though it begins like gzip
+  };
 
   [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;
   [[nodiscard]] SegmentationLayout layout_of(Index3 shape) const;
   [[nodiscard]] std::uint64_t max_encoded(Index3 shape) const;
-  [[nodiscard]] std::optional<Bytes> read_file(Index3 chunk, Index3 shape) const;
-  [[nodiscard]] std::optional<Bytes> read_shard(Index3 chunk, Index3 shape) const;
-  [[nodiscard]] Bytes inflated(Bytes packed, Index3 chunk, Index3 shape) const;
+  [[nodiscard]] Stored find_file(Index3 chunk, std::uint64_t wanted) const;
+  [[nodiscard]] Stored find_shard(Index3 chunk, std::uint64_t wanted) const;
+  [[nodiscard]] Chunk read(const Stored& stored, std::uint64_t wanted, ChunkPlace place) const;
 
   std::filesystem::path folder_;
   PrecomputedScale scale_;

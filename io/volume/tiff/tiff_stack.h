@@ -149,7 +149,8 @@ class TiffChunks : public ChunkSource {
 
   [[nodiscard]] std::string name() const override { return stack_->name(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override;
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box) const override;
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
+                                          ChunkPlace place) const override;
   /// A block, unpacked and packed.
   [[nodiscard]] std::uint64_t scratch_bytes() const override { return 2 * stack_->largest_block(); }
   /// A tile, or as many strips as make 64 KiB.
