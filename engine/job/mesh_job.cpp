@@ -8,11 +8,12 @@
 #include "engine/labels/label_scan.h"
 #include "engine/labels/size_image.h"
 #include "engine/labels/voxel_lattice.h"
+#include "engine/run/run_context.h"
 #include "engine/settings/promises.h"
 #include "engine/system/memory.h"
 #include "engine/version.h"
 #include "io/file/errors.h"
-#include "io/volume/volume_view.h"
+#include "io/volume/label_volume.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {
@@ -99,6 +100,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
   check(opened.info(), job.settings);
+  check_unpacking(opened, job.settings, job.run);
   const std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const StoppableVolume stoppable(opened, job.stop);
   const io::PreparedInput input(stoppable, job.steps,
