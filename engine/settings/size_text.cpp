@@ -22,11 +22,6 @@ bool has_ending(std::string_view part, std::initializer_list<const char*> ending
                      [&](const char* ending) { return part.ends_with(ending); });
 }
 
-/// A file of numbers on the grid of the labels.
-bool names_image(std::string_view part) {
-  return has_ending(part, {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".npy"});
-}
-
 bool names_table(std::string_view part) {
   return part.starts_with('@') && !names_image(part);
 }
@@ -98,6 +93,10 @@ void join(SizeRules& rules, const SizeRules& more) {
 }
 
 }  // namespace
+
+bool names_image(std::string_view part) {
+  return has_ending(part, {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".npy"});
+}
 
 SizeRules parse_sizes(std::string_view text) {
   SizeRules out;

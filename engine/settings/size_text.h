@@ -11,6 +11,9 @@
 
 namespace mw::engine {
 
+/// Whether a part of such a text is a file of numbers on the grid of the labels, by its ending.
+[[nodiscard]] bool names_image(std::string_view part);
+
 /// "7=4,3|5=1,*=2.5": of a label, of the faces between two, of all other labels; "2.5" is "*=2.5".
 /// "@FILE", alone or between those, is a table of such sizes.  Nothing of an empty text.
 /// ENSURES: ascending.
