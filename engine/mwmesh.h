@@ -122,6 +122,7 @@ struct VolumeFile {
   std::optional<Vector> origin{};   ///< the same
   std::string frame = "file";       ///< world frame: "file", "ras", "lps" or "voxel"
   std::optional<Box> crop{};        ///< stays where it lies, unless origin is given
+  bool trust_paths = false;         ///< files that headers name may be outside of their folder
 };
 
 class VolumeAccess;

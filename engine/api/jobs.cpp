@@ -10,6 +10,7 @@
 #include "engine/settings/setting_table.h"
 #include "engine/system/memory.h"
 #include "io/file/scratch/scratch_file.h"
+#include "io/volume/open_volume.h"
 #include "kernels/core/error.h"
 
 namespace mw::api {
@@ -81,8 +82,14 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
   if (options.resume && options.workdir.empty()) {
     throw Error(ErrorKind::kUsage, "--resume: needs the --workdir of the run that ended early");
   }
+  engine::MeshSettings values = mesh_settings(settings);
+  std::shared_ptr<const io::LabelVolume> sizes;
+  if (const std::string& image = values.sizes.rules.image; !image.empty()) {
+    sizes = io::open_volume(image);
+  }
   return {.steps = input_steps(options),
-          .settings = mesh_settings(settings),
+          .settings = std::move(values),
+          .size_image = std::move(sizes),
           .choice = label_choice(options),
           .certify = certify_of(options.certify),
           .is_measured = options.report,

@@ -39,7 +39,8 @@ Volume Volume::open(const VolumeFile& file) {
                             .origin = file.origin,
                             .frame = frame_choice(file.frame),
                             .dataset = file.dataset,
-                            .scale = file.scale};
+                            .scale = file.scale,
+                            .trust_paths = file.trust_paths};
     if (file.crop) options.crop = mw::api::io_box(*file.crop);
     return VolumeAccess::wrap(io::open_volume(mw::api::checked_path(file.path), options));
   });

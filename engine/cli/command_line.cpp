@@ -18,7 +18,9 @@ namespace {
   throw Error(ErrorKind::kUsage, what + "; see " + see + " --help");
 }
 
-const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
+/// stats is another name of info.
+const Command& find_command(const std::vector<Command>& commands, std::string name) {
+  if (name == "stats") name = "info";
   const auto found = std::find_if(commands.begin(), commands.end(),
                                   [&](const Command& command) { return command.name == name; });
   if (found != commands.end()) return *found;

@@ -55,8 +55,8 @@ std::string usage_of(const Command& command) {
     if (is_argument(option)) {
       out += option.required ? " " + option.value : " [" + option.value + "]";
     } else if (option.required) {
-      out += (option.flags.empty() ? " --" + option.name : " " + option.flags.substr(0, 2)) + " " +
-             option.value;
+      const std::string first = option.flags.substr(0, option.flags.find(','));
+      out += " " + (first.empty() ? "--" + option.name : first) + " " + option.value;
     }
   }
   return out + " [OPTIONS]\n";

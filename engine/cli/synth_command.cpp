@@ -8,7 +8,7 @@
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "io/volume/decode.h"
-#include "io/volume/npy_writer.h"
+#include "io/volume/npy/open_npy.h"
 #include "kernels/core/error.h"
 #include "kernels/synth/synth.h"
 

@@ -6,11 +6,14 @@
 #include "engine/job/certificate.h"
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
+#include "engine/labels/size_image.h"
 #include "engine/labels/voxel_lattice.h"
+#include "engine/run/run_context.h"
 #include "engine/settings/promises.h"
 #include "engine/system/memory.h"
 #include "engine/version.h"
-#include "io/volume/volume_view.h"
+#include "io/file/errors.h"
+#include "io/volume/label_volume.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {
@@ -31,6 +34,15 @@ class StoppableVolume : public io::VolumeView {
   std::function<void()> stop_;
 };
 
+/// By dense label, as OutputOptions has them.
+std::vector<double> edge_sizes(const SizeRules& rules, const io::LabelTable& table) {
+  std::vector<double> out(rules.any() ? table.size() : 0);
+  for (Label label = 0; label < out.size(); ++label) {
+    out[label] = rules.of_label(table.raw(label)).value_or(0.0);
+  }
+  return out;
+}
+
 /// What the marches are told beside what the job says.
 RunHooks run_hooks(const MeshJob& job, const io::LabelTable& table, const std::string& fingerprint,
                    std::uint64_t memory) {
@@ -45,8 +57,17 @@ RunHooks run_hooks(const MeshJob& job, const io::LabelTable& table, const std::s
   out.output = {.wanted = wanted_labels(job.choice, table),
                 .measure_quality = job.is_measured,
                 .measure_shape = job.is_measured,
-                .measure_edges = job.is_measured && !job.settings.sizes.labels.empty()};
+                .measure_edges = job.is_measured && job.settings.sizes.rules.any(),
+                .edge_sizes = edge_sizes(job.settings.sizes.rules, table)};
   return out;
+}
+
+/// ERRORS: as SizeImage; kUsage when there is an image in the settings and not in the job.
+std::optional<SizeImage> size_image(const io::VolumeInfo& labels, const MeshJob& job) {
+  const std::string& file = job.settings.sizes.rules.image;
+  if (file.empty()) return std::nullopt;
+  if (job.size_image != nullptr) return SizeImage(*job.size_image, labels, file);
+  throw Error(ErrorKind::kUsage, "size: the image " + file + " was not opened");
 }
 
 /// Says where the work is when a run that ends early leaves some.
@@ -79,6 +100,8 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
   check(opened.info(), job.settings);
+  check_unpacking(opened, job.settings, job.run);
+  const std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const StoppableVolume stoppable(opened, job.stop);
   const io::PreparedInput input(stoppable, job.steps,
                                 io::SpeckLimits::of_budget(job.run.store.memory));
@@ -91,14 +114,16 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
                           .specks = input.specks()};
   run.labels_seconds = meter.read().wall_seconds;
   run.fingerprint = volume.text();
+  if (sizes) run.fingerprint += io::text(", sizes ", sizes->fingerprint());
   if (job.labels_known) job.labels_known(run.labels.size());
   const io::DenseVolume labels(input.volume(), run.labels);
   const std::uint64_t memory = job.run.store.memory - input.held_bytes();
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, sink, job.stop);
   try {
-    run.engine = march(labels, job, certifier ? certifier->sink() : sink,
-                       run_hooks(job, run.labels, run.fingerprint, memory));
+    RunHooks hooks = run_hooks(job, run.labels, run.fingerprint, memory);
+    hooks.sizes = sizes ? &*sizes : nullptr;
+    run.engine = march(labels, job, certifier ? certifier->sink() : sink, std::move(hooks));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kCheckFailed) {
       refuse_changed_input(input.volume(), volume.sum(), job.run.threads);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 
 #include "engine/output/label_selection.h"
 #include "engine/report/run_report.h"
@@ -22,6 +23,7 @@ enum class Certify {
 struct MeshJob {
   io::InputSteps steps;
   MeshSettings settings;
+  std::shared_ptr<const io::LabelVolume> size_image;  ///< SizeRules::image, opened
   LabelChoice choice;
   Certify certify = Certify::kAuto;
   bool is_measured = false;      ///< quality and shape, for a report

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "io/volume/volume_view.h"
+#include "io/volume/label_volume.h"
 
 namespace mw::engine {
 

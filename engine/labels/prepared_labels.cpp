@@ -4,12 +4,15 @@
 #include "engine/labels/prepared_labels.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "engine/labels/reading_tiles.h"
 #include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
 #include "kernels/start/carrier_faces.h"
+#include "kernels/start/cells/cell.h"
 #include "kernels/start/coarsen/coarsen.h"
 
 namespace mw::engine {
@@ -60,41 +63,51 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
   return uniform;
 }
 
+/// No edge of this size is longer; in lengths of the metric.
+double limit_of(double size, const io::DenseVolume& volume) {
+  const auto& spacing = volume.info().space.spacing;
+  return SizeRules::kLongest / *std::min_element(spacing.begin(), spacing.end()) * size;
+}
+
 /// What settings ask of edges, in lengths of the metric.
 SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
-  if (sizes.labels.empty()) return {};
-  const auto& spacing = volume.info().space.spacing;
-  const double unit = *std::min_element(spacing.begin(), spacing.end());
+  if (!sizes.rules.any()) return {};
   std::vector<double> limits(volume.table().size(), SizeField::kNoLimit);
-  for (const LabelSize& s : sizes.labels) {
-    limits[volume.table().dense(s.label)] = s.longest_edge / unit;
+  for (Label label = 0; label < limits.size(); ++label) {
+    const std::optional<double> size = sizes.rules.of_label(volume.table().raw(label));
+    if (size) limits[label] = limit_of(*size, volume);
   }
-  return {volume.info().shape, Metric(spacing), std::move(limits), sizes.gradation};
+  return {volume.info().shape, Metric(volume.info().space.spacing), std::move(limits),
+          SizeRules::kLongest * sizes.gradation, !sizes.rules.image.empty()};
 }
 
 std::optional<InnerDemand> inner_demand(const io::LabelTable& table, const SizeSettings& sizes) {
   if (!sizes.inner_vertices) return std::nullopt;
-  std::vector<bool> wanted(table.size(), sizes.labels.empty());
-  for (const LabelSize& s : sizes.labels) wanted[table.dense(s.label)] = true;
+  const SizeRules& rules = sizes.rules;
+  std::vector<bool> wanted(table.size(), rules.labels.empty() || rules.others);
+  for (const LabelSize& s : rules.labels) wanted[table.dense(s.label)] = true;
   return InnerDemand(std::move(wanted));
 }
 
 }  // namespace
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
-                               int threads, const std::filesystem::path& folder)
+                               int threads, const std::filesystem::path& folder,
+                               const SizeImage* image)
     : PreparedLabels(volume, settings, bricks_of(volume.info().shape),
-                     LabelCounts(volume.info().shape, volume.table().size()), threads, folder) {}
+                     LabelCounts(volume.info().shape, volume.table().size()), threads, folder,
+                     image) {}
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                const LabelNeed& need, int threads,
-                               const std::filesystem::path& folder)
+                               const std::filesystem::path& folder, const SizeImage* image)
     : PreparedLabels(volume, settings, bricks_of(need, volume.info().shape, settings), std::nullopt,
-                     threads, folder) {}
+                     threads, folder, image) {}
 
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                const NeededBricks& bricks, std::optional<LabelCounts> counts,
-                               int threads, const std::filesystem::path& folder)
+                               int threads, const std::filesystem::path& folder,
+                               const SizeImage* image)
     : volume_(volume),
       counts_(std::move(counts)),
       original_(volume.info().shape, volume.table().size(), folder, bricks.original),
@@ -102,12 +115,56 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
       inner_(inner_demand(volume.table(), settings.sizes)) {
   read_bricks(volume, threads);
   volume.raw().drop_buffers();  // it is not read again, unless a visit looks beyond what it needs
-  if (sizes_.limits()) sizes_.spread();
+  if (sizes_.limits()) find_sizes(settings.sizes, image, threads);
   if (is_coarsened(settings)) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder, bricks.shapes);
     coarsen_tiles(settings.max_distance.value_or(kMaxCoarseDistance), threads);
   }
   if (settings.start != StartMesh::kDense) find_levels(bricks.levels, threads);
+}
+
+/// Limits that do not come from labels, and then all that follows from limits.
+void PreparedLabels::find_sizes(const SizeSettings& sizes, const SizeImage* image, int threads) {
+  if (!sizes.rules.interfaces.empty()) limit_interfaces(sizes.rules, threads);
+  if (image != nullptr) limit_by_image(*image, threads);
+  sizes_.spread();
+}
+
+/// On both sides of their faces.
+void PreparedLabels::limit_interfaces(const SizeRules& rules, int threads) {
+  std::map<std::pair<Label, Label>, double> limits;
+  for (const InterfaceSize& s : rules.interfaces) {
+    const io::LabelTable& table = volume_.table();
+    limits[std::minmax({table.dense(s.low), table.dense(s.high)})] = limit_of(s.edge, volume_);
+  }
+  tbb_for_each_index(threads, original_.bricks(), [&](Index3 brick) {
+    const Box3 box = original_.box_of(brick);
+    const LabelBox labels = read(original_, grown(box, 1));
+    for_each_index(box, [&](Index3 v) {
+      for (unsigned side = 0; side < 6; ++side) {
+        const Index3 step = axis_vector(side / 2);
+        const Label beside = labels.at(side % 2 == 0 ? v + step : v - step);
+        const auto limit = limits.find(std::minmax({labels.at(v), beside}));
+        if (limit != limits.end()) sizes_.limit_voxel(v, limit->second);
+      }
+    });
+  });
+}
+
+/// What is less than the voxels allow is as little as they do.
+void PreparedLabels::limit_by_image(const SizeImage& image, int threads) {
+  const Metric metric(volume_.info().space.spacing);
+  const double least = metric.voxel().norm();
+  tbb_for_each_index(threads, original_.bricks(), [&](Index3 brick) {
+    const Box3 box = original_.box_of(brick);
+    const std::vector<double> sizes = image.read(box, original_.shape());
+    std::size_t i = 0;
+    for_each_index(box, [&](Index3 v) {
+      const double limit = limit_of(sizes[i++], volume_);
+      if (limit == SizeField::kNoLimit) return;
+      sizes_.limit_voxel(v, std::max(SizeField::rung_below(limit), least));
+    });
+  });
 }
 
 LabelBox PreparedLabels::original(const Box3& box) const {
@@ -175,10 +232,14 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
   });
 }
 
-/// Do sizes allow the largest cells in all of these cubes?
+bool PreparedLabels::may_be_large(Index3 cube) const {
+  const std::optional<Label> label = shapes().uniform_label(cube);
+  return label && sizes_.allows_cell(scaled(cube, kBrick), 4, *label);
+}
+
 bool PreparedLabels::all_may_be_large(const Box3& cubes) const {
   bool all = true;
-  for_each_index(cubes, [&](Index3 c) { all = all && sizes_.allows_cell(scaled(c, kBrick), 4); });
+  for_each_index(cubes, [&](Index3 c) { all = all && may_be_large(c); });
   return all;
 }
 
@@ -191,8 +252,7 @@ void PreparedLabels::find_levels(const Box3& cubes, int threads) {
   tbb_for_each_index(threads, cubes.shape(), [&](Index3 i) {
     const Index3 cube = cubes.lo + i;
     const Box3 around = clipped(grown({cube, cube + Index3{1, 1, 1}}, 1), levels_.cubes());
-    if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) &&
-        all_uniform(shapes(), around) && all_may_be_large(around)) {
+    if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) && all_may_be_large(around)) {
       levels_.set_eighths(cube, 0xff);
       return;
     }
@@ -200,10 +260,7 @@ void PreparedLabels::find_levels(const Box3& cubes, int threads) {
     levels_.set_eighths(
         cube, LevelMap::allowed_eighths(shape(grown(box, LevelMap::kHalo)), volume, cube, sizes()));
   });
-  levels_.find_cubes([&](Index3 cube) {
-    return is_whole(cube) && shapes().uniform_label(cube).has_value() &&
-           sizes_.allows_cell(scaled(cube, kBrick), 4);
-  });
+  levels_.find_cubes([&](Index3 cube) { return is_whole(cube) && may_be_large(cube); });
 }
 
 }  // namespace mw::engine

@@ -5,6 +5,7 @@
 
 #include "engine/labels/label_counts.h"
 #include "engine/labels/label_need.h"
+#include "engine/labels/size_image.h"
 #include "engine/settings/settings.h"
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
@@ -22,16 +23,18 @@ namespace mw::engine {
 class PreparedLabels {
  public:
   /// Reads the volume once, drops its buffers, and coarsens it when the start mesh asks for that.
-  /// folder: where temporary files go.  threads: they change nothing.
-  /// ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
+  /// image: of the settings' SizeRules.  folder: where temporary files go.  threads: they change
+  /// nothing. ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
   /// Memory while it works: preparation_bytes() a thread; 8 bytes a label stay.
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
-                 const std::filesystem::path& folder = io::scratch_folder());
+                 const std::filesystem::path& folder = io::scratch_folder(),
+                 const SizeImage* image = nullptr);
 
   /// Only what is needed; what is counted is then known already (counts_of_part()).
   /// REQUIRES: the volume outlives this.
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, const LabelNeed& need,
-                 int threads = 1, const std::filesystem::path& folder = io::scratch_folder());
+                 int threads = 1, const std::filesystem::path& folder = io::scratch_folder(),
+                 const SizeImage* image = nullptr);
 
   /// Boxes may reach outside the volume; voxels there are kExterior.
   /// Beyond what is needed the volume is read again: how far the tets of a window reach out of it
@@ -51,13 +54,18 @@ class PreparedLabels {
  private:
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                  const NeededBricks& bricks, std::optional<LabelCounts> counts, int threads,
-                 const std::filesystem::path& folder);
+                 const std::filesystem::path& folder, const SizeImage* image);
 
+  void find_sizes(const SizeSettings& sizes, const SizeImage* image, int threads);
+  void limit_interfaces(const SizeRules& rules, int threads);
+  void limit_by_image(const SizeImage& image, int threads);
   void read_bricks(const io::DenseVolume& volume, int threads);
   void read_tile(const io::DenseVolume& volume, const Box3& tile);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(const Box3& cubes, int threads);
+  /// Has the cube one label, and do sizes allow the largest cell in it?
+  [[nodiscard]] bool may_be_large(Index3 cube) const;
   [[nodiscard]] bool all_may_be_large(const Box3& cubes) const;
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
 

@@ -68,20 +68,18 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
 
 /// Start meshes have edges as long as the diagonal of a voxel, and no step cuts an edge.
 void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
-  const auto& labels = settings.sizes.labels;
-  if (labels.empty()) return;
+  if (!settings.sizes.rules.any()) return;
   const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
-  const double min = std::sqrt(x * x + y * y + z * z);
-  const auto shortest = std::min_element(
-      labels.begin(), labels.end(),
-      [](const LabelSize& a, const LabelSize& b) { return a.longest_edge < b.longest_edge; });
-  if (shortest->longest_edge >= min) return;
+  const double diagonal = std::sqrt(x * x + y * y + z * z);
+  const double least = settings.sizes.rules.least();
+  if (SizeRules::kLongest * least >= diagonal) return;
   // Rounded up, so that what is told can be kept.
+  const double min = diagonal / SizeRules::kLongest;
   const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(min)));
-  throw Error(ErrorKind::kUsage,
-              io::text("size ", shortest->longest_edge, " is less than the diagonal of a voxel (",
-                       x, " x ", y, " x ", z, "), the longest edge of the finest start mesh; ",
-                       std::ceil(scale * min) / scale, " can be kept"));
+  throw Error(
+      ErrorKind::kUsage,
+      io::text("size ", least, " is too small: the finest start mesh has the diagonals of voxels (",
+               x, " x ", y, " x ", z, "); ", std::ceil(scale * min) / scale, " can be kept"));
 }
 
 /// Largest absolute coordinate of the box.
@@ -144,11 +142,17 @@ void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
 }
 
 void check(const io::LabelTable& labels, const MeshSettings& settings) {
-  for (const LabelSize& s : settings.sizes.labels) {
-    if (labels.contains(s.label)) continue;
-    const std::string name = labels.is_signed() ? std::to_string(static_cast<std::int64_t>(s.label))
-                                                : std::to_string(s.label);
+  const auto require = [&](RawLabel label) {
+    if (labels.contains(label)) return;
+    const std::string name = labels.is_signed() ? std::to_string(static_cast<std::int64_t>(label))
+                                                : std::to_string(label);
     throw Error(ErrorKind::kUsage, "size: the volume has no label " + name);
+  };
+  const SizeRules& rules = settings.sizes.rules;
+  for (const LabelSize& s : rules.labels) require(s.label);
+  for (const InterfaceSize& s : rules.interfaces) {
+    require(s.low);
+    require(s.high);
   }
 }
 

@@ -18,7 +18,7 @@ Int128 volume6_of(const BlockMesh& block, const BlockTet& tet) {
 BlockFigures::BlockFigures(const OutputOptions& options, std::size_t labels)
     : has_volumes(options.measure_shape) {
   if (options.measure_quality) quality.emplace();
-  if (options.measure_edges) edges.emplace(labels);
+  if (options.measure_edges) edges.emplace(labels, options.edge_sizes);
   if (has_volumes) volumes6.resize(labels);
 }
 
@@ -35,7 +35,10 @@ void BlockFigures::add(const BlockMesh& block, std::span<const io::Position> pos
 
 void BlockFigures::report(FinishedMesh& out) {
   if (quality) out.quality = quality->report();
-  if (edges) out.longest_edges = edges->lengths();
+  if (edges) {
+    out.longest_edges = edges->lengths();
+    out.edge_ratios = edges->ratios();
+  }
   out.label_volumes6 = std::move(volumes6);
 }
 

@@ -3,6 +3,9 @@
 // The end of a run: final blocks become one mesh with global rows, in bounded memory (promise P6).
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -32,10 +35,23 @@ struct OutputOptions {
   WantedLabel wanted;                        ///< empty: every label
   bool measure_quality = false;              ///< about 0.1 us a tet
   bool measure_shape = false;                ///< volumes, area and bends; about 1 us a tet
-  bool measure_edges = false;                ///< the longest of each label
+  bool measure_edges = false;                ///< the longest of each label, and their ratios
+  std::vector<double> edge_sizes;            ///< by dense label; 0: none was asked
   HoldMemory hold;                           ///< optional
   std::optional<io::MeshPromises> promises;  ///< to be told in the file; set by mesh_volume()
   Index3 layers{1, 1, 1};  ///< that the volume's voxels were cut into; set by mesh_volume()
+};
+
+/// How many edges of tets are how long, as shares of the sizes that are asked of their labels.  An
+/// edge counts for each tet that has it.
+struct EdgeRatios {
+  static constexpr std::array<double, 7> kBounds{0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.5};
+  std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(kBounds.size() + 1);
+
+  void add(double ratio) {
+    const auto above = std::upper_bound(kBounds.begin(), kBounds.end(), ratio);
+    ++counts[static_cast<std::size_t>(above - kBounds.begin())];
+  }
 };
 
 /// The finished mesh.
@@ -49,6 +65,7 @@ struct FinishedMesh {
   std::vector<Int128> label_volumes6;
   /// With measure_edges, by dense label; physical units, 0 where nothing is written.
   std::vector<double> longest_edges;
+  EdgeRatios edge_ratios;             ///< with measure_edges
   std::size_t max_remembered = 0;     ///< see VertexRows; 16 bytes each
   std::uint64_t max_shape_bytes = 0;  ///< see InterfaceShape
 };

@@ -134,20 +134,21 @@ Json shape_json(const FinishedRun& run) {
   return out;
 }
 
-/// What was asked of sizes; limits and longest edges are in the rows of labels.
+/// What was asked of sizes; each label's own and its longest edge are in the rows of labels.
 Json size_json(const FinishedRun& run) {
-  return {{"labels", run.sizes.labels.size()}, {"inner_vertices_added", run.engine.inner_vertices}};
+  Json out{{"labels", run.sizes.rules.labels.size()},
+           {"inner_vertices_added", run.engine.inner_vertices}};
+  if (!run.sizes.rules.any()) return out;
+  const engine::EdgeRatios& ratios = run.engine.edge_ratios;
+  out["edges_over_size"] = {{"bounds", ratios.kBounds}, {"counts", ratios.counts}};
+  return out;
 }
 
 /// Adds to the row of a label that has a limit on its edges.
 void add_size(Label label, const FinishedRun& run, Json& row) {
-  const auto& sizes = run.sizes.labels;  // ascending
-  const RawLabel raw = run.labels.raw(label);
-  const auto listed = std::lower_bound(
-      sizes.begin(), sizes.end(), raw,
-      [](const engine::LabelSize& s, RawLabel wanted) { return s.label < wanted; });
-  if (listed == sizes.end() || listed->label != raw) return;
-  row["size"] = listed->longest_edge;
+  const std::optional<double> size = run.sizes.rules.of_label(run.labels.raw(label));
+  if (!size) return;
+  row["size"] = *size;
   row["longest_edge"] = run.engine.longest_edges[label];
 }
 

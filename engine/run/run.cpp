@@ -65,9 +65,9 @@ void prepare(RunContext& run, ReadyLabels& out) {
   std::filesystem::path folder = run.part->work_folder();
   if (folder.empty()) folder = io::scratch_folder();
   if (need == nullptr) {
-    out.prepared.emplace(labels, run.settings, readers.threads, folder);
+    out.prepared.emplace(labels, run.settings, readers.threads, folder, run.hooks.sizes);
   } else {
-    out.prepared.emplace(labels, run.settings, *need, readers.threads, folder);
+    out.prepared.emplace(labels, run.settings, *need, readers.threads, folder, run.hooks.sizes);
   }
   watch.lap(run.report.prepare_seconds);
 }
@@ -119,6 +119,7 @@ void report_mesh(RunContext& run, FinishedMesh& finished, const LabelCounts& lab
   if (finished.label_volumes6.empty()) return;
   report.label_volumes6 = std::move(finished.label_volumes6);
   report.longest_edges = std::move(finished.longest_edges);
+  report.edge_ratios = std::move(finished.edge_ratios);
   report.label_voxels = labels.voxels;
   const LabelSelection kept(run.hooks.output.wanted, run.lattice.volume().table());
   for (Label label = 0; label < report.label_voxels.size(); ++label) {

@@ -19,6 +19,8 @@
 
 namespace mw::engine {
 
+class SizeImage;
+
 /// The lattice that a volume was meshed on.
 struct LatticeFacts {
   Index3 shape;
@@ -41,6 +43,7 @@ struct RunReport : VisitStats {
   std::vector<std::uint64_t> label_voxels;      ///< the same, by dense label; 0: not written
   std::vector<Int128> label_volumes6;           ///< see FinishedMesh
   std::vector<double> longest_edges;            ///< the same, with sizes
+  EdgeRatios edge_ratios;                       ///< the same
   std::uint64_t memory_budget_bytes = 0;
   std::uint64_t peak_accounted_bytes = 0;
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
@@ -81,8 +84,9 @@ struct RunHooks {
   /// Optional; called by the visiting thread before each visit, by many threads at once.
   std::function<void(Index3 window)> before_visit;
   OutputOptions output;
-  StoreOptions store;         ///< memory and disk
-  codt::PoolOptions workers;  ///< of Optimizer::kTetgen
+  const SizeImage* sizes = nullptr;  ///< of SizeRules::image; outlives the run
+  StoreOptions store;                ///< memory and disk
+  codt::PoolOptions workers;         ///< of Optimizer::kTetgen
   /// The processes that the run is divided among; null: this one alone.  All of them call
   /// mesh_volume() with the same volume and settings; only the one that speaks uses its sink, and
   /// the others return when its output is complete.  Store options and threads are each one's own.

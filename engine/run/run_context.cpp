@@ -80,9 +80,18 @@ RunReport begun_report(const RunContext& run) {
 std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings,
                              const LabelNeed* need) {
   const Index3 shape = volume.info().shape;
-  const bool sized = !settings.sizes.labels.empty();
+  const bool sized = settings.sizes.rules.any();
   if (need == nullptr) return prepared_label_bytes(shape, sized);
   return prepared_label_bytes(bricks_of(*need, shape, settings), shape, sized);
+}
+
+void check_unpacking(const io::LabelVolume& volume, const MeshSettings& settings,
+                     const RunHooks& hooks) {
+  const int sharers = hooks.processes == nullptr ? 1 : hooks.processes->count_here();
+  const MemoryBudget budget(hooks.store.memory, sharers);
+  const std::uint64_t least = program_bytes(0, thread_count(hooks.threads)) +
+                              preparation_bytes(settings) + volume.buffer_bytes(1);
+  if (least > budget.limit()) budget.fail(least);
 }
 
 LabelReaders::LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings,
@@ -91,7 +100,11 @@ LabelReaders::LabelReaders(const io::DenseVolume& volume, const MeshSettings& se
   const auto max_threads = static_cast<std::uint64_t>(thread_count(hooks.threads));
   const auto at_once = std::clamp<std::uint64_t>(hooks.store.memory / 4 / each, 1, max_threads);
   threads = static_cast<int>(at_once);
-  scratch = store.reserve(Purpose::kLabels, at_once * each + volume.raw().buffer_bytes(threads));
+  const auto taken = [&] {
+    return static_cast<std::uint64_t>(threads) * each + volume.raw().buffer_bytes(threads);
+  };
+  while (threads > 1 && taken() > hooks.store.memory / 2) --threads;
+  scratch = store.reserve(Purpose::kLabels, taken());
 }
 
 RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted,

@@ -9,6 +9,7 @@
 
 #include "engine/settings/near_words.h"
 #include "engine/settings/number_text.h"
+#include "engine/settings/size_text.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 
@@ -23,7 +24,7 @@ bool begins_like_a_number(std::string_view text) {
 
 bool is_name(std::string_view token) {
   double number = 0;
-  return !token.empty() && !token.starts_with('@') &&
+  return !token.empty() && token != "*" && !token.starts_with('@') && !names_image(token) &&
          !(begins_like_a_number(token) && read_all(token, number));
 }
 
@@ -94,6 +95,9 @@ std::string number_of(std::string_view token, const io::LabelNames& names) {
     found = labels_called(names, [&](const std::string& other) {
       return std::equal(name.begin(), name.end(), other.begin(), other.end(), is_same_letter);
     });
+  }
+  if (const std::size_t bar = token.find('|'); found.empty() && !quoted && bar != token.npos) {
+    return number_of(token.substr(0, bar), names) + "|" + number_of(token.substr(bar + 1), names);
   }
   if (found.empty() && begins_like_a_number(token)) return std::string(token);
   if (found.empty()) refuse(name, names);

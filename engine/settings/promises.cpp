@@ -11,8 +11,8 @@
 namespace mw::engine {
 namespace {
 
-// Floors between which the volumes of labels are promised, as measured (README, "Limits"): below,
-// contractions may fold what holds a volume; above, they are refused where dust needs them.
+// Floors between which the volumes of labels are promised, as measured (engine/verify/README.md).
+// Below, contractions may fold what holds a volume; above, they are refused where dust needs them.
 constexpr double kLeastFloor = 0.05;
 constexpr double kMostFloor = 0.3;
 

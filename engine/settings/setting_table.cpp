@@ -89,15 +89,18 @@ bool is_within(double value, double min, double max) {
   return value >= min && value <= max;
 }
 
-/// Positive and given once for a label.
-bool are_sizes(std::vector<LabelSize> sizes) {
-  const auto is_bad = [](const LabelSize& s) {
-    return !(s.longest_edge > 0.0) || !std::isfinite(s.longest_edge);
-  };
-  if (std::any_of(sizes.begin(), sizes.end(), is_bad)) return false;
-  const auto by_label = [](const LabelSize& a, const LabelSize& b) { return a.label < b.label; };
-  std::sort(sizes.begin(), sizes.end(), by_label);
-  return std::adjacent_find(sizes.begin(), sizes.end(), std::not_fn(by_label)) == sizes.end();
+/// Positive, and ascending: given once for a place.
+bool are_sizes(const SizeRules& rules) {
+  const auto is_size = [](double size) { return size > 0.0 && std::isfinite(size); };
+  const auto has_size = [&](const auto& s) { return is_size(s.edge); };
+  const auto by_label = [](const LabelSize& s) { return s.label; };
+  const auto by_pair = [](const InterfaceSize& s) { return std::pair(s.low, s.high); };
+  return is_size(rules.others.value_or(1.0)) && std::ranges::all_of(rules.labels, has_size) &&
+         std::ranges::all_of(rules.interfaces, has_size) &&
+         std::ranges::adjacent_find(rules.labels, std::ranges::greater_equal{}, by_label) ==
+             rules.labels.end() &&
+         std::ranges::adjacent_find(rules.interfaces, std::ranges::greater_equal{}, by_pair) ==
+             rules.interfaces.end();
 }
 
 std::vector<Setting> march_settings() {
@@ -238,16 +241,16 @@ std::vector<Setting> method_settings() {
 std::vector<Setting> size_settings() {
   return {
       {.name = "size",
-       .value = "L=H,..|@FILE",
-       .help = "no edge of these labels longer than H; of a table label,size: @FILE",
+       .value = "H|L=H,..|@FILE",
+       .help = "edges of about H: all, or 2=3, 2|3=1 (faces), *=5; table, image",
        .kind = SettingKind::kSizes,
-       .allowed = "positive, and given once for a label",
-       .text = [](const Settings& s) { return format_sizes(s.sizes.labels); },
-       .read = [](Settings& s, const Text& t) { s.sizes.labels = parse_sizes(t); },
-       .is_allowed = [](const Settings& s) { return are_sizes(s.sizes.labels); }},
+       .allowed = "positive, given once for a label, and ascending",
+       .text = [](const Settings& s) { return format_sizes(s.sizes.rules); },
+       .read = [](Settings& s, const Text& t) { s.sizes.rules = parse_sizes(t); },
+       .is_allowed = [](const Settings& s) { return are_sizes(s.sizes.rules); }},
       {.name = "gradation",
        .value = "G",
-       .help = "limits of --size grow by G times the distance, 0 to 10",
+       .help = "around, sizes grow by G times the distance, 0 to 10",
        .kind = SettingKind::kNumber,
        .expert = true,
        .allowed = range_text(0, kMaxGradation),

@@ -3,6 +3,8 @@
 // Which settings make sense.
 #include "engine/settings/settings.h"
 
+#include <algorithm>
+#include <limits>
 #include <string>
 
 #include "engine/settings/setting_table.h"
@@ -16,6 +18,21 @@ int largest_cell_level(const MeshSettings& s) {
   int level = 0;
   while (level < kMaxLevel && block % (2 << level) == 0) ++level;
   return level;
+}
+
+double SizeRules::least() const {
+  double out = others.value_or(std::numeric_limits<double>::infinity());
+  for (const LabelSize& s : labels) out = std::min(out, s.edge);
+  for (const InterfaceSize& s : interfaces) out = std::min(out, s.edge);
+  return out;
+}
+
+std::optional<double> SizeRules::of_label(RawLabel label) const {
+  const auto listed =
+      std::lower_bound(labels.begin(), labels.end(), label,
+                       [](const LabelSize& s, RawLabel wanted) { return s.label < wanted; });
+  if (listed != labels.end() && listed->label == label) return listed->edge;
+  return others;
 }
 
 void check(const MeshSettings& settings) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kernels/core/error.h"
@@ -40,18 +41,47 @@ enum class Optimizer {
   kNone,
 };
 
-/// No edge of a tet of this label is longer.
+/// How long the edges of a label's tets should be.
 struct LabelSize {
   RawLabel label = 0;
-  double longest_edge = 0.0;  ///< physical units
+  double edge = 0.0;  ///< physical units
 
   friend bool operator==(const LabelSize&, const LabelSize&) = default;
 };
 
-/// Limits on the edges of some labels, and of what is around them (kernels/size/size_field.h).
+/// The same near the faces between two labels.
+struct InterfaceSize {
+  RawLabel low = 0;
+  RawLabel high = 0;
+  double edge = 0.0;  ///< physical units
+
+  friend bool operator==(const InterfaceSize&, const InterfaceSize&) = default;
+};
+
+/// Where edges have a size.  Most are 0.6 of it or longer; none is longer than kLongest of it.
+struct SizeRules {
+  static constexpr double kLongest = 1.25;
+
+  std::vector<LabelSize> labels;          ///< each label once, ascending
+  std::optional<double> others;           ///< of all labels that are not listed
+  std::vector<InterfaceSize> interfaces;  ///< each pair once, ascending; low < high
+  std::string image;                      ///< file with a size for each voxel; empty: none
+
+  [[nodiscard]] bool any() const {
+    return !labels.empty() || others.has_value() || !interfaces.empty() || !image.empty();
+  }
+  /// The least that is written here, infinity when there is only an image.
+  [[nodiscard]] double least() const;
+  /// Of a label; none: only what is around it limits its edges.
+  [[nodiscard]] std::optional<double> of_label(RawLabel label) const;
+
+  friend bool operator==(const SizeRules&, const SizeRules&) = default;
+};
+
+/// Limits on the edges of labels, and of what is around them (kernels/size/size_field.h).
 struct SizeSettings {
-  std::vector<LabelSize> labels;  ///< each label once, ascending; empty: no limits
-  double gradation = 0.5;         ///< by how much limits grow with the distance to such a label
+  SizeRules rules;
+  double gradation = 0.3;  ///< by how much limits grow with the distance to where they are asked
   /// Tets of these labels, of all when there are none, get an inner vertex where shapes allow it.
   bool inner_vertices = false;
 };

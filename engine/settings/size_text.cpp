@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Longest edges of labels from text and back.
+// Sizes of edges from text and back.
 #include "engine/settings/size_text.h"
 
 #include <algorithm>
@@ -17,6 +17,15 @@ namespace {
 constexpr std::uint64_t kMaxTableBytes = 64 << 20;
 constexpr const char* kAdvice = "write label,size in each line";
 
+bool has_ending(std::string_view part, std::initializer_list<const char*> endings) {
+  return std::any_of(endings.begin(), endings.end(),
+                     [&](const char* ending) { return part.ends_with(ending); });
+}
+
+bool names_table(std::string_view part) {
+  return part.starts_with('@') && !names_image(part);
+}
+
 std::vector<std::string_view> parts_of(std::string_view text) {
   std::vector<std::string_view> out;
   for (std::size_t begin = 0; begin <= text.size() && !text.empty();) {
@@ -27,13 +36,33 @@ std::vector<std::string_view> parts_of(std::string_view text) {
   return out;
 }
 
-LabelSize parse_label_size(std::string_view label, std::string_view size) {
-  const LabelSize out{parse_label(label), parse_number(size)};
-  if (out.longest_edge > 0.0) return out;
-  throw Error(ErrorKind::kUsage, io::text("a size must be positive, got '", size, "'"));
+double parse_size(std::string_view text) {
+  const double size = parse_number(text);
+  if (size > 0.0) return size;
+  throw Error(ErrorKind::kUsage, io::text("a size must be positive, got '", text, "'"));
 }
 
-std::vector<LabelSize> read_size_table(std::string_view file) {
+[[noreturn]] void fail_twice(std::string_view where) {
+  throw Error(ErrorKind::kUsage, io::text(where, " has two sizes"));
+}
+
+/// where: "7", "3|5" or "*".
+void add_rule(SizeRules& rules, std::string_view where, std::string_view size_text) {
+  const std::size_t bar = where.find('|');
+  if (where == "*") {
+    if (rules.others) fail_twice("*");
+    rules.others = parse_size(size_text);
+  } else if (bar == where.npos) {
+    rules.labels.push_back({parse_label(where), parse_size(size_text)});
+  } else {
+    const auto [low, high] =
+        std::minmax({parse_label(where.substr(0, bar)), parse_label(where.substr(bar + 1))});
+    if (low == high) fail_expected("two labels", where);
+    rules.interfaces.push_back({low, high, parse_size(size_text)});
+  }
+}
+
+SizeRules read_size_table(std::string_view file) {
   const std::unique_ptr<io::ByteSource> source = io::open_bytes(std::filesystem::path(file));
   if (const auto content = io::read_whole(*source, kMaxTableBytes)) {
     return parse_size_table(*content, file);
@@ -43,45 +72,63 @@ std::vector<LabelSize> read_size_table(std::string_view file) {
                  kAdvice);
 }
 
-/// ENSURES: ascending by label.
-void sort_sizes(std::vector<LabelSize>& sizes) {
-  std::sort(sizes.begin(), sizes.end(),
-            [](const LabelSize& a, const LabelSize& b) { return a.label < b.label; });
-  const auto twice =
-      std::adjacent_find(sizes.begin(), sizes.end(),
-                         [](const LabelSize& a, const LabelSize& b) { return a.label == b.label; });
-  if (twice == sizes.end()) return;
-  throw Error(ErrorKind::kUsage, io::text("label ", twice->label, " has two sizes"));
+/// ENSURES: ascending.  ERRORS: kUsage for what is there twice.
+void sort_rules(SizeRules& rules) {
+  const auto by_label = [](const LabelSize& s) { return s.label; };
+  const auto by_pair = [](const InterfaceSize& s) { return std::pair(s.low, s.high); };
+  std::ranges::sort(rules.labels, {}, by_label);
+  std::ranges::sort(rules.interfaces, {}, by_pair);
+  const auto label = std::ranges::adjacent_find(rules.labels, {}, by_label);
+  if (label != rules.labels.end()) fail_twice(io::text("label ", label->label));
+  const auto pair = std::ranges::adjacent_find(rules.interfaces, {}, by_pair);
+  if (pair != rules.interfaces.end()) fail_twice(io::text(pair->low, "|", pair->high));
+}
+
+/// Rules of a table to those beside it.
+void join(SizeRules& rules, const SizeRules& more) {
+  if (rules.others && more.others) fail_twice("*");
+  if (more.others) rules.others = more.others;
+  rules.labels.insert(rules.labels.end(), more.labels.begin(), more.labels.end());
+  rules.interfaces.insert(rules.interfaces.end(), more.interfaces.begin(), more.interfaces.end());
 }
 
 }  // namespace
 
-std::vector<LabelSize> parse_sizes(std::string_view text) {
-  std::vector<LabelSize> out;
+bool names_image(std::string_view part) {
+  return has_ending(part, {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".npy"});
+}
+
+SizeRules parse_sizes(std::string_view text) {
+  SizeRules out;
   for (const std::string_view part : parts_of(text)) {
-    if (part.starts_with('@')) {
-      const std::vector<LabelSize> listed = read_size_table(part.substr(1));
-      out.insert(out.end(), listed.begin(), listed.end());
-      continue;
+    const std::size_t equals = names_image(part) ? part.npos : part.find('=');
+    if (names_table(part)) {
+      join(out, read_size_table(part.substr(1)));
+    } else if (equals != part.npos) {
+      add_rule(out, part.substr(0, equals), part.substr(equals + 1));
+    } else if (names_image(part)) {
+      if (!out.image.empty()) throw Error(ErrorKind::kUsage, "sizes come from two images");
+      out.image = part.substr(part.starts_with('@') ? 1 : 0);
+    } else {
+      const bool is_number = part.find_first_not_of("0123456789.eE+-") == part.npos;
+      if (!is_number) fail_expected("H, LABEL=H, A|B=H or a file of sizes", part);
+      add_rule(out, "*", part);
     }
-    const std::size_t equals = part.find('=');
-    if (equals == part.npos) fail_expected("LABEL=H", part);
-    out.push_back(parse_label_size(part.substr(0, equals), part.substr(equals + 1)));
   }
-  sort_sizes(out);
+  sort_rules(out);
   return out;
 }
 
 std::vector<std::string> size_tables(std::string_view text) {
   std::vector<std::string> out;
   for (const std::string_view part : parts_of(text)) {
-    if (part.starts_with('@')) out.emplace_back(part.substr(1));
+    if (names_table(part)) out.emplace_back(part.substr(1));
   }
   return out;
 }
 
-std::vector<LabelSize> parse_size_table(std::string_view text, std::string_view file) {
-  std::vector<LabelSize> out;
+SizeRules parse_size_table(std::string_view text, std::string_view file) {
+  SizeRules out;
   io::CsvRecords records(text, ',', file);
   io::CsvRecord record;
   for (bool first = true; records.next(record); first = false) {
@@ -92,20 +139,24 @@ std::vector<LabelSize> parse_size_table(std::string_view text, std::string_view 
       io::fail_input(file, line, io::text("has ", fields.size(), " values"), kAdvice);
     }
     try {
-      out.push_back(parse_label_size(fields[0], fields[1]));
+      add_rule(out, fields[0], fields[1]);
     } catch (const Error& error) {
       io::fail_input(file, line, error.what(), kAdvice);
     }
   }
-  if (out.empty()) io::fail_input(file, {}, "has no sizes", kAdvice);
+  if (!out.any()) io::fail_input(file, {}, "has no sizes", kAdvice);
   return out;
 }
 
-std::string format_sizes(const std::vector<LabelSize>& sizes) {
+std::string format_sizes(const SizeRules& rules) {
   std::string out;
-  for (const LabelSize& s : sizes) {
-    out += io::text(out.empty() ? "" : ",", s.label, "=", s.longest_edge);
-  }
+  const auto add = [&out](const auto&... parts) {
+    out += io::text(out.empty() ? "" : ",", parts...);
+  };
+  for (const LabelSize& s : rules.labels) add(s.label, "=", s.edge);
+  for (const InterfaceSize& s : rules.interfaces) add(s.low, "|", s.high, "=", s.edge);
+  if (rules.others) add("*=", *rules.others);
+  if (!rules.image.empty()) add("@", rules.image);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kernels/distance/label_reach.h"
+#include "kernels/size/size_field.h"
 
 namespace mw::engine {
 namespace {
@@ -34,8 +35,6 @@ constexpr std::uint64_t kBytesPerLabel = 96;
 constexpr std::uint64_t kBytesPerBrick = 20;
 // Its faces, which every process has of the whole volume.
 constexpr std::uint64_t kBytesPerCountedBrick = 2;
-// Limits on edges in eight cubes, while they are found.
-constexpr std::uint64_t kBytesPerSizedBrick = 8 * 16;
 // A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
@@ -114,7 +113,8 @@ std::uint64_t prepared_label_bytes(Index3 shape, bool sized) {
 std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape, bool sized) {
   const auto held = static_cast<std::uint64_t>(share.original.voxels());
   const auto all = static_cast<std::uint64_t>(bricks_of(shape).original.voxels());
-  return kBytesPerBrick * held + (kBytesPerCountedBrick + (sized ? kBytesPerSizedBrick : 0)) * all;
+  return kBytesPerBrick * held + kBytesPerCountedBrick * all +
+         (sized ? SizeField::making_bytes(shape) : 0);
 }
 
 std::uint64_t preparation_bytes(const MeshSettings& settings) {

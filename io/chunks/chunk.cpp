@@ -8,6 +8,7 @@
 #include <cctype>
 
 #include "io/file/errors.h"
+#include "io/file/scratch/scratch_file.h"
 
 namespace mw::io {
 
@@ -49,6 +50,13 @@ std::vector<std::byte> read_rest(const ByteSource& source, std::uint64_t offset,
   std::vector<std::byte> bytes(count);
   source.read_at(offset, bytes);
   return bytes;
+}
+
+std::shared_ptr<const ByteSource> written_to_file(std::span<const std::byte> bytes,
+                                                  std::string name) {
+  ScratchFile file(scratch_folder());
+  file.append(bytes);
+  return std::make_shared<FileSource>(file.release(), bytes.size(), std::move(name));
 }
 
 std::optional<VoxelType> parse_store_type(std::string_view text) {

@@ -21,10 +21,19 @@ namespace mw::io {
 /// The voxels of a box as a store has them, unpacked.
 struct Chunk {
   std::vector<std::byte> bytes;
+  std::shared_ptr<const ByteSource> file;  ///< has the bytes instead, unless null
   /// Where the voxel box.lo of ChunkSource::load is, in voxels from the first byte.
   std::size_t first = 0;
   /// How many voxels further along x, y and z.
   Index3 strides;
+
+  [[nodiscard]] std::uint64_t size() const { return file ? file->size() : bytes.size(); }
+};
+
+/// Where the bytes of a chunk go.
+enum class ChunkPlace {
+  kMemory,
+  kFile,  ///< one without a name, where the codec can unpack to it piece by piece
 };
 
 /// Where the chunks of a volume come from.  Thread safety: const members may be called from many
@@ -36,15 +45,21 @@ class ChunkSource {
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual std::string name_of(Index3 chunk) const = 0;
 
-  /// Unpacks a chunk.  box: its voxels that are in the volume.
+  /// Unpacks a chunk.  box: its voxels that are in the volume.  place: kFile for what is too large
+  /// to be held; what cannot be streamed comes in memory nevertheless.
   /// ENSURES: empty when the store has none, so that its voxels are the fill value; otherwise every
   /// voxel of box is within bytes (whoever asks checks that again).
   /// ERRORS: mw::Error(kInput) naming the chunk when it is damaged; memory stays bounded by the
   /// size that the chunk must have, whatever its bytes claim.
-  [[nodiscard]] virtual std::optional<Chunk> load(Index3 chunk, const Box3& box) const = 0;
+  [[nodiscard]] virtual std::optional<Chunk> load(Index3 chunk, const Box3& box,
+                                                  ChunkPlace place) const = 0;
 
-  /// The most that load() takes in memory beside what it returns.
+  /// The most that load() takes in memory beside what it returns there.
   [[nodiscard]] virtual std::uint64_t scratch_bytes() const = 0;
+  /// The same with kFile; nothing where the bytes come in memory nevertheless.
+  [[nodiscard]] virtual std::optional<std::uint64_t> streaming_bytes() const {
+    return std::nullopt;
+  }
 };
 
 /// The most bytes that a chunk may unpack to, whatever a store says.
@@ -69,6 +84,11 @@ inline constexpr std::uint64_t kMaxChunkBytes = 2ULL << 30U;
 /// The bytes from offset on.  ERRORS: mw::Error(kInput) when they are more than `most`.
 [[nodiscard]] std::vector<std::byte> read_rest(const ByteSource& source, std::uint64_t offset,
                                                std::uint64_t max);
+
+/// The bytes as a file without a name in $TMPDIR or /tmp.
+/// ERRORS: mw::Error(kResource) when the disk is full.
+[[nodiscard]] std::shared_ptr<const ByteSource> written_to_file(std::span<const std::byte> bytes,
+                                                                std::string name);
 
 /// "uint8" .. "uint64", "int8" .. "int64", "float32", "float64", in small or capital letters.
 [[nodiscard]] std::optional<VoxelType> parse_store_type(std::string_view text);

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
+#include "io/file/source/inflated_source.h"
+#include "io/volume/raw_array.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/index.h"
 
@@ -14,6 +16,12 @@ namespace {
 
 /// What a chunk costs beside its voxels: two nodes and a slot.
 constexpr std::uint64_t kOverhead = 256;
+/// The most files that hold chunks at a time: descriptors are few.
+constexpr std::uint64_t kMaxFiles = 256;
+
+std::uint64_t cost_of(const Chunk& chunk, std::uint64_t max) {
+  return kOverhead + std::max(chunk.size(), chunk.file ? max / kMaxFiles : 0);
+}
 
 }  // namespace
 
@@ -59,7 +67,7 @@ void ChunkCache::account(std::uint64_t number, const std::shared_ptr<Slot>& slot
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(number);
   if (found == entries_.end() || found->second.slot != slot) return;
-  found->second.bytes = kOverhead + (slot->chunk ? slot->chunk->bytes.size() : 0);
+  found->second.bytes = slot->chunk ? cost_of(*slot->chunk, max_bytes_) : kOverhead;
   bytes_ += found->second.bytes;
   while (bytes_ > max_bytes_ && !ages_.empty()) {
     const auto oldest = entries_.find(ages_.back());
@@ -81,13 +89,31 @@ namespace {
 
 /// Whether the bytes hold every voxel that the strides lead to.
 bool holds(const Chunk& chunk, Index3 shape, VoxelType type) {
-  const std::size_t voxels = chunk.bytes.size() / static_cast<std::size_t>(byte_size(type));
+  const std::uint64_t voxels = chunk.size() / static_cast<std::uint64_t>(byte_size(type));
   if (chunk.strides.x < 0 || chunk.strides.y < 0 || chunk.strides.z < 0) return false;
   const auto last =
       static_cast<std::size_t>((shape.x - 1) * chunk.strides.x + (shape.y - 1) * chunk.strides.y +
                                (shape.z - 1) * chunk.strides.z);
   return chunk.first + last < voxels;
 }
+
+/// Chunks up to that are held, however little memory there is.
+constexpr std::uint64_t kMinFileBytes = 1 << 20;
+
+ChunkPlace place_of(std::uint64_t chunk, std::uint64_t cache) {
+  return chunk > std::max(cache / 8, kMinFileBytes) ? ChunkPlace::kFile : ChunkPlace::kMemory;
+}
+
+class Turn {
+ public:
+  explicit Turn(std::counting_semaphore<>& turns) : turns_(turns) { turns_.acquire(); }
+  ~Turn() { turns_.release(); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  std::counting_semaphore<>& turns_;
+};
 
 }  // namespace
 
@@ -98,7 +124,9 @@ ChunkedVolume::ChunkedVolume(VolumeInfo info, VoxelCoding coding, RawLabel fill,
       fill_(fill),
       source_(std::move(source)),
       cache_bytes_(cache_bytes),
-      cache_(cache_bytes) {
+      place_(place_of(chunk_bytes(), cache_bytes)),
+      cache_(place_ == ChunkPlace::kFile ? room_to_inflate() : cache_bytes),
+      unpacking_(static_cast<std::ptrdiff_t>(unpacked_at_once())) {
   MW_ASSERT(info_.chunk.x > 0 && info_.chunk.y > 0 && info_.chunk.z > 0);
 }
 
@@ -108,17 +136,45 @@ Box3 ChunkedVolume::box_of(Index3 chunk) const {
   return intersection({lo, lo + c}, {{0, 0, 0}, info_.shape});
 }
 
+/// Of the voxels of a whole chunk.
+std::uint64_t ChunkedVolume::chunk_bytes() const {
+  return static_cast<std::uint64_t>(info_.chunk.product()) *
+         static_cast<std::uint64_t>(byte_size(coding_.type));
+}
+
+/// What one that is unpacked takes in memory, all in all.
+std::uint64_t ChunkedVolume::unpacking_bytes() const {
+  if (place_ == ChunkPlace::kFile) {
+    if (const auto streaming = source_->streaming_bytes()) return *streaming;
+  }
+  return chunk_bytes() + source_->scratch_bytes();
+}
+
+/// As many as take no more than what is kept may take, but one.
+std::uint64_t ChunkedVolume::unpacked_at_once() const {
+  constexpr std::uint64_t kMost = 1024;
+  return std::clamp<std::uint64_t>(cache_bytes_ / unpacking_bytes(), 1, kMost);
+}
+
+std::optional<Chunk> ChunkedVolume::unpacked(Index3 chunk, const Box3& box) const {
+  const Turn turn(unpacking_);
+  std::optional<Chunk> loaded = source_->load(chunk, box, place_);
+  if (!loaded) return loaded;
+  if (!holds(*loaded, box.shape(), coding_.type)) {
+    fail_input(source_->name_of(chunk), {}, "the chunk is too short for its voxels",
+               "get a whole copy of the store");
+  }
+  if (place_ == ChunkPlace::kFile && !loaded->file) {
+    loaded->file = written_to_file(loaded->bytes, source_->name_of(chunk));
+    loaded->bytes = {};
+  }
+  return loaded;
+}
+
 ChunkCache::Loaded ChunkedVolume::load(Index3 chunk) const {
   const Box3 grid = cells_of({{0, 0, 0}, info_.shape}, info_.chunk);
-  return cache_.get(static_cast<std::uint64_t>(grid.offset(chunk)), [&] {
-    const Box3 box = box_of(chunk);
-    std::optional<Chunk> loaded = source_->load(chunk, box);
-    if (loaded && !holds(*loaded, box.shape(), coding_.type)) {
-      fail_input(source_->name_of(chunk), {}, "the chunk is too short for its voxels",
-                 "get a whole copy of the store");
-    }
-    return loaded;
-  });
+  return cache_.get(static_cast<std::uint64_t>(grid.offset(chunk)),
+                    [&] { return unpacked(chunk, box_of(chunk)); });
 }
 
 void ChunkedVolume::read(const Box3& box, std::span<RawLabel> out) const {
@@ -127,7 +183,17 @@ void ChunkedVolume::read(const Box3& box, std::span<RawLabel> out) const {
   for_each_index(cells_of(box, info_.chunk), [&](Index3 number) {
     const Box3 held = box_of(number);
     const Box3 part = intersection(held, box);
-    if (const ChunkCache::Loaded chunk = load(number)) return copy(*chunk, held, part, box, out);
+    const ChunkCache::Loaded chunk = load(number);
+    if (chunk && chunk->file) {
+      return read_array(*chunk->file,
+                        {.first = chunk->first,
+                         .strides = chunk->strides,
+                         .coding = coding_,
+                         .box = held,
+                         .name = source_->name()},
+                        part, {box, out});
+    }
+    if (chunk) return copy(*chunk, held, part, box, out);
     for (Index3 v = part.lo; v.z < part.hi.z; ++v.z) {
       for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
         std::fill_n(out.data() + box.offset({part.lo.x, v.y, v.z}), part.shape().x, fill_);
@@ -157,9 +223,14 @@ void ChunkedVolume::copy(const Chunk& chunk, const Box3& held, const Box3& part,
 }
 
 std::uint64_t ChunkedVolume::buffer_bytes(int threads) const {
-  const auto chunk = static_cast<std::uint64_t>(info_.chunk.product()) *
-                     static_cast<std::uint64_t>(byte_size(coding_.type));
-  return cache_bytes_ + static_cast<std::uint64_t>(threads) * (chunk + source_->scratch_bytes());
+  const auto readers = static_cast<std::uint64_t>(threads);
+  const std::uint64_t at_once = std::min(readers, unpacked_at_once());
+  if (place_ == ChunkPlace::kFile) return at_once * unpacking_bytes();
+  return cache_bytes_ + readers * chunk_bytes() + at_once * source_->scratch_bytes();
+}
+
+void ChunkedVolume::drop_buffers() const {
+  if (place_ == ChunkPlace::kMemory) cache_.clear();  // files take no memory
 }
 
 }  // namespace mw::io

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A volume in chunks, read by region: what all chunked stores end in. Unpacked chunks are kept for
-// a while, within a bound.
+// A volume in chunks, read by region: what all chunked stores end in.  Unpacked chunks are kept for
+// a while, within a bound, those that are large against it in files without names.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <semaphore>
 #include <unordered_map>
 
 #include "io/chunks/chunk.h"
@@ -23,6 +24,7 @@ class ChunkCache {
   /// An empty pointer in the result: the store has no such chunk.
   using Loaded = std::shared_ptr<const Chunk>;
 
+  /// max_bytes: of chunks in memory, or of those in files.
   explicit ChunkCache(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
   /// The chunk of that number, from load() unless it is still here.
@@ -59,17 +61,23 @@ class ChunkedVolume : public LabelVolume {
  public:
   /// REQUIRES: info.chunk positive on every axis; chunk c holds the voxels from c * info.chunk on.
   /// fill: the label of voxels whose chunk the store does not have.
-  /// cache_bytes: of unpacked chunks that are kept between reads.
+  /// cache_bytes: of unpacked chunks that are kept between reads.  Chunks above an eighth of it
+  /// (and 1 MiB) are kept in files without names in $TMPDIR or /tmp, as far as there is room, and
+  /// read from there by region: each is unpacked once.
   ChunkedVolume(VolumeInfo info, VoxelCoding coding, RawLabel fill,
                 std::unique_ptr<ChunkSource> source, std::uint64_t cache_bytes);
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   void read(const Box3& box, std::span<RawLabel> out) const override;
   [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override;
-  void drop_buffers() const override { cache_.clear(); }
+  void drop_buffers() const override;
 
  private:
   [[nodiscard]] Box3 box_of(Index3 chunk) const;
+  [[nodiscard]] std::uint64_t chunk_bytes() const;
+  [[nodiscard]] std::uint64_t unpacking_bytes() const;
+  [[nodiscard]] std::uint64_t unpacked_at_once() const;
+  [[nodiscard]] std::optional<Chunk> unpacked(Index3 chunk, const Box3& box) const;
   [[nodiscard]] ChunkCache::Loaded load(Index3 chunk) const;
   void copy(const Chunk& chunk, const Box3& held, const Box3& part, const Box3& box,
             std::span<RawLabel> out) const;
@@ -79,7 +87,9 @@ class ChunkedVolume : public LabelVolume {
   RawLabel fill_;
   std::unique_ptr<ChunkSource> source_;
   std::uint64_t cache_bytes_;
+  ChunkPlace place_;
   mutable ChunkCache cache_;
+  mutable std::counting_semaphore<> unpacking_;  ///< so many at once share the bound
 };
 
 }  // namespace mw::io

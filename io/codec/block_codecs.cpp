@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks what comes in blocks: LZ4 in its three framings, Blosc and LZF.
-#include "io/codec/block_codecs.h"
 
 #include <blosc.h>
 #include <lz4.h>
@@ -11,7 +10,8 @@
 #include <cstring>
 
 #include "io/codec/checksums.h"
-#include "io/codec/unpackers.h"
+#include "io/codec/codec.h"
+#include "io/codec/stream.h"
 #include "io/file/byte_order.h"
 
 namespace mw::io {
@@ -54,22 +54,8 @@ JavaBlock next_block(std::span<const std::byte> packed, const PackedName& name) 
           .is_stored = method == kStored};
 }
 
-void append_java_block(std::vector<std::byte>& out, const JavaBlock& block,
-                       const PackedName& name) {
-  const std::size_t first = out.size();
-  if (!block.is_stored) {
-    append_lz4_block(out, block.bytes, block.size, name);
-  } else if (block.bytes.size() == block.size) {
-    out.insert(out.end(), block.bytes.begin(), block.bytes.end());
-  } else {
-    fail_packed(name, "damaged: a stored block has two sizes");
-  }
-  const std::uint32_t sum = xxhash32(std::span(out).subspan(first), kSeed) & kChecksumBits;
-  if (sum != block.checksum) fail_packed(name, "damaged: the checksum of a block is wrong");
-}
-
-}  // namespace
-
+/// Appends the `size` bytes of one bare block to out.  Nothing is allocated before the claim is
+/// possible.  ERRORS: mw::Error(kInput) for damage and another size.
 void append_lz4_block(std::vector<std::byte>& out, std::span<const std::byte> block,
                       std::size_t size, const PackedName& name) {
   if (size / kMaxRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
@@ -85,6 +71,22 @@ void append_lz4_block(std::vector<std::byte>& out, std::span<const std::byte> bl
     fail_packed(name, "damaged or truncated");
   }
 }
+
+void append_java_block(std::vector<std::byte>& out, const JavaBlock& block,
+                       const PackedName& name) {
+  const std::size_t first = out.size();
+  if (!block.is_stored) {
+    append_lz4_block(out, block.bytes, block.size, name);
+  } else if (block.bytes.size() == block.size) {
+    out.insert(out.end(), block.bytes.begin(), block.bytes.end());
+  } else {
+    fail_packed(name, "damaged: a stored block has two sizes");
+  }
+  const std::uint32_t sum = xxhash32(std::span(out).subspan(first), kSeed) & kChecksumBits;
+  if (sum != block.checksum) fail_packed(name, "damaged: the checksum of a block is wrong");
+}
+
+}  // namespace
 
 std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t max,
                                   std::string_view name) {

@@ -3,6 +3,8 @@
 // CRC-32C, XXH32 and Fletcher's checksum.
 #include "io/codec/checksums.h"
 
+#include <zlib.h>
+
 #include <array>
 #include <bit>
 
@@ -29,8 +31,8 @@ constexpr std::array<std::uint32_t, 256> kTable = table();
 
 }  // namespace
 
-std::uint32_t crc32c(std::span<const std::byte> bytes) {
-  std::uint32_t rest = 0xffffffff;
+std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t before) {
+  std::uint32_t rest = ~before;
   for (const std::byte byte : bytes) {
     rest = (rest >> 8U) ^ kTable[(rest ^ std::to_integer<std::uint32_t>(byte)) & 0xffU];
   }
@@ -96,6 +98,11 @@ std::uint32_t fletcher32(std::span<const std::byte> bytes) {
     sums = folded(sums + sum);
   }
   return (folded(sums) << 16U) | folded(sum);
+}
+
+std::uint32_t checksum(std::span<const std::byte> bytes) {
+  const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
+  return static_cast<std::uint32_t>(crc32_z(0, data, bytes.size()));
 }
 
 }  // namespace mw::io

@@ -4,7 +4,6 @@
 #include "io/codec/codec.h"
 
 #include "io/codec/stream.h"
-#include "io/codec/unpackers.h"
 
 namespace mw::io {
 
@@ -63,6 +62,36 @@ std::uint64_t max_scratch(Codec codec, std::size_t max) {
   if (codec == Codec::kBzip2) return 4 * kMiB;
   if (codec == Codec::kXz) return kMaxXzBytes;
   return kMiB;
+}
+
+std::optional<std::uint64_t> max_streamed(Codec codec) {
+  constexpr std::uint64_t kPieces = 4 << 20;
+  switch (codec) {
+    case Codec::kNone:
+    case Codec::kGzip:
+    case Codec::kZlib:
+      return kPieces;
+    case Codec::kBzip2:
+      return kPieces + max_scratch(codec, 0);
+    case Codec::kZstd:
+      return kPieces + kMaxZstdWindow;
+    case Codec::kXz:
+      return kPieces + kMaxXzBytes;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::shared_ptr<const ByteSource> unpack_to_file(Codec codec,
+                                                 std::shared_ptr<const ByteSource> packed,
+                                                 std::uint64_t max) {
+  const PackedName named{name(codec), packed->name()};
+  if (codec == Codec::kNone) {
+    if (packed->size() > max) fail_too_much(named, max);
+    return packed;
+  }
+  const std::unique_ptr<StreamDecoder> decoder = stream_decoder(codec, named);
+  return unpack_streams(*decoder, *packed, max, named);
 }
 
 }  // namespace mw::io

@@ -5,9 +5,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "io/file/source/byte_source.h"
 
 namespace mw::io {
 
@@ -54,5 +58,12 @@ inline constexpr std::size_t kMaxStreamStep = std::size_t{1} << 30U;
 [[nodiscard]] std::vector<std::byte> unpack_streams(StreamDecoder& decoder,
                                                     std::span<const std::byte> packed,
                                                     std::size_t max, const PackedName& name);
+
+/// The same from a source to an unlinked file in $TMPDIR or /tmp.  Memory: 3 MiB.
+/// ERRORS: also mw::Error(kResource) when the disk is full.
+[[nodiscard]] std::shared_ptr<const ByteSource> unpack_streams(StreamDecoder& decoder,
+                                                               const ByteSource& packed,
+                                                               std::uint64_t max,
+                                                               const PackedName& name);
 
 }  // namespace mw::io

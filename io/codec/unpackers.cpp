@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks what libraries take piece by piece: gzip, zlib, bzip2, xz and Zstandard.
-#include "io/codec/unpackers.h"
+#include "io/codec/codec.h"
 
 #include <bzlib.h>
 #include <lzma.h>
@@ -10,6 +10,7 @@
 #include <zstd_errors.h>
 
 #include <algorithm>
+#include <bit>
 #include <memory>
 
 #include "io/codec/stream.h"
@@ -202,6 +203,62 @@ std::vector<std::byte> unpack_zstd(std::span<const std::byte> packed, std::size_
   }
   out.resize(count);
   return out;
+}
+
+namespace {
+
+class ZstdDecoder : public StreamDecoder {
+ public:
+  explicit ZstdDecoder(const PackedName& name) : name_(name), context_(ZSTD_createDCtx()) {
+    constexpr int kWindowBits = std::countr_zero(kMaxZstdWindow);
+    if (!context_) fail_no_memory(name);
+    ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kWindowBits);
+  }
+
+  [[nodiscard]] Step step(std::span<const std::byte> packed, std::span<std::byte> out) override {
+    ZSTD_inBuffer from{packed.data(), packed.size(), 0};
+    ZSTD_outBuffer to{out.data(), out.size(), 0};
+    const std::size_t verdict = ZSTD_decompressStream(context_.get(), &to, &from);
+    const bool failed = ZSTD_isError(verdict) != 0;
+    if (failed) refuse_large(ZSTD_getErrorCode(verdict));
+    return {.taken = from.pos,
+            .given = to.pos,
+            .ended = verdict == 0,
+            .wrong = failed ? ZSTD_getErrorName(verdict) : nullptr};
+  }
+  void restart() override {}  // the library does by itself
+
+ private:
+  void refuse_large(ZSTD_ErrorCode code) const {
+    if (code == ZSTD_error_memory_allocation) fail_no_memory(name_);
+    if (code != ZSTD_error_frameParameter_windowTooLarge) return;
+    throw Error(ErrorKind::kResource,
+                text(name_.file, ": zstd: looks back more than ", kMaxZstdWindow,
+                     " bytes, too far for a chunk of this size; give more --memory, or pack it at "
+                     "level 19 or below"));
+  }
+
+  PackedName name_;
+  std::unique_ptr<ZSTD_DCtx, FreeContext> context_;
+};
+
+}  // namespace
+
+std::unique_ptr<StreamDecoder> stream_decoder(Codec codec, const PackedName& name) {
+  switch (codec) {
+    case Codec::kGzip:
+      return std::make_unique<Inflater>(kGzip, name);
+    case Codec::kZlib:
+      return std::make_unique<Inflater>(kZlib, name);
+    case Codec::kBzip2:
+      return std::make_unique<Bunzipper>(name);
+    case Codec::kXz:
+      return std::make_unique<XzDecoder>(name);
+    case Codec::kZstd:
+      return std::make_unique<ZstdDecoder>(name);
+    default:
+      return nullptr;
+  }
 }
 
 }  // namespace mw::io

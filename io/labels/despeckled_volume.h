@@ -4,7 +4,7 @@
 #pragma once
 
 #include "io/labels/specks.h"
-#include "io/volume/volume_view.h"
+#include "io/volume/label_volume.h"
 
 namespace mw::io {
 

@@ -3,7 +3,7 @@
 // A volume of thick slices, seen as thin ones.
 #pragma once
 
-#include "io/volume/volume_view.h"
+#include "io/volume/label_volume.h"
 
 namespace mw::io {
 

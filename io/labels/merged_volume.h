@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/labels/label_table.h"
-#include "io/volume/volume_view.h"
+#include "io/volume/label_volume.h"
 
 namespace mw::io {
 

@@ -27,22 +27,17 @@ inline constexpr std::uint64_t kMaxNamesBytes = 64 << 20;
 
 /// The volume with these names added to its own; where both name a label, these win.
 /// Thread safety: as the volume below.
-class NamedVolume : public LabelVolume {
+class NamedVolume : public VolumeView {
  public:
   NamedVolume(std::shared_ptr<const LabelVolume> volume, const LabelNames& names)
-      : volume_(std::move(volume)), info_(volume_->info()) {
+      : VolumeView(std::move(volume)), info_(below().info()) {
     info_.names = info_.names.merged_with(names);
   }
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
-  void read(const Box3& box, std::span<RawLabel> out) const override { volume_->read(box, out); }
-  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override {
-    return volume_->buffer_bytes(threads);
-  }
-  void drop_buffers() const override { volume_->drop_buffers(); }
+  void read(const Box3& box, std::span<RawLabel> out) const override { below().read(box, out); }
 
  private:
-  std::shared_ptr<const LabelVolume> volume_;
   VolumeInfo info_;
 };
 

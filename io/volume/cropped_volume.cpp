@@ -23,13 +23,13 @@ void check_crop(std::string_view file, const Box3& crop, Index3 shape) {
 
 CroppedVolume::CroppedVolume(std::unique_ptr<LabelVolume> volume, const Box3& box,
                              bool moves_origin)
-    : volume_(std::move(volume)), first_(box.lo), info_(volume_->info()) {
+    : VolumeView(std::move(volume)), first_(box.lo), info_(below().info()) {
   info_.shape = box.shape();
   if (moves_origin) info_.space = moved_to(info_.space, box.lo);
 }
 
 void CroppedVolume::read(const Box3& box, std::span<RawLabel> out) const {
-  volume_->read({box.lo + first_, box.hi + first_}, out);
+  below().read({box.lo + first_, box.hi + first_}, out);
 }
 
 std::unique_ptr<LabelVolume> cropped(std::unique_ptr<LabelVolume> volume, std::string_view file,

@@ -12,7 +12,7 @@ namespace mw::io {
 
 /// Thread safety: as the volume below.  Chunks keep their size; where the box does not begin at
 /// one they are no longer aligned, which costs time only.
-class CroppedVolume : public LabelVolume {
+class CroppedVolume : public VolumeView {
  public:
   /// moves_origin: the origin is the first corner of the whole volume, not yet of the box.
   /// REQUIRES: box not empty and inside the volume.
@@ -20,13 +20,8 @@ class CroppedVolume : public LabelVolume {
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   void read(const Box3& box, std::span<RawLabel> out) const override;
-  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override {
-    return volume_->buffer_bytes(threads);
-  }
-  void drop_buffers() const override { volume_->drop_buffers(); }
 
  private:
-  std::unique_ptr<LabelVolume> volume_;
   Index3 first_;
   VolumeInfo info_;
 };

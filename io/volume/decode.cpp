@@ -153,6 +153,16 @@ std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t
   });
 }
 
+void decode_numbers(const std::byte* bytes, std::size_t count, const VoxelCoding& coding,
+                    double* out, std::size_t stride) {
+  with_type(coding.type, [&]<class T>(T) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto value = static_cast<double>(load<T>(bytes + i * sizeof(T), coding.order));
+      out[i * stride] = coding.scaling.slope * value + coding.scaling.intercept;
+    }
+  });
+}
+
 std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding) {
   const double value = with_type(
       coding.type, [&]<class T>(T) { return static_cast<double>(load<T>(bytes, coding.order)); });

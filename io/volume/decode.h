@@ -45,6 +45,10 @@ struct VoxelCoding {
                                         const VoxelCoding& coding, RawLabel* out,
                                         std::size_t stride);
 
+/// The same as what they are, and every number is good.
+void decode_numbers(const std::byte* bytes, std::size_t count, const VoxelCoding& coding,
+                    double* out, std::size_t stride);
+
 /// Why the voxel at `bytes` is no label: "value 1.5 is not a whole number".
 [[nodiscard]] std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding);
 

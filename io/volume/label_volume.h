@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "io/names/label_names.h"
 #include "io/volume/volume_space.h"
@@ -34,6 +36,7 @@ struct VolumeInfo {
   /// axis of 0: any.
   Index3 chunk{0, 0, 0};
   LabelNames names;  ///< what the file calls labels
+  std::string note;  ///< what was taken for what the file leaves open, for people; mostly empty
 };
 
 /// Whether labels of the volume are signed numbers.
@@ -57,6 +60,28 @@ class LabelVolume {
   [[nodiscard]] virtual std::uint64_t buffer_bytes(int /*threads*/) const { return 0; }
   /// Gives up what it holds between reads.
   virtual void drop_buffers() const {}
+};
+
+/// Everything as the volume below has it; read() is the heir's.
+class VolumeView : public LabelVolume {
+ public:
+  /// The volume must outlive it.
+  explicit VolumeView(const LabelVolume& volume) : volume_(&volume) {}
+  explicit VolumeView(std::shared_ptr<const LabelVolume> volume)
+      : owned_(std::move(volume)), volume_(owned_.get()) {}
+
+  [[nodiscard]] const VolumeInfo& info() const override { return volume_->info(); }
+  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override {
+    return volume_->buffer_bytes(threads);
+  }
+  void drop_buffers() const override { volume_->drop_buffers(); }
+
+ protected:
+  [[nodiscard]] const LabelVolume& below() const { return *volume_; }
+
+ private:
+  std::shared_ptr<const LabelVolume> owned_;
+  const LabelVolume* volume_;
 };
 
 }  // namespace mw::io

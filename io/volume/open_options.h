@@ -35,8 +35,10 @@ struct OpenOptions {
   FrameChoice frame = FrameChoice::kFile;
   /// The array within a file or store that may hold several; empty: found by convention.
   std::string dataset;
-  std::optional<int> scale;                  ///< resolution level, 0 the finest; empty: the finest
-  std::optional<Box3> crop;                  ///< part of the volume, voxels
+  std::optional<int> scale;  ///< resolution level, 0 the finest; empty: the finest
+  std::optional<Box3> crop;  ///< part of the volume, voxels
+  /// Whether files that headers and metadata name may be anywhere, not only in their folder.
+  bool trust_paths = false;
   std::uint64_t cache_bytes = 64ULL << 20U;  ///< of decoded chunks that a chunked volume may keep
 };
 

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
 
 #include "io/file/errors.h"
 #include "io/file/source/file_source.h"
@@ -13,16 +16,14 @@
 #include "io/volume/checks.h"
 #include "io/volume/cropped_volume.h"
 #include "io/volume/hdf5/open_hdf5.h"
-#include "io/volume/metaimage/metaimage_header.h"
 #include "io/volume/metaimage/open_metaimage.h"
 #include "io/volume/n5/open_n5.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/open_npy.h"
-#include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/nrrd/open_nrrd.h"
 #include "io/volume/png/open_png.h"
 #include "io/volume/precomputed/open_precomputed.h"
-#include "io/volume/raw/open_raw.h"
+#include "io/volume/raw_array.h"
 #include "io/volume/slices/slice_folder.h"
 #include "io/volume/tiff/open_tiff.h"
 #include "io/volume/zarr/open_zarr.h"
@@ -100,12 +101,26 @@ bool has_ending(const VolumeFormat& format, const std::string& ending) {
   return text(format.endings, " ").find(ending + " ") != std::string::npos;
 }
 
+bool is_dicom(std::span<const std::byte> head, const std::filesystem::path& path) {
+  constexpr std::size_t kAt = 128;
+  constexpr std::string_view kMagic = "DICM";
+  return (head.size() >= kAt + kMagic.size() &&
+          std::memcmp(head.data() + kAt, kMagic.data(), kMagic.size()) == 0) ||
+         path.extension() == ".dcm" || path.extension() == ".DCM";
+}
+
+[[noreturn]] void fail_dicom(const std::filesystem::path& path) {
+  fail_input(path.string(), "format", "DICOM is not read here",
+             "convert it with dcm2niix, or export a NIfTI or NRRD file from 3D Slicer");
+}
+
 /// By content, else by extension, so that the right reader explains what is wrong.
 const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::path path) {
   for (const VolumeFormat& format : kFormats) {
     if (format.is_file != nullptr && format.is_file(head)) return format;
   }
   const std::string file = path.string();
+  if (is_dicom(head, path)) fail_dicom(path);
   if (path.extension() == ".gz") path = path.stem();
   for (const VolumeFormat& format : kFormats) {
     if (has_ending(format, path.extension().string())) return format;
@@ -116,10 +131,25 @@ const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::
                   volume_folders()));
 }
 
+/// Whether one of the first files of the folder is.
+bool holds_dicom(const std::filesystem::path& folder) {
+  int left = 8;
+  std::error_code failed;
+  for (std::filesystem::directory_iterator at(folder, failed), end; !failed && at != end;
+       at.increment(failed)) {
+    std::error_code ignored;
+    if (!at->is_regular_file(ignored)) continue;
+    if (is_dicom(read_prefix(FileSource(at->path()), kNiftiHeaderBytes), at->path())) return true;
+    if (--left == 0) return false;
+  }
+  return false;
+}
+
 const VolumeFormat& format_of_folder(const std::filesystem::path& folder) {
   for (const VolumeFormat& format : kFormats) {
     if (format.is_folder != nullptr && format.is_folder(folder)) return format;
   }
+  if (holds_dicom(folder)) fail_dicom(folder);
   fail_input(folder.string(), "format", "the folder is no volume that is known here",
              "give a file in it");
 }

@@ -4,8 +4,13 @@
 #include "io/volume/raw_array.h"
 
 #include <algorithm>
+#include <array>
 
+#include "io/file/source/file_source.h"
+#include "io/file/source/inflated_source.h"
+#include "io/volume/checks.h"
 #include "io/volume/decode.h"
+#include "io/volume/file_space.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -15,54 +20,65 @@ constexpr std::uint64_t kChunkBytes = 1 << 20;
 /// Reading this much for nothing costs about as much as one more system call.
 constexpr std::uint64_t kMaxGapBytes = 4096;
 
-/// The rows (runs along the fastest axis) of a box, in file order.
+using Axes = std::array<std::int64_t, 3>;
+
+Axes axes_of(Index3 v) {
+  return {v.x, v.y, v.z};
+}
+
+/// The rows (runs along the fastest axis) of a part, in file order.
 class Rows {
  public:
-  Rows(const VolumeInfo& info, const ArrayLayout& position, const Box3& box)
-      : info_(info),
-        offset_(position.offset),
-        size_(static_cast<std::uint64_t>(byte_size(info.type))),
-        box_(box) {
-    const Index3 shape = box.shape();
-    length_ = static_cast<std::size_t>(info.z_fastest ? shape.z : shape.x);
-    count_ = info.z_fastest ? shape.x * shape.y : shape.y * shape.z;
-    stride_ = info.z_fastest ? static_cast<std::size_t>(shape.x * shape.y) : 1;
+  Rows(const StoredArray& array, const Box3& part, const Box3& box)
+      : array_(array),
+        part_(part),
+        box_(box),
+        strides_(axes_of(array.strides)),
+        extents_(axes_of(part.shape())),
+        size_(static_cast<std::uint64_t>(byte_size(array.coding.type))) {
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](std::size_t a, std::size_t b) { return strides_[a] < strides_[b]; });
+    // An axis of one voxel makes no rows, whatever its stride.
+    const Axes all = axes_of(array.box.shape());
+    std::stable_partition(order_.begin(), order_.end(),
+                          [&](std::size_t axis) { return all[axis] > 1; });
   }
 
-  [[nodiscard]] std::int64_t count() const { return count_; }
-  [[nodiscard]] std::size_t length() const { return length_; }
-  [[nodiscard]] std::uint64_t bytes() const { return length_ * size_; }
-  /// Distance in the output between voxels that are neighbours in a row.
-  [[nodiscard]] std::size_t out_stride() const { return stride_; }
+  [[nodiscard]] std::int64_t count() const { return extents_[order_[1]] * extents_[order_[2]]; }
+  [[nodiscard]] std::size_t length() const { return static_cast<std::size_t>(extents_[order_[0]]); }
+  /// From a voxel of a row to the next, in voxels of the file and of the output.
+  [[nodiscard]] std::size_t step() const { return static_cast<std::size_t>(strides_[order_[0]]); }
+  [[nodiscard]] std::size_t out_stride() const {
+    const Index3 n = box_.shape();
+    return static_cast<std::size_t>(Axes{1, n.x, n.x * n.y}[order_[0]]);
+  }
+  [[nodiscard]] std::uint64_t bytes() const { return ((length() - 1) * step() + 1) * size_; }
 
   [[nodiscard]] std::uint64_t file_offset(std::int64_t row) const {
-    const Index3 v = first_voxel(row);
-    const Index3 n = info_.shape;
-    const std::int64_t index =
-        info_.z_fastest ? (v.x * n.y + v.y) * n.z + v.z : (v.z * n.y + v.y) * n.x + v.x;
-    return offset_ + static_cast<std::uint64_t>(index) * size_;
+    const Axes inside = axes_of(voxel(row, 0) - array_.box.lo);
+    auto at = static_cast<std::int64_t>(array_.first);
+    for (std::size_t axis = 0; axis < 3; ++axis) at += inside[axis] * strides_[axis];
+    return array_.offset + static_cast<std::uint64_t>(at) * size_;
   }
   [[nodiscard]] std::size_t out_offset(std::int64_t row) const {
-    return static_cast<std::size_t>(box_.offset(first_voxel(row)));
+    return static_cast<std::size_t>(box_.offset(voxel(row, 0)));
   }
   [[nodiscard]] Index3 voxel(std::int64_t row, std::int64_t along) const {
-    return first_voxel(row) + (info_.z_fastest ? Index3{0, 0, along} : Index3{along, 0, 0});
+    Axes v = axes_of(part_.lo);
+    v[order_[0]] += along;
+    v[order_[1]] += row % extents_[order_[1]];
+    v[order_[2]] += row / extents_[order_[1]];
+    return {v[0], v[1], v[2]};
   }
 
  private:
-  [[nodiscard]] Index3 first_voxel(std::int64_t row) const {
-    const std::int64_t middle = row % box_.shape().y;
-    const std::int64_t slow = row / box_.shape().y;
-    return info_.z_fastest ? box_.lo + Index3{slow, middle, 0} : box_.lo + Index3{0, middle, slow};
-  }
-
-  const VolumeInfo& info_;
-  std::uint64_t offset_;
-  std::uint64_t size_;
+  const StoredArray& array_;
+  Box3 part_;
   Box3 box_;
-  std::size_t length_;
-  std::int64_t count_;
-  std::size_t stride_;
+  Axes strides_;
+  Axes extents_;
+  std::uint64_t size_;
+  std::array<std::size_t, 3> order_{0, 1, 2};  ///< axes, the fastest of the file first
 };
 
 /// One past the last row that is worth reading together with `first`.
@@ -78,28 +94,89 @@ std::int64_t group_end(const Rows& rows, std::int64_t first) {
   return row;
 }
 
-}  // namespace
-
-void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
-  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
-  const Rows rows(info_, position_, box);
-  const VoxelCoding coding{info_.type, position_.order, position_.scaling};
+/// Calls use(row, bytes) for each row.
+template <typename Use>
+void read_rows(const ByteSource& source, const Rows& rows, Use use) {
   std::vector<std::byte> scratch;
   for (std::int64_t first = 0; first < rows.count();) {
     const std::int64_t last = group_end(rows, first);
     const std::uint64_t start = rows.file_offset(first);
     scratch.resize(rows.file_offset(last - 1) + rows.bytes() - start);
-    source_->read_at(start, scratch);
+    source.read_at(start, scratch);
     for (std::int64_t row = first; row < last; ++row) {
-      const std::byte* bytes = scratch.data() + (rows.file_offset(row) - start);
-      const std::size_t good = decode_voxels(bytes, rows.length(), 1, coding,
-                                             out.data() + rows.out_offset(row), rows.out_stride());
-      if (good == rows.length()) continue;
-      fail_voxel(source_->name(), rows.voxel(row, static_cast<std::int64_t>(good)),
-                 bytes + good * static_cast<std::size_t>(byte_size(info_.type)), coding);
+      use(row, scratch.data() + (rows.file_offset(row) - start));
     }
     first = last;
   }
+}
+
+}  // namespace
+
+void read_array(const ByteSource& source, const StoredArray& array, const Box3& part,
+                const ReadBox& to) {
+  if (part.voxels() == 0) return;
+  const Rows rows(array, part, to.box);
+  const std::size_t length = rows.length(), step = rows.step();
+  const auto size = static_cast<std::size_t>(byte_size(array.coding.type));
+  read_rows(source, rows, [&](std::int64_t row, const std::byte* bytes) {
+    const std::size_t good =
+        decode_voxels(bytes, length, step, array.coding, to.labels.data() + rows.out_offset(row),
+                      rows.out_stride());
+    if (good == length) return;
+    fail_voxel(array.name, rows.voxel(row, static_cast<std::int64_t>(good)),
+               bytes + good * step * size, array.coding);
+  });
+}
+
+StoredArray RawArrayVolume::stored() const {
+  const Index3 n = info_.shape;
+  return {.strides = info_.z_fastest ? Index3{n.y * n.z, n.z, 1} : Index3{1, n.x, n.x * n.y},
+          .coding = {info_.type, position_.order, position_.scaling},
+          .box = {{0, 0, 0}, n},
+          .name = source_->name(),
+          .offset = position_.offset};
+}
+
+void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
+  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+  read_array(*source_, stored(), box, {box, out});
+}
+
+void RawArrayVolume::read_numbers(const Box3& box, std::span<double> out) const {
+  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+  if (box.voxels() == 0) return;
+  const StoredArray array = stored();
+  const Rows rows(array, box, box);
+  read_rows(*source_, rows, [&](std::int64_t row, const std::byte* bytes) {
+    decode_numbers(bytes, rows.length(), array.coding, out.data() + rows.out_offset(row),
+                   rows.out_stride());
+  });
+}
+
+namespace {
+
+VolumeInfo info_of(const RawLayout& layout, std::string_view file) {
+  const auto [x, y, z] = layout.shape;
+  return {.shape = checked_shape(file, "shape", {x, y, z}), .type = layout.type, .format = "raw"};
+}
+
+}  // namespace
+
+std::unique_ptr<ByteSource> open_raw_bytes(const std::filesystem::path& path,
+                                           const RawLayout& layout) {
+  auto plain = std::make_unique<FileSource>(path);
+  if (plain->size() == payload_bytes(info_of(layout, plain->name()))) return plain;
+  return open_bytes(path);
+}
+
+std::unique_ptr<LabelVolume> open_raw(std::unique_ptr<ByteSource> source,
+                                      const OpenOptions& options) {
+  const RawLayout& layout = *options.raw;
+  VolumeInfo info = info_of(layout, source->name());
+  info.space = placed(source->name(), {}, options);
+  check_payload(*source, info, 0, BytesBehind::kRefused);
+  return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
+                                          ArrayLayout{.offset = 0, .order = layout.order});
 }
 
 }  // namespace mw::io

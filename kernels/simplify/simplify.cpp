@@ -192,6 +192,7 @@ class Simplifier {
 
   bool try_contraction(Contraction c) {
     ++stats_.tried;
+    if (options_.only_short && !limits_.is_short(c.keep, c.drop)) return false;
     if (!inner_.allows_contraction(c.keep, c.drop)) {
       ++stats_.no_inner;
       return false;
@@ -261,7 +262,14 @@ SimplifyStats& SimplifyStats::operator+=(const SimplifyStats& other) {
 
 SimplifyStats simplify(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
                        DistanceGuard* guard) {
-  return Simplifier(mesh, metric, options, guard).run();
+  SimplifyStats stats = Simplifier(mesh, metric, options, guard).run();
+  const bool sized = options.demands.sizes != nullptr && options.enough_vertices == 0;
+  if (!sized || options.inner_quality <= options.quality_floor) return stats;
+  SimplifyOptions rest = options;
+  rest.inner_quality = options.quality_floor;
+  rest.only_short = true;
+  stats += Simplifier(mesh, metric, rest, guard).run();
+  return stats;
 }
 
 }  // namespace mw

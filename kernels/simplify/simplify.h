@@ -27,6 +27,7 @@ struct SimplifyOptions {
   KeptTopology topology = KeptTopology::kLabels;
   bool keep_smooth = false;  ///< contractions that fold interfaces are refused (BendFilter)
   TetDemands demands;        ///< not met yet, they may stay so; what is met is kept
+  bool only_short = false;  ///< only edges that are shorter than sizes ask (EdgeLimits::is_short())
   /// Contraction ends when no more than this many vertices, fixed ones included, are left.
   std::size_t enough_vertices = 0;
   /// Runs the loop over all vertices that fills the queue (4 to 5 % of the time, bench).  The
@@ -51,7 +52,8 @@ struct SimplifyStats {
 
 /// Contracts edges with both ends free until none that passes the filters costs less than the last
 /// bound of VertexQueue.  Where shapes refuse the optimum, other_positions() are tried; not with
-/// options.edge_variance, the paper's filter, which goes with the paper's place.
+/// options.edge_variance, the paper's filter, which goes with the paper's place.  Where sizes are
+/// asked, edges that are much shorter may then go at quality_floor, those of inner vertices too.
 /// guard: keeps the distance bound; null: no bound.
 /// ENSURES: all tets strictly positive (exactly), options.topology kept, box kept, fixed vertices
 ///          untouched; the result depends on the mesh's content only.

@@ -28,6 +28,10 @@ class EdgeLimits {
     return sizes_ == nullptr || tet_keeps(tet);
   }
 
+  /// Is an edge so short that a longer one is asked there?  False where the size is not asked of
+  /// the place itself, but comes from places around.  REQUIRES: any(); both alive.
+  [[nodiscard]] bool is_short(LocalVertex v, LocalVertex w) const;
+
  private:
   [[nodiscard]] bool star_keeps(LocalVertex v, LocalVertex without, Point x) const;
   [[nodiscard]] bool tet_keeps(const LocalTet& tet) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -92,8 +93,8 @@ float rounded_down(double value) {
   return static_cast<double>(near) > value ? std::nextafter(near, 0.0F) : near;
 }
 
-Index3 cubes_of(Index3 volume) {
-  const auto along = [](std::int64_t n) { return (n + SizeField::kCube - 1) / SizeField::kCube; };
+Index3 cubes_of(Index3 volume, std::int64_t edge) {
+  const auto along = [edge](std::int64_t n) { return (n + edge - 1) / edge; };
   return {along(volume.x), along(volume.y), along(volume.z)};
 }
 
@@ -116,13 +117,27 @@ void spread_squared_gaps(Index3 cubes, const Vec3& edges, std::span<float> squar
   }
 }
 
+std::int64_t SizeField::cube_voxels(Index3 volume) {
+  constexpr std::int64_t kLargest = 8, kMaxCubes = 1 << 21;
+  std::int64_t edge = 1;
+  while (edge < kLargest && cubes_of(volume, edge).product() > kMaxCubes) edge *= 2;
+  return edge;
+}
+
+std::uint64_t SizeField::making_bytes(Index3 volume) {
+  return 16 * static_cast<std::uint64_t>(cubes_of(volume, cube_voxels(volume)).product());
+}
+
 SizeField::SizeField(Index3 volume, const Metric& metric, std::vector<double> label_limits,
-                     double gradation)
-    : cubes_(cubes_of(volume)),
-      cube_edges_(metric.voxel() * kCube),
+                     double gradation, bool by_voxel)
+    : cube_(cube_voxels(volume)),
+      cube_shift_(std::countr_zero(static_cast<std::uint64_t>(cube_ * kUnitsPerVoxel))),
+      cubes_(cubes_of(volume, cube_)),
+      cube_edges_(metric.voxel() * static_cast<double>(cube_)),
       voxel_diagonal_(metric.voxel().norm()),
       label_limits_(std::move(label_limits)),
       gradation_(gradation),
+      by_voxel_(by_voxel),
       values_(static_cast<std::size_t>(cubes_.product()), kUnlimited) {}
 
 void SizeField::add(const Box3& box, std::span<const Label> voxels) {
@@ -130,9 +145,22 @@ void SizeField::add(const Box3& box, std::span<const Label> voxels) {
   for_each_index(box, [&](Index3 v) {
     const double limit = of_label(voxels[i++]);
     if (limit == kNoLimit) return;
-    float& value = values_[row(v.x / kCube, v.y / kCube, v.z / kCube)];
+    float& value = values_[row(v.x / cube_, v.y / cube_, v.z / cube_)];
     value = std::min(value, rounded_down(limit));
   });
+}
+
+void SizeField::limit_voxel(Index3 voxel, double limit) {
+  float& value = values_[row(voxel.x / cube_, voxel.y / cube_, voxel.z / cube_)];
+  value = std::min(value, rounded_down(limit));
+}
+
+double SizeField::rung_below(double limit) {
+  constexpr double kStep = 1.05;
+  double rung = 1.0;
+  while (rung > limit) rung /= kStep;
+  while (rung * kStep <= limit) rung *= kStep;
+  return rung;
 }
 
 void SizeField::spread() {
@@ -153,18 +181,20 @@ void SizeField::spread() {
   }
 }
 
-bool SizeField::allows_cell(Index3 lo, int level) const {
+bool SizeField::allows_cell(Index3 lo, int level, Label label) const {
   if (level == 0 || !limits()) return true;
   const std::int64_t size = std::int64_t{1} << level;
-  const auto first = [](std::int64_t v) { return v / kCube; };
+  const double diagonal = static_cast<double>(size) * voxel_diagonal_;
+  if (diagonal > of_label(label)) return false;
+  const auto first = [&](std::int64_t v) { return v / cube_; };
   const auto end = [&](std::int64_t v, std::int64_t cubes) {
-    return std::min((v + size) / kCube + 1, cubes);
+    return std::min((v + size) / cube_ + 1, cubes);
   };
   float min = kUnlimited;
   for_each_index(Box3{{first(lo.x), first(lo.y), first(lo.z)},
                       {end(lo.x, cubes_.x), end(lo.y, cubes_.y), end(lo.z, cubes_.z)}},
                  [&](Index3 c) { min = std::min(min, values_[row(c.x, c.y, c.z)]); });
-  return static_cast<double>(size) * voxel_diagonal_ <= static_cast<double>(min);
+  return diagonal <= static_cast<double>(min);
 }
 
 }  // namespace mw

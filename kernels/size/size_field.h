@@ -24,30 +24,43 @@ void spread_squared_gaps(Index3 cubes, const Vec3& edges, std::span<float> squar
 /// Limits on the edges of a mesh: for each label that is listed one of its own, and around it one
 /// that grows with the distance.
 ///
-/// The volume is cut into cubes of 8^3 voxels.  At a place in cube C the limit is the least of
-/// H + gradation * d over all listed labels: H is the label's own, d the distance between C and the
-/// nearest cube that has voxels of it (0 for neighbours), from box to box.  So it is never above
-/// H + gradation * distance to the label, and within 8 voxels of the label it is H: labels that
-/// move less stay inside.  An edge keeps to the limits at its ends and to those of the labels
-/// around it.
+/// The volume is cut into cubes of cube_voxels() an axis, single voxels where the volume is small.
+/// At a place in cube C the limit is the least of H + gradation * d over all listed labels: H is
+/// the label's own, d the distance between C and the nearest cube that has voxels of it (0 for
+/// neighbours), from box to box.  So it is never above H + gradation * distance to the label, and
+/// below that by no more than gradation times two cubes.  An edge keeps to the limits at its ends
+/// and to those of the labels around it.
 ///
 /// Lengths are those of a Metric.  Thread safety: const members from many threads.
 /// Memory: 4 bytes a cube; while it is made 16.
 class SizeField {
  public:
-  static constexpr std::int64_t kCube = 8;
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
   /// Nothing is limited.
   SizeField() = default;
   /// label_limits: by dense label; kNoLimit: not listed.  No voxel is known yet.
-  SizeField(Index3 volume, const Metric& metric, std::vector<double> label_limits,
-            double gradation);
+  /// by_voxel: limit_voxel() tells what is asked in all labels.
+  SizeField(Index3 volume, const Metric& metric, std::vector<double> label_limits, double gradation,
+            bool by_voxel = false);
+
+  /// Edge of the cubes of such a volume in voxels: the least of 1, 2, 4 and 8 that leaves at most
+  /// 2^21 cubes, else 8.
+  [[nodiscard]] static std::int64_t cube_voxels(Index3 volume);
+
+  /// What it takes while it is made.
+  [[nodiscard]] static std::uint64_t making_bytes(Index3 volume);
 
   [[nodiscard]] bool limits() const { return !values_.empty(); }
 
-  /// Tells of the voxels of a box, x fastest.  Parts without a common cube may come at once.
+  /// Tells of the voxels of a box, x fastest.  Boxes without a common cube may come at once: those
+  /// that begin at multiples of 8 have none.
   void add(const Box3& box, std::span<const Label> voxels);
+  /// Limits a voxel, whatever its label.  Thread safety: as add().
+  void limit_voxel(Index3 voxel, double limit);
+  /// One of few limits, the largest that is not above the given one: at most a twentieth less. Each
+  /// limit that is in use costs spread() time.
+  [[nodiscard]] static double rung_below(double limit);
   /// Finds the limits, once all voxels are known.  Cost: some 50 ns a cube and value in the list.
   void spread();
 
@@ -59,27 +72,31 @@ class SizeField {
   [[nodiscard]] double of_label(Label label) const {
     return label < label_limits_.size() ? label_limits_[label] : kNoLimit;
   }
-  /// May the start mesh have a cell of 2^level voxels there, with edges between any of its corners?
-  /// Single voxels always.
-  [[nodiscard]] bool allows_cell(Index3 lo, int level) const;
+  /// Has the label a limit of its own, or is each voxel told one?
+  [[nodiscard]] bool is_asked(Label label) const {
+    return by_voxel_ || of_label(label) != kNoLimit;
+  }
+  /// May the start mesh have a cell of 2^level voxels of this label there, with edges between any
+  /// of its corners?  Single voxels always.
+  [[nodiscard]] bool allows_cell(Index3 lo, int level, Label label) const;
 
  private:
-  static constexpr int kCubeShift = 13;  // units of the lattice
-  static_assert(std::int64_t{1} << kCubeShift == kCube * kUnitsPerVoxel);
-
   /// The far side of the volume belongs to the last cube.
-  [[nodiscard]] static std::int64_t cube_at(std::int32_t units, std::int64_t cubes) {
-    return std::min<std::int64_t>(units >> kCubeShift, cubes - 1);
+  [[nodiscard]] std::int64_t cube_at(std::int32_t units, std::int64_t cubes) const {
+    return std::min<std::int64_t>(units >> cube_shift_, cubes - 1);
   }
   [[nodiscard]] std::size_t row(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return static_cast<std::size_t>((z * cubes_.y + y) * cubes_.x + x);
   }
 
+  std::int64_t cube_ = 1;  ///< edge in voxels
+  int cube_shift_ = 0;     ///< of units of the lattice
   Index3 cubes_;
   Vec3 cube_edges_ = Vec3::Zero();
   double voxel_diagonal_ = 0.0;
   std::vector<double> label_limits_;
   double gradation_ = 0.0;
+  bool by_voxel_ = false;
   std::vector<float> values_;  ///< by cube, rounded down; before spread() only of its own voxels
 };
 

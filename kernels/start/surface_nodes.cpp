@@ -59,8 +59,8 @@ CellNodes SurfaceNodes::between_labels(const Cell& cell) const {
 
 bool SurfaceNodes::has_corners(Index3 voxel) const {
   if (is_clipped(voxel)) return true;
-  return sizes_ != nullptr &&
-         !sizes_->allows_cell({voxel.x & ~1LL, voxel.y & ~1LL, voxel.z & ~1LL}, 1);
+  return sizes_ != nullptr && !sizes_->allows_cell({voxel.x & ~1LL, voxel.y & ~1LL, voxel.z & ~1LL},
+                                                   1, labels_.at(voxel));
 }
 
 SurfaceNodes::Around SurfaceNodes::around(Index3 lo) const {

@@ -73,14 +73,24 @@ def draw_chosen(random, settings, values):
 
 
 def draw_sizes(random, settings, values, spacing):
-    """Below the diagonal of a voxel of the lattice a size is refused."""
+    """Below 0.8 of the diagonal of a voxel of the lattice a size is refused."""
     if settings.get("optimizer", "local") == "tetgen" or "drop-specks" in settings.prepare:
         return
     if random.random() < 0.08:
         some = random.sample(values, random.randint(1, min(3, len(values))))
-        diagonal = sum(h * h for h in spacing) ** 0.5
-        settings.flags["size"] = ",".join(
-            f"{label}={diagonal * random.uniform(1.01, 4):.6g}" for label in some)
+        least = sum(h * h for h in spacing) ** 0.5 / 1.25
+
+        def size():
+            return f"{least * random.uniform(1.01, 5):.6g}"
+
+        rules = [f"{label}={size()}" for label in some]
+        if random.random() < 0.4:
+            rules.append(random.choice(["*=", ""]) + size())
+        if len(some) > 1 and random.random() < 0.4:
+            rules.append(f"{some[0]}|{some[1]}={size()}")
+        if random.random() < 0.2:
+            rules = rules[-1:]
+        settings.flags["size"] = ",".join(rules)
         if random.random() < 0.5:
             settings.flags["gradation"] = random.choice(["0", "0.2", "2"])
     if random.random() < 0.08:

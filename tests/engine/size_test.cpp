@@ -44,13 +44,31 @@ double diagonal_of(const Trial& trial) {
                     s[2] / static_cast<double>(layers.z));
 }
 
-/// Some labels with limits from the least that can be kept to six times that.
+/// Two labels that touch along an axis; none: {0, 0}.
+std::pair<Label, Label> some_interface(std::mt19937& random, const SmallVolume& volume) {
+  const auto& labels = volume.labels;
+  for (int i = 0; i < 200; ++i) {
+    const auto at = below(random, static_cast<std::uint32_t>(labels.size()));
+    const bool has_next = (static_cast<std::int64_t>(at) + 1) % volume.shape.x != 0;
+    if (has_next && labels[at] != labels[at + 1]) return std::minmax({labels[at], labels[at + 1]});
+  }
+  return {0, 0};
+}
+
+/// Sizes from the least that can be kept to six times that: of some labels, of all others at times,
+/// and of an interface.
 void add_sizes(std::mt19937& random, Trial& trial) {
-  const double min = diagonal_of(trial);
+  const double min = diagonal_of(trial) / SizeRules::kLongest;
+  SizeRules& rules = trial.settings.sizes.rules;
+  const auto size = [&] { return min * (1.0 + 0.05 * below(random, 100)); };
+  if (below(random, 4) == 0) rules.others = size();
+  if (below(random, 4) == 0) {
+    const auto [low, high] = some_interface(random, trial.volume);
+    if (low != high) rules.interfaces = {{raw_label(low), raw_label(high), size()}};
+  }
   for (const Label label : labels_of(trial.volume)) {
     if (below(random, 2) == 0) continue;
-    trial.settings.sizes.labels.push_back(
-        {raw_label(label), min * (1.0 + 0.05 * below(random, 100))});
+    rules.labels.push_back({raw_label(label), size()});
   }
   trial.settings.sizes.gradation = 0.25 * below(random, 5);
 }
@@ -100,11 +118,13 @@ std::vector<double> limits_at_vertices(const Trial& trial, const SmallMesh& mesh
   std::vector<double> out;
   for (const audit::Position& p : mesh.vertices) {
     double min = std::numeric_limits<double>::infinity();
-    for (const LabelSize& s : trial.settings.sizes.labels) {
-      const double way = distance_to(trial, test::test_label(s.label), p);
-      min = std::min(min, s.longest_edge + trial.settings.sizes.gradation * way);
+    for (const Label label : labels_of(trial.volume)) {
+      const auto size = trial.settings.sizes.rules.of_label(raw_label(label));
+      if (!size) continue;
+      const double way = distance_to(trial, label, p);
+      min = std::min(min, *size + trial.settings.sizes.gradation * way);
     }
-    out.push_back(min);
+    out.push_back(SizeRules::kLongest * min);
   }
   return out;
 }
@@ -126,8 +146,9 @@ void each_edge(const SmallMesh& mesh, Visit visit) {
 /// Every edge by brute force; returns the largest share of a label's limit that is used.
 double expect_sizes(const Trial& trial, const SmallMesh& mesh) {
   std::vector<double> of_label(trial.volume.label_count, std::numeric_limits<double>::infinity());
-  for (const LabelSize& s : trial.settings.sizes.labels) {
-    of_label[test::test_label(s.label)] = s.longest_edge;
+  for (const Label label : labels_of(trial.volume)) {
+    const auto size = trial.settings.sizes.rules.of_label(raw_label(label));
+    if (size) of_label[label] = SizeRules::kLongest * *size;
   }
   const std::vector<double> at = limits_at_vertices(trial, mesh);
   double max = 0.0;
@@ -160,7 +181,8 @@ TEST(Sizes, AreKeptByEveryEdgeWithAllPromises) {
     const SmallMesh mesh = small_mesh(run_in_memory(trial));
     expect_promises(trial, mesh);
     const double max = expect_sizes(trial, mesh);
-    listed += trial.settings.sizes.labels.empty() ? 0 : 1;
+    const SizeRules& rules = trial.settings.sizes.rules;
+    listed += rules.labels.empty() && !rules.others ? 0 : 1;
     used += max > 0.8 ? 1 : 0;
   }
   EXPECT_GT(listed, 12);
@@ -225,7 +247,7 @@ TEST(Sizes, AreRefusedWhereTheyCannotBeKept) {
               .settings = {},
               .frame = {}};
   const auto expect_refused = [&](const std::vector<LabelSize>& labels, const char* piece) {
-    trial.settings.sizes.labels = labels;
+    trial.settings.sizes.rules.labels = labels;
     try {
       run_in_memory(trial);
       FAIL() << piece;
@@ -235,7 +257,7 @@ TEST(Sizes, AreRefusedWhereTheyCannotBeKept) {
     }
   };
   const RawLabel known = raw_label(trial.volume.labels[0]);
-  expect_refused({{known, 1.7}}, "1.74 can be kept");
+  expect_refused({{known, 1.38}}, "1.39 can be kept");
   expect_refused({{known, 3.0}, {known, 4.0}}, "once");
   expect_refused({{known, 0.0}}, "positive");
   expect_refused({{5, 3.0}}, "no label 5");
@@ -250,15 +272,21 @@ TEST(Sizes, BelongToWhatARunIs) {
   texts.insert(identity_text(volume, settings));
   settings.sizes.inner_vertices = true;
   texts.insert(identity_text(volume, settings));
-  settings.sizes.labels = {{3, 2.0}};
+  settings.sizes.rules.labels = {{3, 2.0}};
   texts.insert(identity_text(volume, settings));
   settings.sizes.inner_vertices = false;
   texts.insert(identity_text(volume, settings));
-  settings.sizes.labels = {{3, 2.5}};
+  settings.sizes.rules.labels = {{3, 2.5}};
   texts.insert(identity_text(volume, settings));
   settings.sizes.gradation = 1.0;
   texts.insert(identity_text(volume, settings));
-  EXPECT_EQ(texts.size(), 6U);
+  settings.sizes.rules.others = 2.5;
+  texts.insert(identity_text(volume, settings));
+  settings.sizes.rules.interfaces = {{3, 4, 2.5}};
+  texts.insert(identity_text(volume, settings));
+  settings.sizes.rules.image = "f.npy";
+  texts.insert(identity_text(volume, settings));
+  EXPECT_EQ(texts.size(), 9U);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "io/codec/codec.h"
-#include "io/codec/unpackers.h"
 #include "io/volume/precomputed/compressed_segmentation.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/choices.h"

@@ -9,7 +9,7 @@
 #include "io/volume/nrrd/open_nrrd.h"
 #include "io/volume/png/open_png.h"
 #include "io/volume/precomputed/open_precomputed.h"
-#include "io/volume/raw/open_raw.h"
+#include "io/volume/raw_array.h"
 #include "io/volume/tiff/open_tiff.h"
 #include "io/volume/zarr/open_zarr.h"
 #include "tests/fuzz/all_targets.h"

@@ -56,9 +56,7 @@ bool touches_files_or_clocks(const std::string& name) {
 
 /// Headers of io that name concrete formats though they lie beside the interfaces.
 bool is_concrete_io(const std::string& name) {
-  if (is_any(name, {"io/volume/open_volume.h", "io/volume/npy_writer.h", "io/mesh/open_mesh.h"})) {
-    return true;
-  }
+  if (is_any(name, {"io/volume/open_volume.h", "io/mesh/open_mesh.h"})) return true;
   const std::string folder = folder_of(name);
   if (folder == "io/mesh/grouped/") return false;  // facets by what they bound, whatever the format
   return (folder.starts_with("io/volume/") && folder != "io/volume/") ||

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Promise 6: the kernel's own figure of the program's memory stays under --memory, from reading
 // labels to the digest of the finished mesh.
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -31,8 +32,9 @@ class MemoryProgramTest : public ProgramTest {
 
   /// Runs with less memory than works, then with the least that is asked for, until it is done;
   /// the report of the last run.
-  json under_min_budget(const std::string& options) const {
-    const std::string start = "mesh v.npy -o v.vtu --report r.json " + options + " --memory ";
+  json under_min_budget(const std::string& options, const std::string& volume = "v.npy") const {
+    const std::string start =
+        "mesh " + volume + " -o v.vtu --report r.json " + options + " --memory ";
     std::string budget = "1";
     for (int i = 0; i < 8; ++i) {
       const ProgramRun result = run((start + budget).append("MiB"));
@@ -76,6 +78,26 @@ TEST_F(MemoryProgramTest, Promise6HoldsForNoiseAndManyThreads) {
     ASSERT_FALSE(r.is_null());
     expect_within(r);
   }
+}
+
+/// A chunk that is the whole volume is unpacked to a file, piece by piece.
+TEST_F(MemoryProgramTest, Promise6HoldsForOneLargeChunk) {
+  expect_done("synth spheres --shape 160,128,128 --labels 2 --seed 1 --dtype u64 -o v.npy");
+  std::filesystem::create_directory(folder() / "v.zarr");
+  std::ofstream(folder() / "v.zarr" / ".zarray")
+      << R"({"zarr_format": 2, "shape": [128, 128, 160], "chunks": [128, 128, 160],
+             "dtype": "<u8", "order": "C", "fill_value": 0, "filters": null,
+             "compressor": {"id": "gzip", "level": 1}})";
+  const std::string in = folder().string();
+  const std::string pack = "tail -c +129 " + in + "/v.npy | gzip -1 > " + in + "/v.zarr/0.0.0";
+  ASSERT_EQ(std::system(pack.c_str()), 0);
+  const json r = under_min_budget("--threads 2 --certify off", "v.zarr");
+  ASSERT_FALSE(r.is_null());
+  expect_within(r);
+  // The chunk is 20 MiB, and would not have a place twice over beside all else.
+  EXPECT_LT(r["engine"]["memory_budget_bytes"], 80 * kMebibyte);
+  expect_done("mesh v.npy -o plenty.vtu --memory 4GiB");
+  EXPECT_EQ(read("v.vtu"), read("plenty.vtu"));
 }
 
 /// Blocks have to go to disk, and the merge has to read them back.

@@ -23,6 +23,7 @@
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
+#include "io/volume/open_volume.h"
 
 namespace mw::cli {
 namespace {
@@ -91,6 +92,14 @@ struct MeshFiles {
   std::optional<TraceFile> trace;
 };
 
+/// Null: there is no image of sizes.
+std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
+  const std::string& image = request.job.settings.sizes.rules.image;
+  if (image.empty()) return nullptr;
+  // On the grid of the labels, wherever its own file says that it lies.
+  return io::open_volume(image, {.spacing = open_options(request.volume).spacing});
+}
+
 /// Says where the work is when a run that ends early leaves some.
 report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume& volume,
                               MeshFiles& files) {
@@ -98,6 +107,7 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   std::string work;
   engine::MeshJob job = request.job;
   job.stop = stop_if_interrupted;
+  job.size_image = open_sizes(request);
   job.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
   engine::RunHooks& run = job.run;
   run.together = files.shared.mesh.get();

@@ -34,9 +34,9 @@ Certify parse_certify(const std::string& text) {
 void add_size_file_option(OptionSet& options, MeshRequest& request) {
   options.add(
       {.name = "size-file", .listed = Listed::kNowhere, .assign = [&](const std::string& text) {
-         std::vector<engine::LabelSize>& sizes = request.job.settings.sizes.labels;
-         const std::string before = engine::format_sizes(sizes);
-         sizes = engine::parse_sizes((before.empty() ? "@" : before + ",@") + text);
+         engine::SizeRules& rules = request.job.settings.sizes.rules;
+         const std::string before = engine::format_sizes(rules);
+         rules = engine::parse_sizes((before.empty() ? "@" : before + ",@") + text);
          request.size_tables.push_back(text);
        }});
 }
@@ -153,10 +153,10 @@ void require_memory_for_page(const MeshRequest& request) {
 
 void check_sizes(const engine::MeshSettings& settings) {
   const engine::SizeSettings& sizes = settings.sizes;
-  if (sizes.labels.empty() && sizes.gradation != engine::SizeSettings{}.gradation) {
+  if (!sizes.rules.any() && sizes.gradation != engine::SizeSettings{}.gradation) {
     throw Error(ErrorKind::kUsage, "--gradation: there is nothing to grade, give --size as well");
   }
-  const bool sized = !sizes.labels.empty() || sizes.inner_vertices;
+  const bool sized = sizes.rules.any() || sizes.inner_vertices;
   if (!sized || settings.optimizer != engine::Optimizer::kTetgen) return;
   throw Error(ErrorKind::kUsage,
               "--optimizer tetgen keeps no sizes or inner vertices: leave out --size and "

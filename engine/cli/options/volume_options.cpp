@@ -3,6 +3,8 @@
 // Options about the input volume, shared by all subcommands that read one.
 #include "engine/cli/options/volume_options.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 
 #include "engine/cli/options/shared_options.h"
@@ -176,6 +178,13 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .group = kInputGroup,
                .kind = ValueKind::kBox,
                .assign = into(request.crop, parse_box)});
+  options.add({.name = "trust-paths",
+               .help = "files that headers name may be outside of their folder",
+               .group = kInputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.trust_paths)});
 }
 
 std::string volume_note() {
@@ -201,6 +210,7 @@ io::OpenOptions open_options(const VolumeRequest& request) {
                           .dataset = request.dataset,
                           .scale = request.scale,
                           .crop = request.crop,
+                          .trust_paths = request.trust_paths,
                           .cache_bytes = request.cache_bytes};
   if (request.shape) {
     options.raw = raw_layout(request);
@@ -221,6 +231,7 @@ io::LabelNames names_of(const VolumeRequest& request) {
 
 std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request) {
   auto volume = io::open_volume(request.path, open_options(request));
+  if (!volume->info().note.empty()) spdlog::warn(volume->info().note);
   if (request.names.empty()) return volume;
   return std::make_unique<io::NamedVolume>(std::move(volume), io::read_names(request.names));
 }

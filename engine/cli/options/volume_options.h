@@ -23,6 +23,7 @@ struct VolumeRequest {
   std::string dataset;
   std::optional<int> scale;
   std::optional<Box3> crop;
+  bool trust_paths = false;
   io::InputSteps steps;  ///< what is done with the labels that were opened
   /// Of unpacked chunks that a chunked volume may keep.
   std::uint64_t cache_bytes = io::OpenOptions{}.cache_bytes;

@@ -163,8 +163,9 @@ def mesh(volume, *, progress=None, **arguments):
         "ras" or "lps"; "mm", "um" and so on; {label: name}, a list of the names of labels 0, 1, 2
         and so on, or a file of ``mwmesh mesh --names``, which may have colours.  Labels are given
         by number or by name, wherever they are.
-    dataset, scale, crop
-        of files: the array within, the level of a pyramid, ((x0, y0, z0), (x1, y1, z1)).
+    dataset, scale, crop, trust_paths
+        of files: the array within, the level of a pyramid, ((x0, y0, z0), (x1, y1, z1)), and
+        whether files that headers name may be outside of their folder.
     merge, drop_specks
         {label: label that it becomes}; then components of fewer voxels take the label around them,
         joined by faces, or with (voxels, 26) by corners too.

@@ -14,7 +14,8 @@ from ._values import (name_rows, numbers, path_bytes, text, three, unexpected, w
 #: Arrays are indexed [z, y, x], as .npy, HDF5, Zarr and TIFF have them, unless told otherwise.
 AXES = ("zyx", "xyz")
 #: What says where and what of a source the volume is.
-PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop")
+PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
+         "trust_paths")
 
 
 def _is_image(source):
@@ -84,7 +85,7 @@ def _array_volume(array, axes, space):
     return _core.volume_of_array(array.T if axes == "zyx" else array, space, [])
 
 
-def _file_volume(source, spacing, origin, frame, dataset, scale, crop):
+def _file_volume(source, spacing, origin, frame, dataset, scale, crop, trust_paths):
     box = None
     if crop is not None:
         corners = [whole(v, "crop") for v in np.ravel(np.asarray(crop, dtype=object))]
@@ -94,17 +95,19 @@ def _file_volume(source, spacing, origin, frame, dataset, scale, crop):
     return _core.open_volume(
         path_bytes(source, "volume"), text(dataset, "dataset"),
         None if scale is None else whole(scale, "scale", 32), three(spacing, "spacing"),
-        three(origin, "origin"), frame or "file", box)
+        three(origin, "origin"), frame or "file", box, bool(trust_paths))
 
 
-def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop):
+def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop,
+            trust_paths):
     frame, unit_text = text(frame, "frame"), text(unit, "unit")
     if isinstance(source, (str, os.PathLike)):
         if affine is not None or unit is not None or axes is not None:
             raise UsageError("affine, unit and axes are for arrays: files tell their own")
-        return _file_volume(source, spacing, origin, frame, dataset, scale, crop)
-    if dataset is not None or scale is not None or crop is not None:
-        raise UsageError("dataset, scale and crop are for files: slice the array")
+        return _file_volume(source, spacing, origin, frame, dataset, scale, crop,
+                            trust_paths)
+    if dataset is not None or scale is not None or crop is not None or trust_paths:
+        raise UsageError("dataset, scale, crop and trust_paths are for files: slice the array")
     if _is_image(source):
         if affine is None and spacing is None and origin is None:
             affine, frame = source.affine, frame or "ras"

@@ -8,7 +8,7 @@
 
 #include "engine/store/codec/block_codec.h"
 #include "engine/store/codec/byte_codes.h"
-#include "io/file/checksum.h"
+#include "io/codec/checksums.h"
 
 namespace mw::engine {
 namespace {

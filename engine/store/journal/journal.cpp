@@ -9,7 +9,7 @@
 
 #include "engine/store/codec/byte_codes.h"
 #include "engine/store/journal/work_file.h"
-#include "io/file/checksum.h"
+#include "io/codec/checksums.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 

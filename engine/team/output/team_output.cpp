@@ -68,6 +68,7 @@ void add_up(Team& team, BlockFigures& mine) {
   }
   if (mine.edges) {
     fold_lists(team, mine.edges->squares(), [](double a, double b) { return std::max(a, b); });
+    fold_lists(team, mine.edges->ratios().counts, std::plus<>());
   }
   fold_lists(team, mine.volumes6, std::plus<>());
 }

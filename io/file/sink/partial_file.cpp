@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/checksum.h"
+#include "io/codec/checksums.h"
 #include "io/file/errors.h"
 #include "io/file/file_descriptor.h"
 

@@ -7,9 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mw::io {
@@ -39,6 +41,27 @@ class ByteSource {
   /// Fills out with the bytes from offset on.
   /// ERRORS: mw::Error(kInput) with name, offset and length when there are fewer, or on I/O errors.
   virtual void read_at(std::uint64_t offset, std::span<std::byte> out) const = 0;
+};
+
+/// A run of bytes of a source that others own too, under a name of its own.
+class BytesPart : public ByteSource {
+ public:
+  /// REQUIRES: offset + size within the source.
+  BytesPart(std::shared_ptr<const ByteSource> source, std::uint64_t offset, std::uint64_t size,
+            std::string name)
+      : source_(std::move(source)), offset_(offset), size_(size), name_(std::move(name)) {}
+
+  [[nodiscard]] std::uint64_t size() const override { return size_; }
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  void read_at(std::uint64_t offset, std::span<std::byte> out) const override {
+    source_->read_at(offset_ + offset, out);
+  }
+
+ private:
+  std::shared_ptr<const ByteSource> source_;
+  std::uint64_t offset_;
+  std::uint64_t size_;
+  std::string name_;
 };
 
 /// The first `length` bytes, or all when there are fewer.

@@ -101,16 +101,22 @@ void JoinedFiles::read_at(std::uint64_t offset, std::span<std::byte> out) const 
   }
 }
 
-std::filesystem::path named_beside(const std::filesystem::path& header, std::string_view field,
-                                   std::string_view name) {
-  const std::filesystem::path relative(name);
-  const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (name.empty() || name.find('\0') != std::string_view::npos || relative.is_absolute() ||
-      climbs) {
+std::filesystem::path named_path(const std::filesystem::path& header, std::string_view field,
+                                 std::string_view name, bool is_trusted) {
+  const std::filesystem::path path(name);
+  const bool climbs = std::find(path.begin(), path.end(), "..") != path.end();
+  const bool is_none = name.empty() || name.find('\0') != std::string_view::npos;
+  if (is_none || (!is_trusted && (path.is_absolute() || climbs))) {
     fail_input(header.string(), field, text("'", name, "' leads out of the header's folder"),
-               "put the file beside the header and name it without a path");
+               "put it beside the header and name it without a path, or give --trust-paths where a "
+               "volume's header is to be trusted");
   }
-  std::filesystem::path path = header.parent_path() / relative;
+  return header.parent_path() / path;
+}
+
+std::filesystem::path named_beside(const std::filesystem::path& header, std::string_view field,
+                                   std::string_view name, bool is_trusted) {
+  std::filesystem::path path = named_path(header, field, name, is_trusted);
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     fail_input(header.string(), field, text(path.string(), " is missing or not a file"),

@@ -54,10 +54,17 @@ class JoinedFiles : public ByteSource {
   std::string name_;
 };
 
-/// The file `name` in the folder of the header, or below it.
+/// What a header, or the metadata of a store, names: in its folder, or below.  is_trusted: it may
+/// lead anywhere.  Links are followed.
 /// ERRORS: mw::Error(kInput) naming the header and its field for names that lead elsewhere
-/// (absolute, or with ".."), and for what is no file: a header from a stranger opens nothing else.
+/// (absolute, or with ".."): a header from a stranger opens nothing else.
+[[nodiscard]] std::filesystem::path named_path(const std::filesystem::path& header,
+                                               std::string_view field, std::string_view name,
+                                               bool is_trusted);
+
+/// The same for a file.  ERRORS: also for what is no file.
 [[nodiscard]] std::filesystem::path named_beside(const std::filesystem::path& header,
-                                                 std::string_view field, std::string_view name);
+                                                 std::string_view field, std::string_view name,
+                                                 bool is_trusted = false);
 
 }  // namespace mw::io

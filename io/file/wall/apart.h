@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Work in a process of its own, for libraries that damaged input can crash: the one wall around the
-// HDF5 library, for volumes (io/volume/hdf5/describe.h) and meshes (io/mesh/apart_mesh.h) alike.
+// HDF5 library, for volumes (io/volume/hdf5/description.h) and meshes (io/mesh/apart_mesh.h) alike.
 #pragma once
 
 #include <cstddef>

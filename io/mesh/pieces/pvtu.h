@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "io/file/sink/atomic_file.h"
-#include "io/file/sink/atomic_folder.h"
 #include "io/mesh/mesh_data.h"
 
 namespace mw::io {

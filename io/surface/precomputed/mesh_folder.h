@@ -4,7 +4,6 @@
 #pragma once
 
 #include "io/file/sink/atomic_file.h"
-#include "io/file/sink/atomic_folder.h"
 #include "io/surface/surface_sink.h"
 
 namespace mw::io {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Describes an HDF5 data set in a child process, and checks what the child says.
-#include "io/volume/hdf5/describe.h"
+#include "io/volume/hdf5/description.h"
 
 #include <algorithm>
 #include <functional>

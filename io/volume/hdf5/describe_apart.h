@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/file/byte_order.h"
 #include "io/hdf5/hdf5_file.h"
@@ -28,6 +29,15 @@ struct Hdf5NumberType {
 
 /// "u8", or what the type is instead: "compound".
 [[nodiscard]] std::string type_text(hid_t type);
+
+/// Data sets that are looked at; a file of labels has a few.
+inline constexpr std::size_t kMaxHdf5Entries = 4096;
+
+/// The first kMaxHdf5Entries data sets in and below a group, by name; each once, whatever hard
+/// links lead to it; soft and external links are not followed.  group: "/" or "/a/b".
+/// ERRORS: mw::Error(kInput) naming `file`.  To be called apart (io/file/wall/apart.h) only.
+[[nodiscard]] std::vector<Hdf5Entry> list_data_sets(hid_t hdf5, const std::string& group,
+                                                    std::string_view file);
 
 /// hdf5: the file, opened through source.
 /// ERRORS: mw::Error(kInput) for damage, and for types and storage that cannot be read.

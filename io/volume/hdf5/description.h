@@ -3,13 +3,17 @@
 // All that must be known of an HDF5 data set to read it without the HDF5 library.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/file/byte_order.h"
+#include "io/file/source/byte_source.h"
+#include "io/volume/file_space.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
@@ -65,5 +69,56 @@ inline constexpr std::size_t kMaxPackedDescription = std::size_t{1} << 20U;
 /// ENSURES: memory in the order of `bytes`.  Empty when they are no description; the numbers in it
 /// are not checked.
 [[nodiscard]] std::optional<Hdf5Description> unpack_description(const std::string& bytes);
+
+/// For x, y and z the axis of the array; empty: the array has one slice there.
+using Hdf5Axes = std::array<std::optional<std::size_t>, 3>;
+
+/// By ilastik's axistags when there are some, else [z, y, x], or [y, x] as one slice.  Of arrays of
+/// more axes those of one element are left out, the first ones first; in DREAM.3D, where the
+/// components of a voxel are last, the last ones first.
+/// ERRORS: mw::Error(kInput) naming `file` and the data set when three do not remain, and for tags
+/// that do not fit the array.
+[[nodiscard]] Hdf5Axes find_axes(const Hdf5Description& description, std::string_view file);
+
+/// CREMI's `resolution` and `offset` (z, y, x; nm), Fiji's and ilastik's `element_size_um` (z, y,
+/// x; um), the geometry of DREAM.3D (x, y, z); all place the first corner.  What is not three
+/// numbers is not looked at; without any of them voxels have edges of 1. shape: (x, y, z). ERRORS:
+/// mw::Error(kInput) when a geometry has another shape than the array.
+[[nodiscard]] FileSpace hdf5_space(const Hdf5Description& description, const Index3& shape,
+                                   std::string_view file);
+
+struct Hdf5Entry {
+  std::string path;  ///< from the root, with the slash
+  std::vector<std::uint64_t> shape;
+  std::string type;  ///< "u8", or what it is instead
+  bool is_integer = false;
+};
+
+/// The labels by convention: CREMI's /volumes/labels/neuron_ids, else the only integers below
+/// /volumes/labels; ilastik's /exported_data; the only FeatureIds of DREAM.3D; else the only
+/// integers with three axes longer than 1, else with two.
+/// ERRORS: mw::Error(kInput) naming `file` and the data sets that there are, when none or several
+/// are fit.
+[[nodiscard]] const std::string& choose_data_set(const std::vector<Hdf5Entry>& entries,
+                                                 std::string_view file);
+
+/// "/a 3 x 4 x 5 u8, /b 7 f64"; the first few.
+[[nodiscard]] std::string list_text(const std::vector<Hdf5Entry>& entries);
+
+/// "3 x 4 x 5"
+[[nodiscard]] std::string shape_text(const std::vector<std::uint64_t>& shape);
+
+/// data_set: "/a/b" of the labels or of a group that has them; empty: by convention, see
+/// choose_data_set().  The library never sees the file in this process: damage makes it crash.
+/// ENSURES: what is described is within the file and fits together, see check_description().
+/// Memory: 24 bytes a chunk that the file has; time: some microseconds a chunk of the grid.
+/// ERRORS: mw::Error(kInput) for damage, for a data set that is missing, none or one of several
+/// that are fit, and for types and storage that cannot be read; kResource when no process can be
+/// started.
+[[nodiscard]] Hdf5Description describe_hdf5(const ByteSource& source, const std::string& data_set);
+
+/// ERRORS: mw::Error(kInput) unless shapes have as many axes as each other, chunks are within the
+/// file, in order and no more than it, and runs of bytes have the size that the shape needs.
+void check_description(const ByteSource& source, const Hdf5Description& description);
 
 }  // namespace mw::io

@@ -9,9 +9,10 @@
 
 #include "io/codec/checksums.h"
 #include "io/codec/codec.h"
-#include "io/codec/unpackers.h"
 #include "io/file/errors.h"
-#include "io/volume/hdf5/describe.h"
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/source/file_source.h"
+#include "io/volume/hdf5/description.h"
 
 namespace mw::io {
 namespace {
@@ -103,6 +104,16 @@ void check_filters(const Hdf5Description& description, std::string_view file) {
   }
 }
 
+namespace {
+
+void check_size(std::uint64_t bytes, const Unfiltering& wanted) {
+  if (bytes == wanted.bytes) return;
+  fail_input(wanted.name, {}, text("holds ", bytes, " bytes, its voxels need ", wanted.bytes),
+             "the file is damaged: get a whole copy of it");
+}
+
+}  // namespace
+
 std::vector<std::byte> unfilter(const std::vector<Hdf5Filter>& filters,
                                 std::vector<std::byte> stored, const Unfiltering& wanted) {
   // Checksums may be packed with the voxels.
@@ -110,15 +121,70 @@ std::vector<std::byte> unfilter(const std::vector<Hdf5Filter>& filters,
                                        [](const auto& filter) { return filter.id == kFletcher32; });
   const std::size_t max = wanted.bytes + kChecksumBytes * static_cast<std::size_t>(checksums);
   for (std::size_t i = filters.size(); i > 0; --i) {
-    const bool skipped = i <= 32 && ((wanted.skipped >> (i - 1)) & 1U) != 0;
-    if (!skipped) stored = undo(filters[i - 1], std::move(stored), max, wanted.name);
+    if (!wanted.skips(i - 1)) stored = undo(filters[i - 1], std::move(stored), max, wanted.name);
   }
-  if (stored.size() != wanted.bytes) {
-    fail_input(wanted.name, {},
-               text("holds ", stored.size(), " bytes, its voxels need ", wanted.bytes),
-               "the file is damaged: get a whole copy of it");
-  }
+  check_size(stored.size(), wanted);
   return stored;
+}
+
+namespace {
+
+/// Elements above are not interleaved piece by piece.
+constexpr std::uint32_t kMaxElement = 64;
+
+/// unshuffle() of a source.
+std::shared_ptr<const ByteSource> unshuffled(const ByteSource& bytes, std::size_t size) {
+  constexpr std::uint64_t kPiece = 1 << 14;  // elements
+  ScratchFile out(scratch_folder());
+  const std::uint64_t count = bytes.size() / size;
+  std::vector<std::byte> row, elements;
+  for (std::uint64_t first = 0; first < count; first += kPiece) {
+    row.resize(std::min(kPiece, count - first));
+    elements.resize(row.size() * size);
+    for (std::size_t k = 0; k < size; ++k) {
+      bytes.read_at(k * count + first, row);
+      for (std::size_t i = 0; i < row.size(); ++i) elements[i * size + k] = row[i];
+    }
+    out.append(elements);
+  }
+  elements.resize(bytes.size() - count * size);
+  bytes.read_at(count * size, elements);
+  out.append(elements);
+  return std::make_shared<FileSource>(out.release(), bytes.size(), bytes.name());
+}
+
+std::shared_ptr<const ByteSource> undone(const Hdf5Filter& filter,
+                                         std::shared_ptr<const ByteSource> bytes,
+                                         std::uint64_t max) {
+  if (filter.id == kShuffle) {
+    const std::uint32_t size = filter.parameters.empty() ? 1 : filter.parameters[0];
+    return size < 2 ? bytes : unshuffled(*bytes, size);
+  }
+  return unpack_to_file(filter.id == kZstd ? Codec::kZstd : Codec::kZlib, std::move(bytes), max);
+}
+
+}  // namespace
+
+std::shared_ptr<const ByteSource> unfilter_to_file(const std::vector<Hdf5Filter>& filters,
+                                                   std::shared_ptr<const ByteSource> stored,
+                                                   const Unfiltering& wanted) {
+  for (std::size_t i = filters.size(); i > 0; --i) {
+    if (wanted.skips(i - 1)) continue;
+    stored = undone(filters[i - 1], std::move(stored), wanted.bytes);
+  }
+  check_size(stored->size(), wanted);
+  return stored;
+}
+
+std::optional<std::uint64_t> unfilter_streaming(const std::vector<Hdf5Filter>& filters) {
+  std::uint64_t most = *max_streamed(Codec::kZlib);
+  for (const Hdf5Filter& filter : filters) {
+    const bool is_shuffle =
+        filter.id == kShuffle && (filter.parameters.empty() || filter.parameters[0] <= kMaxElement);
+    if (!is_shuffle && filter.id != kDeflate && filter.id != kZstd) return std::nullopt;
+    if (filter.id == kZstd) most = std::max(most, *max_streamed(Codec::kZstd));
+  }
+  return most;
 }
 
 std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters, std::size_t bytes) {
@@ -176,17 +242,23 @@ std::string Hdf5Chunks::name_of(Index3 chunk) const {
               chunk.y, ", ", chunk.z, ")");
 }
 
-std::optional<Chunk> Hdf5Chunks::load(Index3 chunk, const Box3& /*box*/) const {
+std::optional<Chunk> Hdf5Chunks::load(Index3 chunk, const Box3& /*box*/, ChunkPlace place) const {
   const std::vector<std::uint64_t> index = index_in_grid(chunk);
   const Hdf5Chunk* const stored = find(index);
   if (stored == nullptr) return std::nullopt;
-  std::vector<std::byte> bytes(stored->bytes);
-  source_->read_at(stored->offset, bytes);
   const bool unfiltered = description_.edges_unfiltered && sticks_out(index);
   const std::string name = name_of(chunk);
   const Unfiltering wanted{.skipped = unfiltered ? ~std::uint32_t{0} : stored->skipped,
                            .bytes = chunk_bytes_,
                            .name = name};
+  if (place == ChunkPlace::kFile && streaming_bytes()) {
+    auto part = std::make_shared<BytesPart>(source_, stored->offset, stored->bytes, name);
+    return Chunk{.bytes = {},
+                 .file = unfilter_to_file(description_.filters, std::move(part), wanted),
+                 .strides = strides_};
+  }
+  std::vector<std::byte> bytes(stored->bytes);
+  source_->read_at(stored->offset, bytes);
   return Chunk{.bytes = unfilter(description_.filters, std::move(bytes), wanted),
                .first = 0,
                .strides = strides_};
@@ -198,6 +270,10 @@ std::uint64_t Hdf5Chunks::scratch_bytes() const {
     stored = std::max<std::uint64_t>(stored, chunk.bytes);
   }
   return stored + max_unfilter_scratch(description_.filters, chunk_bytes_);
+}
+
+std::optional<std::uint64_t> Hdf5Chunks::streaming_bytes() const {
+  return unfilter_streaming(description_.filters);
 }
 
 std::vector<std::uint64_t> Hdf5Chunks::index_in_grid(Index3 chunk) const {

@@ -12,7 +12,6 @@
 #include "io/chunks/chunk.h"
 #include "io/file/source/byte_source.h"
 #include "io/volume/hdf5/description.h"
-#include "io/volume/hdf5/place.h"
 
 namespace mw::io {
 
@@ -25,6 +24,10 @@ struct Unfiltering {
   std::uint32_t skipped = 0;  ///< bit i: filter i was not applied
   std::size_t bytes = 0;      ///< of the chunk's voxels
   std::string_view name;      ///< what errors call the chunk
+
+  [[nodiscard]] bool skips(std::size_t filter) const {
+    return filter < 32 && ((skipped >> filter) & 1U) != 0;
+  }
 };
 
 /// The voxels of a chunk.  REQUIRES: check_filters().
@@ -33,6 +36,14 @@ struct Unfiltering {
 [[nodiscard]] std::vector<std::byte> unfilter(const std::vector<Hdf5Filter>& filters,
                                               std::vector<std::byte> stored,
                                               const Unfiltering& wanted);
+
+/// The same to a file without a name, piece by piece.  REQUIRES: unfilter_streaming().
+[[nodiscard]] std::shared_ptr<const ByteSource> unfilter_to_file(
+    const std::vector<Hdf5Filter>& filters, std::shared_ptr<const ByteSource> stored,
+    const Unfiltering& wanted);
+/// The most that unfilter_to_file() takes in memory; nothing when a filter works as a whole only.
+[[nodiscard]] std::optional<std::uint64_t> unfilter_streaming(
+    const std::vector<Hdf5Filter>& filters);
 
 /// The most that unfilter() takes in memory for `bytes` of voxels, beside the stored ones and what
 /// it returns.
@@ -47,15 +58,17 @@ class Hdf5Chunks : public ChunkSource {
 
   [[nodiscard]] std::string name() const override { return source_->name(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override;
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box) const override;
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
+                                          ChunkPlace place) const override;
   [[nodiscard]] std::uint64_t scratch_bytes() const override;
+  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override;
 
  private:
   [[nodiscard]] std::vector<std::uint64_t> index_in_grid(Index3 chunk) const;
   [[nodiscard]] const Hdf5Chunk* find(const std::vector<std::uint64_t>& index) const;
   [[nodiscard]] bool sticks_out(const std::vector<std::uint64_t>& index) const;
 
-  std::unique_ptr<ByteSource> source_;
+  std::shared_ptr<const ByteSource> source_;
   Hdf5Description description_;
   Hdf5Axes axes_;
   Index3 strides_;  ///< voxels from one to its neighbours within a chunk

@@ -11,9 +11,8 @@
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
-#include "io/volume/hdf5/describe.h"
+#include "io/volume/hdf5/description.h"
 #include "io/volume/hdf5/hdf5_chunks.h"
-#include "io/volume/hdf5/place.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {

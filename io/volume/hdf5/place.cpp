@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Axes and place of an HDF5 data set.
-#include "io/volume/hdf5/place.h"
+#include "io/volume/hdf5/description.h"
 
 #include <algorithm>
 
 #include "io/file/errors.h"
 #include "io/json/json_fields.h"
-#include "io/volume/hdf5/describe.h"
 
 namespace mw::io {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The text header of a MetaImage volume.
-#include "io/volume/metaimage/metaimage_header.h"
+#include "io/volume/metaimage/open_metaimage.h"
 
 #include <algorithm>
 #include <cmath>

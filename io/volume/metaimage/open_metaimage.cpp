@@ -10,7 +10,6 @@
 #include "io/file/source/inflated_source.h"
 #include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
-#include "io/volume/metaimage/metaimage_header.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {
@@ -128,13 +127,23 @@ struct Placed {
   std::uint64_t offset = 0;
 };
 
+/// The header's file, and whether the files that it names may be anywhere.
+struct HeaderFile {
+  std::filesystem::path path;
+  bool is_trusted;
+
+  [[nodiscard]] std::filesystem::path named(std::string_view name) const {
+    return named_beside(path, kDataField, name, is_trusted);
+  }
+};
+
 Placed one_file(std::unique_ptr<ByteSource> source, const MetaImageHeader& header,
-                const std::filesystem::path& path, std::uint64_t needed) {
+                const HeaderFile& file, std::uint64_t needed) {
   const bool local =
       header.data_file == "LOCAL" || header.data_file == "Local" || header.data_file == "local";
   Placed data{std::move(source), local ? header.bytes : 0};
   if (!local) {
-    data.source = std::make_unique<FileSource>(named_beside(path, kDataField, header.data_file));
+    data.source = std::make_unique<FileSource>(file.named(header.data_file));
   }
   if (header.header_size > 0) data.offset = static_cast<std::uint64_t>(header.header_size);
   if (header.header_size < 0) {
@@ -145,19 +154,19 @@ Placed one_file(std::unique_ptr<ByteSource> source, const MetaImageHeader& heade
 }
 
 std::unique_ptr<ByteSource> many_files(const MetaImageHeader& header, std::string_view behind,
-                                       const std::filesystem::path& path, std::uint64_t needed) {
+                                       const HeaderFile& file, std::uint64_t needed) {
+  const std::string name = file.path.string();
   if (header.compressed) {
-    fail_input(path.string(), "MetaImage field 'CompressedData'",
+    fail_input(name, "MetaImage field 'CompressedData'",
                "compressed slices in files of their own are not supported",
                "save as one file, or uncompressed");
   }
   std::vector<std::filesystem::path> files;
-  for (const std::string& name :
-       slice_names(header.data_file, behind, header.shape.z, path.string())) {
-    files.push_back(named_beside(path, kDataField, name));
+  for (const std::string& slice : slice_names(header.data_file, behind, header.shape.z, name)) {
+    files.push_back(file.named(slice));
   }
   const std::uint64_t slice = needed / static_cast<std::uint64_t>(header.shape.z);
-  return std::make_unique<JoinedFiles>(std::move(files), header.header_size, slice, path.string());
+  return std::make_unique<JoinedFiles>(std::move(files), header.header_size, slice, name);
 }
 
 void inflate(Placed& data, const MetaImageHeader& header, std::uint64_t needed) {
@@ -178,16 +187,16 @@ std::unique_ptr<LabelVolume> open_metaimage(std::unique_ptr<ByteSource> source,
                                             const OpenOptions& options) {
   std::string head(source->size_within(kMaxMetaImageBytes), '\0');
   source->read_at(0, std::as_writable_bytes(std::span(head)));
-  const std::filesystem::path path = source->name();
-  const MetaImageHeader header = parse_metaimage_header(head, path.string());
+  const HeaderFile file{.path = source->name(), .is_trusted = options.trust_paths};
+  const MetaImageHeader header = parse_metaimage_header(head, source->name());
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "metaimage"};
-  info.space = placed(path.string(), header.space, options);
+  info.space = placed(source->name(), header.space, options);
   const std::uint64_t needed = payload_bytes(info);
   Placed data;
   if (names_many_files(header.data_file)) {
-    data.source = many_files(header, std::string_view(head).substr(header.bytes), path, needed);
+    data.source = many_files(header, std::string_view(head).substr(header.bytes), file, needed);
   } else {
-    data = one_file(std::move(source), header, path, needed);
+    data = one_file(std::move(source), header, file, needed);
     if (header.compressed) inflate(data, header, needed);
   }
   check_payload(*data.source, info, data.offset);

@@ -232,22 +232,30 @@ std::filesystem::path N5Blocks::path_of(Index3 chunk) const {
   return path;
 }
 
-std::optional<Chunk> N5Blocks::load(Index3 chunk, const Box3& box) const {
-  const auto file = open_if_there(path_of(chunk));
+std::optional<Chunk> N5Blocks::load(Index3 chunk, const Box3& box, ChunkPlace place) const {
+  const std::shared_ptr<const FileSource> file = open_if_there(path_of(chunk));
   if (!file) return std::nullopt;
   const BlockHeader header = read_header(*file, array_);
   check_reaches(*file, array_, header.extents, box.shape());
   const std::uint64_t wanted =
       product(header.extents) * static_cast<std::uint64_t>(byte_size(array_.type));
-  std::vector<std::byte> bytes = read_rest(*file, header.bytes, max_packed_bytes(wanted));
-  if (array_.codec != Codec::kNone) bytes = unpack(array_.codec, bytes, wanted, file->name());
-  if (bytes.size() != wanted) {
+  Chunk out{.bytes = {}, .strides = strides_of(array_, header.extents)};
+  if (place == ChunkPlace::kFile && streaming_bytes()) {
+    const auto packed =
+        std::make_shared<BytesPart>(file, header.bytes, file->size() - header.bytes, file->name());
+    out.file = unpack_to_file(array_.codec, packed, wanted);
+  } else {
+    out.bytes = read_rest(*file, header.bytes, max_packed_bytes(wanted));
+    if (array_.codec != Codec::kNone)
+      out.bytes = unpack(array_.codec, out.bytes, wanted, file->name());
+  }
+  if (out.size() != wanted) {
     fail_input(file->name(), {},
-               text(bytes.size(), " bytes of values, and its voxels of ", mw::io::name(array_.type),
+               text(out.size(), " bytes of values, and its voxels of ", mw::io::name(array_.type),
                     " are ", wanted),
                kWayOut);
   }
-  return Chunk{.bytes = std::move(bytes), .strides = strides_of(array_, header.extents)};
+  return out;
 }
 
 /// Blocks at the end may be larger than their voxels in the volume, and are kept as they are.

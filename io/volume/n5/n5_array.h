@@ -15,6 +15,7 @@
 #include "io/json/json.h"
 #include "io/json/json_fields.h"
 #include "io/volume/label_volume.h"
+#include "io/volume/open_options.h"
 
 namespace mw::io {
 
@@ -63,8 +64,12 @@ class N5Blocks : public ChunkSource {
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override { return path_of(chunk).string(); }
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box) const override;
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
+                                          ChunkPlace place) const override;
   [[nodiscard]] std::uint64_t scratch_bytes() const override;
+  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override {
+    return max_streamed(array_.codec);
+  }
 
  private:
   [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;
@@ -72,5 +77,21 @@ class N5Blocks : public ChunkSource {
   std::filesystem::path folder_;
   N5Array array_;
 };
+
+/// The attributes of an array, and of what is around a level of a pyramid (s0, s1, ... in a group).
+struct N5Attributes {
+  const N5Document& own;
+  const N5Document* group = nullptr;   ///< null: none, or not a level
+  const N5Document* finest = nullptr;  ///< of s0; null for s0 itself
+  std::size_t level = 0;
+};
+
+/// By `transform` {axes, units, scale, translate} (COSEM: the centre of the first voxel; names of
+/// axes give the order), else by `pixelResolution` or `resolution`, `units` and `offset` (the first
+/// corner), fastest axis first.  A level whose resolution is missing, or the same as the finest
+/// one's, has that times its `downsamplingFactors`; pyramids share a corner.
+/// ERRORS: mw::Error(kInput) naming file and field.  What the options replace is not looked at.
+[[nodiscard]] VolumeSpace n5_space(const N5Attributes& attributes, const N5Array& array,
+                                   const OpenOptions& options);
 
 }  // namespace mw::io

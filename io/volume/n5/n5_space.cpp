@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Collects resolution, unit and offset from where programs put them.
-#include "io/volume/n5/n5_space.h"
+#include "io/volume/n5/n5_array.h"
 
 #include <algorithm>
 #include <optional>

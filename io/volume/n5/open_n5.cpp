@@ -12,7 +12,6 @@
 #include "io/file/errors.h"
 #include "io/json/json.h"
 #include "io/volume/n5/n5_array.h"
-#include "io/volume/n5/n5_space.h"
 
 namespace mw::io {
 namespace {

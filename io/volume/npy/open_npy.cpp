@@ -3,6 +3,7 @@
 // The header of a .npy file, and the volume behind it.
 #include "io/volume/npy/open_npy.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <vector>
@@ -168,5 +169,50 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
                                           ArrayLayout{.offset = offset, .order = header.order});
 }
+
+namespace {
+
+constexpr std::size_t kChunkVoxels = 1 << 16;
+
+}  // namespace
+
+VolumeWriter::VolumeWriter(const std::filesystem::path& path, const VolumeInfo& info,
+                           std::string_view header)
+    : file_(path),
+      name_(path.string()),
+      type_(info.type),
+      expected_(static_cast<std::uint64_t>(info.shape.product())) {
+  file_.append(header);
+}
+
+void VolumeWriter::write(std::span<const RawLabel> labels) {
+  const auto size = static_cast<std::size_t>(byte_size(type_));
+  std::vector<std::byte> bytes(std::min(labels.size(), kChunkVoxels) * size);
+  while (!labels.empty()) {
+    const auto chunk = labels.first(std::min(labels.size(), kChunkVoxels));
+    const std::size_t held = encode_voxels(chunk, type_, bytes);
+    if (held < chunk.size()) {
+      throw Error(ErrorKind::kUsage, text(name_, ": label ", chunk[held], " does not fit into ",
+                                          name(type_), "; choose a wider voxel type"));
+    }
+    file_.append(std::span(bytes).first(chunk.size() * size));
+    written_ += chunk.size();
+    labels = labels.subspan(chunk.size());
+  }
+}
+
+void VolumeWriter::finish() {
+  if (written_ != expected_) {
+    throw Error(ErrorKind::kUsage,
+                text(name_, ": ", written_, " voxels written, the shape has ", expected_));
+  }
+  file_.commit();
+}
+
+NpyWriter::NpyWriter(const std::filesystem::path& path, const VolumeInfo& info)
+    : VolumeWriter(path, info, format_npy_header(info)) {}
+
+RawWriter::RawWriter(const std::filesystem::path& path, const VolumeInfo& info)
+    : VolumeWriter(path, info, {}) {}
 
 }  // namespace mw::io

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The text header of an NRRD volume.
-#include "io/volume/nrrd/nrrd_header.h"
+#include "io/volume/nrrd/open_nrrd.h"
 
 #include <algorithm>
 #include <cctype>

@@ -5,12 +5,10 @@
 
 #include <algorithm>
 
-#include "io/file/errors.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
-#include "io/volume/nrrd/nrrd_header.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {
@@ -24,17 +22,10 @@ NrrdHeader read_header(const ByteSource& source) {
 
 /// The source that holds the voxels, still packed when the encoding is gzip.
 std::unique_ptr<ByteSource> data_source(std::unique_ptr<ByteSource> source,
-                                        const NrrdHeader& header) {
+                                        const NrrdHeader& header, bool is_trusted) {
   if (header.data_file.empty()) return source;
-  const std::filesystem::path path = source->name();
-  const std::filesystem::path data = path.parent_path() / header.data_file;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(data, ignored)) {
-    fail_input(path.string(), "NRRD field 'data file'",
-               text(data.string(), " is missing or not a file"),
-               "put it where the header says, relative to the header");
-  }
-  return std::make_unique<FileSource>(data);
+  return std::make_unique<FileSource>(
+      named_beside(source->name(), "NRRD field 'data file'", header.data_file, is_trusted));
 }
 
 }  // namespace
@@ -47,7 +38,7 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   info.space = placed(file, header.space, options);
   info.names = header.names;
 
-  std::unique_ptr<ByteSource> data = data_source(std::move(source), header);
+  std::unique_ptr<ByteSource> data = data_source(std::move(source), header, options.trust_paths);
   std::uint64_t offset = header.data_file.empty() ? header.bytes : 0;
   if (header.gzip) {
     data = std::make_unique<InflatedSource>(std::move(data), offset);

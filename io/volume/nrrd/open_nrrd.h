@@ -1,12 +1,43 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Opens an NRRD file as a volume.
+// The text header of an NRRD volume, inline or detached.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/file/byte_order.h"
 #include "io/file/source/byte_source.h"
+#include "io/names/header_names.h"
+#include "io/volume/file_space.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {
+
+/// Largest header looked for, bytes.
+inline constexpr std::size_t kMaxNrrdHeaderBytes = 1 << 20;
+
+struct NrrdHeader {
+  VoxelType type = VoxelType::kU8;
+  ByteOrder order = ByteOrder::kLittle;
+  Index3 shape;
+  bool gzip = false;
+  std::int64_t byte_skip = 0;  ///< -1: the voxels are the last bytes of the file
+  std::string data_file;       ///< empty: the voxels follow the header
+  std::size_t bytes = 0;       ///< length of the header with its blank line
+  /// By `space directions`, `space origin` and `space`, else `spacings`.  `space origin` is the
+  /// centre of the first sample whatever the centering (format definition).
+  FileSpace space;
+  LabelNames names;  ///< of the segments of a .seg.nrrd
+};
+
+[[nodiscard]] bool has_nrrd_magic(std::span<const std::byte> head);
+
+/// REQUIRES: head is the beginning of the file, kMaxNrrdHeaderBytes or as much as there is.
+/// ERRORS: mw::Error(kInput) naming file and field.
+[[nodiscard]] NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file);
 
 /// A detached `data file` is looked for relative to the
 /// folder of source.name().  Bytes behind the voxels

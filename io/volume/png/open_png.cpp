@@ -152,7 +152,8 @@ class PngChunks : public ChunkSource {
   [[nodiscard]] std::string name_of(Index3 chunk) const override {
     return files_[static_cast<std::size_t>(chunk.z)].string();
   }
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/) const override {
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/,
+                                          ChunkPlace /*place*/) const override {
     const FileSource file(files_[static_cast<std::size_t>(chunk.z)]);
     if (read_png_header(file) != header_) {
       fail_input(file.name(), "PNG header", "changed while it was read");

@@ -4,22 +4,17 @@
 #include "io/volume/precomputed/open_precomputed.h"
 
 #include <algorithm>
-#include <array>
 
 #include "io/chunks/chunked_volume.h"
 #include "io/codec/codec.h"
 #include "io/file/errors.h"
+#include "io/file/source/inflated_source.h"
 #include "io/json/json.h"
 
 namespace mw::io {
 namespace {
 
 constexpr std::string_view kWayOut = "get a whole copy of the store";
-
-bool begins_as_gzip(const std::vector<std::byte>& bytes) {
-  constexpr std::array kMagic{std::byte{0x1f}, std::byte{0x8b}, std::byte{8}};
-  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
-}
 
 /// A chunk that is there in another packing must not be taken for background.
 void refuse_packed_otherwise(const std::filesystem::path& path) {
@@ -66,56 +61,71 @@ std::uint64_t PrecomputedChunks::max_encoded(Index3 shape) const {
          static_cast<std::uint64_t>(byte_size(scale_.type));
 }
 
-PrecomputedChunks::Bytes PrecomputedChunks::inflated(Bytes packed, Index3 chunk,
-                                                     Index3 shape) const {
-  return unpack(Codec::kGzip, packed, max_encoded(shape), name_of(chunk));
-}
-
 /// Servers give gzipped files under the chunk's name, tools write them with .gz behind it.
-std::optional<PrecomputedChunks::Bytes> PrecomputedChunks::read_file(Index3 chunk,
-                                                                     Index3 shape) const {
+PrecomputedChunks::Stored PrecomputedChunks::find_file(Index3 chunk, std::uint64_t wanted) const {
   const std::filesystem::path path = path_of(chunk);
-  const std::uint64_t wanted = max_encoded(shape);
-  if (const auto file = open_if_there(path)) {
-    Bytes bytes = read_rest(*file, 0, max_packed_bytes(wanted));
-    if (!begins_as_gzip(bytes)) return bytes;
-    if (scale_.block || bytes.size() != wanted) return inflated(std::move(bytes), chunk, shape);
-    // Raw voxels of the right size may begin like gzip: its checksum tells.
-    try {
-      return inflated(bytes, chunk, shape);
-    } catch (const Error&) {
-      return bytes;
-    }
+  if (std::shared_ptr<const ByteSource> file = open_if_there(path)) {
+    const bool gzip = is_gzip(*file);
+    const bool right_size = !scale_.block && file->size() == wanted;
+    return {.bytes = std::move(file), .is_gzip = gzip, .may_be_raw = right_size};
   }
-  if (const auto file = open_if_there(path.string() + ".gz")) {
-    return inflated(read_rest(*file, 0, max_packed_bytes(wanted)), chunk, shape);
+  if (std::shared_ptr<const ByteSource> file = open_if_there(path.string() + ".gz")) {
+    return {.bytes = std::move(file), .is_gzip = true};
   }
   refuse_packed_otherwise(path);
-  return std::nullopt;
+  return {};
 }
 
-std::optional<PrecomputedChunks::Bytes> PrecomputedChunks::read_shard(Index3 chunk,
-                                                                      Index3 shape) const {
-  const std::uint64_t wanted = max_encoded(shape);
+PrecomputedChunks::Stored PrecomputedChunks::find_shard(Index3 chunk, std::uint64_t wanted) const {
   const bool packed = scale_.sharding->packed_data;
-  auto bytes = shards_->read(morton_code(chunk, grid_), packed ? max_packed_bytes(wanted) : wanted);
-  if (bytes && packed) return inflated(std::move(*bytes), chunk, shape);
-  return bytes;
+  return {.bytes = shards_->find(morton_code(chunk, grid_), name_of(chunk),
+                                 packed ? max_packed_bytes(wanted) : wanted),
+          .is_gzip = packed};
 }
 
-std::optional<Chunk> PrecomputedChunks::load(Index3 chunk, const Box3& box) const {
+/// Without its packing.
+Chunk PrecomputedChunks::read(const Stored& stored, std::uint64_t wanted, ChunkPlace place) const {
+  if (stored.is_gzip && stored.may_be_raw) {
+    // Raw voxels of the right size may begin like gzip: its checksum tells.
+    try {
+      return read({.bytes = stored.bytes, .is_gzip = true}, wanted, place);
+    } catch (const Error&) {
+      return read({.bytes = stored.bytes}, wanted, place);
+    }
+  }
+  const Codec codec = stored.is_gzip ? Codec::kGzip : Codec::kNone;
+  Chunk out{.bytes = {}, .strides = {}};
+  if (place == ChunkPlace::kFile) {
+    out.file = unpack_to_file(codec, stored.bytes, wanted);
+  } else {
+    out.bytes = read_rest(*stored.bytes, 0, max_packed_bytes(wanted));
+    if (stored.is_gzip) out.bytes = unpack(codec, out.bytes, wanted, stored.bytes->name());
+  }
+  return out;
+}
+
+std::optional<Chunk> PrecomputedChunks::load(Index3 chunk, const Box3& box,
+                                             ChunkPlace place) const {
   const Index3 shape = box.shape();
-  std::optional<Bytes> bytes = shards_ ? read_shard(chunk, shape) : read_file(chunk, shape);
-  if (!bytes) return std::nullopt;
+  const std::uint64_t wanted = max_encoded(shape);
+  const Stored stored = shards_ ? find_shard(chunk, wanted) : find_file(chunk, wanted);
+  if (!stored.bytes) return std::nullopt;
+  Chunk out = read(stored, wanted, streaming_bytes() ? place : ChunkPlace::kMemory);
   if (scale_.block) {
-    bytes = unpack_segmentation(*bytes, layout_of(shape), name_of(chunk));
-  } else if (bytes->size() != max_encoded(shape)) {
+    out.bytes = unpack_segmentation(out.bytes, layout_of(shape), name_of(chunk));
+  } else if (out.size() != wanted) {
     fail_input(name_of(chunk), {},
-               text(bytes->size(), " bytes, and its ", shape.x, " x ", shape.y, " x ", shape.z,
-                    " voxels of ", mw::io::name(scale_.type), " are ", max_encoded(shape)),
+               text(out.size(), " bytes, and its ", shape.x, " x ", shape.y, " x ", shape.z,
+                    " voxels of ", mw::io::name(scale_.type), " are ", wanted),
                kWayOut);
   }
-  return Chunk{.bytes = std::move(*bytes), .strides = {1, shape.x, shape.x * shape.y}};
+  out.strides = {1, shape.x, shape.x * shape.y};
+  return out;
+}
+
+std::optional<std::uint64_t> PrecomputedChunks::streaming_bytes() const {
+  if (scale_.block) return std::nullopt;
+  return *max_streamed(Codec::kGzip) + (shards_ ? shards_->scratch_bytes() : 0);
 }
 
 std::uint64_t PrecomputedChunks::scratch_bytes() const {
@@ -126,29 +136,12 @@ std::uint64_t PrecomputedChunks::scratch_bytes() const {
 
 namespace {
 
-/// Keys may lead to folders beside that of `info` ("../8_8_8"), by the format's rules, but no
-/// further.
-bool stays_in_store(const std::filesystem::path& key) {
-  if (key.is_absolute() || key.native().find('\0') != std::string::npos) return false;
-  int depth = 0;
-  for (const std::filesystem::path& part : key) {
-    if (part == "..") --depth;
-    if (part != ".." && part != "." && !part.empty()) ++depth;
-    if (depth < -1) return false;
-  }
-  return true;
-}
-
-std::filesystem::path folder_of(const std::filesystem::path& root, const PrecomputedScale& scale) {
-  const std::string info = (root / "info").string();
-  if (!stays_in_store(scale.key)) {
-    fail_input(info, scale.key_field, "the key leads out of the store",
-               "the file is damaged or not sound");
-  }
-  std::filesystem::path folder = root / scale.key;
+std::filesystem::path folder_of(const std::filesystem::path& info, const PrecomputedScale& scale,
+                                bool is_trusted) {
+  std::filesystem::path folder = named_path(info, scale.key_field, scale.key, is_trusted);
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored)) {
-    fail_input(info, scale.key_field,
+    fail_input(info.string(), scale.key_field,
                text("the folder of the chunks, ", folder.string(), ", is missing"),
                "get a whole copy of the store, or choose a scale that is there with --scale");
   }
@@ -172,7 +165,8 @@ std::unique_ptr<LabelVolume> open_precomputed(const std::filesystem::path& folde
                   .format = "precomputed",
                   .chunk = scale.chunk};
   const VoxelCoding coding{.type = scale.type, .order = ByteOrder::kLittle};
-  auto chunks = std::make_unique<PrecomputedChunks>(folder_of(folder, scale), std::move(scale));
+  auto chunks = std::make_unique<PrecomputedChunks>(folder_of(path, scale, options.trust_paths),
+                                                    std::move(scale));
   return std::make_unique<ChunkedVolume>(std::move(info), coding, 0, std::move(chunks),
                                          options.cache_bytes);
 }

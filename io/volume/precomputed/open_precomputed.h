@@ -1,20 +1,44 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Opens a Neuroglancer precomputed volume.
+// One scale of a precomputed volume, from its `info` file.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/chunks/chunk.h"
+#include "io/json/json.h"
 #include "io/volume/open_options.h"
-#include "io/volume/precomputed/precomputed_info.h"
+#include "io/volume/precomputed/compressed_segmentation.h"
 #include "io/volume/precomputed/sharding.h"
 
 namespace mw::io {
+
+/// Sizes in voxels.
+struct PrecomputedScale {
+  std::string key;        ///< folder of the chunks, relative to that of `info`
+  std::string key_field;  ///< what errors call it: "scales[0].key"
+  VoxelType type = VoxelType::kU8;
+  Index3 shape;
+  Index3 offset;  ///< of the first voxel in the names of chunks
+  Index3 chunk;   ///< not beyond the shape
+  VolumeSpace space;
+  std::optional<Index3> block;       ///< of compressed_segmentation; empty: raw
+  std::optional<Sharding> sharding;  ///< empty: a file for each chunk
+};
+
+/// The scale that the options ask for: by its key (dataset), by its number (scale), or the first.
+/// Checks all numbers, and bounds what chunks may take.
+/// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such scale.
+[[nodiscard]] PrecomputedScale parse_precomputed_info(const Json& info, std::string_view file,
+                                                      const OpenOptions& options);
+
+/// Chunks along each axis.
+[[nodiscard]] Index3 chunk_grid(const PrecomputedScale& scale);
 
 class PrecomputedChunks : public ChunkSource {
  public:
@@ -23,18 +47,26 @@ class PrecomputedChunks : public ChunkSource {
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override;
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box) const override;
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
+                                          ChunkPlace place) const override;
   [[nodiscard]] std::uint64_t scratch_bytes() const override;
+  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override;
 
  private:
   using Bytes = std::vector<std::byte>;
+  /// A chunk as the store has it.
+  struct Stored {
+    std::shared_ptr<const ByteSource> bytes;
+    bool is_gzip = false;
+    bool may_be_raw = false;  ///< though it begins like gzip
+  };
 
   [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;
   [[nodiscard]] SegmentationLayout layout_of(Index3 shape) const;
   [[nodiscard]] std::uint64_t max_encoded(Index3 shape) const;
-  [[nodiscard]] std::optional<Bytes> read_file(Index3 chunk, Index3 shape) const;
-  [[nodiscard]] std::optional<Bytes> read_shard(Index3 chunk, Index3 shape) const;
-  [[nodiscard]] Bytes inflated(Bytes packed, Index3 chunk, Index3 shape) const;
+  [[nodiscard]] Stored find_file(Index3 chunk, std::uint64_t wanted) const;
+  [[nodiscard]] Stored find_shard(Index3 chunk, std::uint64_t wanted) const;
+  [[nodiscard]] Chunk read(const Stored& stored, std::uint64_t wanted, ChunkPlace place) const;
 
   std::filesystem::path folder_;
   PrecomputedScale scale_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads and checks a scale of `info` (neuroglancer's "precomputed" format, volumes).
-#include "io/volume/precomputed/precomputed_info.h"
+#include "io/volume/precomputed/open_precomputed.h"
 
 #include <algorithm>
 #include <cctype>

@@ -186,22 +186,25 @@ std::filesystem::path ShardFolder::path_of(std::uint64_t chunk) const {
   return folder_ / shard_file_name(sharding_, position_of(sharding_, chunk).shard);
 }
 
-std::optional<std::vector<std::byte>> ShardFolder::read(std::uint64_t chunk,
-                                                        std::uint64_t max) const {
+std::shared_ptr<const ByteSource> ShardFolder::find(std::uint64_t chunk, std::string name,
+                                                    std::uint64_t max) const {
   const ShardPosition position = position_of(sharding_, chunk);
   const std::filesystem::path path = path_of(chunk);
   const std::uint64_t number =
       position.shard << static_cast<unsigned>(sharding_.minishard_bits) | position.minishard;
   const auto index = indices_.get(number, [&] { return load_index(path, position.minishard); });
-  if (!index) return std::nullopt;
+  if (!index) return nullptr;
   const auto entry = entry_of(*index, chunk);
-  if (!entry) return std::nullopt;
+  if (!entry) return nullptr;
   if (entry->size > max) {
     fail_input(path.string(), text("chunk ", chunk),
                text("the chunk has ", entry->size, " bytes, and its voxels need at most ", max),
                "get a whole copy of the store");
   }
-  return read_part(FileSource(path), shard_index_bytes(sharding_) + entry->offset, entry->size);
+  // The index was compared with the file's size when it was read.
+  return std::make_shared<BytesPart>(std::make_shared<FileSource>(path),
+                                     shard_index_bytes(sharding_) + entry->offset, entry->size,
+                                     std::move(name));
 }
 
 std::optional<Chunk> ShardFolder::load_index(const std::filesystem::path& path,

@@ -73,14 +73,14 @@ class ShardFolder {
  public:
   ShardFolder(std::filesystem::path folder, const Sharding& sharding, Index3 grid);
 
-  /// The chunk's bytes as the shard has them, maybe gzipped; empty: there is no such chunk.
-  /// most: the most bytes that they may be.
+  /// The chunk's bytes as the shard has them, maybe gzipped; null: there is no such chunk.
+  /// name: what errors call them; max: the most that they may be.
   /// ERRORS: mw::Error(kInput) naming the shard when it is damaged, or the chunk is larger.
-  [[nodiscard]] std::optional<std::vector<std::byte>> read(std::uint64_t chunk,
-                                                           std::uint64_t max) const;
+  [[nodiscard]] std::shared_ptr<const ByteSource> find(std::uint64_t chunk, std::string name,
+                                                       std::uint64_t max) const;
   /// The shard that a chunk is in, if it is there.
   [[nodiscard]] std::filesystem::path path_of(std::uint64_t chunk) const;
-  /// The most that read() takes in memory beside what it returns, indices that are kept included.
+  /// The most that find() takes in memory, indices that are kept included.
   [[nodiscard]] std::uint64_t scratch_bytes() const;
 
  private:

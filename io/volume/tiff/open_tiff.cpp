@@ -113,6 +113,10 @@ void read_sizes(pugi::xml_node pixels, TiffDescription& out) {
   }
   const auto unknown = [](double x) { return std::isnan(x); };
   if (std::all_of(out.spacing.begin(), out.spacing.end(), unknown)) out.spacing = {1, 1, 1};
+  if (!unknown(out.spacing[0]) && unknown(out.spacing[1]) && unknown(out.spacing[2])) {
+    out.spacing = {out.spacing[0], out.spacing[0], out.spacing[0]};
+    out.note = "OME-XML has PhysicalSizeX alone: voxels are taken to be as wide in y and z";
+  }
   // One slice is as thick as its pixels are wide.
   if (out.slices == 1 && unknown(out.spacing[2])) out.spacing[2] = out.spacing[0];
 }
@@ -157,6 +161,7 @@ VolumeInfo info_of(const TiffStack& stack, const TiffDescription& said,
   FileSpace space{.unit = said.unit, .steps_field = "voxel size in ImageDescription"};
   space.steps = steps_of(said.spacing);
   info.space = placed(stack.name(), space, options);
+  if (!options.spacing && !said.note.empty()) info.note = text(stack.name(), ": ", said.note);
   return info;
 }
 
@@ -204,20 +209,6 @@ std::unique_ptr<LabelVolume> open_one_page(std::unique_ptr<ByteSource> source,
       ArrayLayout{.offset = offset, .order = big ? ByteOrder::kBig : ByteOrder::kLittle});
 }
 
-/// A ByteSource that others own too.
-class SharedSource : public ByteSource {
- public:
-  explicit SharedSource(std::shared_ptr<const ByteSource> source) : source_(std::move(source)) {}
-  [[nodiscard]] std::uint64_t size() const override { return source_->size(); }
-  [[nodiscard]] const std::string& name() const override { return source_->name(); }
-  void read_at(std::uint64_t offset, std::span<std::byte> out) const override {
-    source_->read_at(offset, out);
-  }
-
- private:
-  std::shared_ptr<const ByteSource> source_;
-};
-
 }  // namespace
 
 bool has_tiff_magic(std::span<const std::byte> head) {
@@ -237,7 +228,8 @@ std::unique_ptr<LabelVolume> open_tiff(std::unique_ptr<ByteSource> source,
   VolumeInfo info = info_of(*stack, said, options);
   const std::int64_t slices = said.slices.value_or(stack->slices());
   if (said.is_imagej && stack->slices() == 1 && slices > 1) {
-    return open_one_page(std::make_unique<SharedSource>(file), *stack, std::move(info), slices);
+    return open_one_page(std::make_unique<BytesPart>(file, 0, file->size(), file->name()), *stack,
+                         std::move(info), slices);
   }
   if (slices != stack->slices()) {
     fail_input(file->name(), "ImageDescription",

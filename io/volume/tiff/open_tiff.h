@@ -23,6 +23,7 @@ struct TiffDescription {
   std::string unit;                    ///< "um", "nm" and so on; empty: unknown
   std::optional<std::int64_t> slices;  ///< how many there are
   bool is_imagej = false;
+  std::string note;  ///< what was taken for what it leaves open
 };
 
 /// resolution: XResolution and YResolution, pixels a unit; ImageJ keeps x and y there.  That of

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // A page of a TIFF file, by libtiff.
-#include "io/volume/tiff/tiff_page.h"
+#include "io/volume/tiff/tiff_stack.h"
 
 #include <algorithm>
 #include <array>

@@ -175,7 +175,7 @@ std::string TiffChunks::name_of(Index3 chunk) const {
   return text(stack_->name_of(chunk.z), ": chunk (", chunk.x, ", ", chunk.y, ")");
 }
 
-std::optional<Chunk> TiffChunks::load(Index3 chunk, const Box3& box) const {
+std::optional<Chunk> TiffChunks::load(Index3 chunk, const Box3& box, ChunkPlace /*place*/) const {
   const TiffStack::Lease lease(*stack_, chunk.z);
   const TiffPage page = read_tiff_page(*lease, "page");
   if (!page.is_like(stack_->first())) (*lease).fail("page", "changed while it was read");

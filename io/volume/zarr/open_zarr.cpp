@@ -9,7 +9,7 @@
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
 #include "io/volume/zarr/multiscale.h"
-#include "io/volume/zarr/zarr_chunks.h"
+#include "io/volume/zarr/zarr_array.h"
 #include "io/volume/zarr/zarr_metadata.h"
 #include "io/volume/zarr/zarr_node.h"
 

@@ -74,23 +74,81 @@ void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name) {
   if (crc32c(bytes) != sum) fail_packed(named, "damaged: the checksum is wrong");
 }
 
+namespace {
+
+/// What the step may give: the voxels, or what another packed.
+std::uint64_t max_of_step(const ZarrArray& array, std::size_t step) {
+  const std::uint64_t size = chunk_bytes(array);
+  return step == 0 ? size : max_packed_bytes(size);
+}
+
+Chunk checked(const ZarrArray& array, const AxisMap& axes, Chunk chunk, std::string_view name) {
+  const std::uint64_t size = chunk_bytes(array);
+  if (chunk.size() != size) {
+    fail_input(name, {}, text("has ", chunk.size(), " bytes of voxels, and the chunk needs ", size),
+               "get a whole copy of the store");
+  }
+  chunk.strides = axes.pick(strides_of(array.chunk), 0);
+  return chunk;
+}
+
+/// strip_crc32c() of a source.
+std::shared_ptr<const ByteSource> without_crc32c(std::shared_ptr<const ByteSource> bytes) {
+  constexpr std::uint64_t kPiece = 1 << 20;
+  const PackedName named{"crc32c", bytes->name()};
+  if (bytes->size() < 4) fail_packed(named, "truncated: no whole checksum");
+  const std::uint64_t end = bytes->size() - 4;
+  std::uint32_t sum = 0;
+  std::vector<std::byte> piece;
+  for (std::uint64_t at = 0; at < end; at += piece.size()) {
+    piece.resize(std::min(kPiece, end - at));
+    bytes->read_at(at, piece);
+    sum = crc32c(piece, sum);
+  }
+  piece.resize(4);
+  bytes->read_at(end, piece);
+  if (load<std::uint32_t>(piece.data(), ByteOrder::kLittle) != sum) {
+    fail_packed(named, "damaged: the checksum is wrong");
+  }
+  return std::make_shared<BytesPart>(bytes, 0, end, bytes->name());
+}
+
+}  // namespace
+
 Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes, std::vector<std::byte> packed,
                    std::string_view name) {
-  const std::uint64_t size = chunk_bytes(array);
   const std::vector<PackStep>& steps = array.chunk.steps;
   for (std::size_t i = steps.size(); i-- > 0;) {
     if (steps[i].is_crc32c) {
       strip_crc32c(packed, name);
     } else {
-      packed = unpack(steps[i].codec, packed, i == 0 ? size : max_packed_bytes(size), name);
+      packed = unpack(steps[i].codec, packed, max_of_step(array, i), name);
     }
   }
-  if (packed.size() != size) {
-    fail_input(name, {},
-               text("has ", packed.size(), " bytes of voxels, and the chunk needs ", size),
-               "get a whole copy of the store");
+  return checked(array, axes, {.bytes = std::move(packed), .strides = {}}, name);
+}
+
+Chunk unpack_chunk_to_file(const ZarrArray& array, const AxisMap& axes,
+                           std::shared_ptr<const ByteSource> packed) {
+  const std::vector<PackStep>& steps = array.chunk.steps;
+  const std::string name = packed->name();
+  for (std::size_t i = steps.size(); i-- > 0;) {
+    packed = steps[i].is_crc32c
+                 ? without_crc32c(std::move(packed))
+                 : unpack_to_file(steps[i].codec, std::move(packed), max_of_step(array, i));
   }
-  return {.bytes = std::move(packed), .strides = axes.pick(strides_of(array.chunk), 0)};
+  return checked(array, axes, {.bytes = {}, .file = std::move(packed), .strides = {}}, name);
+}
+
+std::optional<std::uint64_t> unpack_streaming(const ZarrArray& array) {
+  std::uint64_t most = *max_streamed(Codec::kNone);
+  for (const PackStep& step : array.chunk.steps) {
+    if (step.is_crc32c) continue;
+    const auto bytes = max_streamed(step.codec);
+    if (!bytes) return std::nullopt;
+    most = std::max(most, *bytes);
+  }
+  return most;
 }
 
 std::uint64_t max_packed(const ZarrArray& array) {

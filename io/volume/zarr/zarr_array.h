@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,6 +83,10 @@ void check_chunk(std::string_view file, std::string_view field,
 [[nodiscard]] Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes,
                                  std::vector<std::byte> packed, std::string_view name);
 
+/// The same to a file without a name, piece by piece.  REQUIRES: unpack_streaming() is something.
+[[nodiscard]] Chunk unpack_chunk_to_file(const ZarrArray& array, const AxisMap& axes,
+                                         std::shared_ptr<const ByteSource> packed);
+
 /// The bytes in front of the CRC-32C that ends them.
 /// ERRORS: mw::Error(kInput) naming `name` when it is another.
 void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
@@ -90,5 +96,13 @@ void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
 /// The most that reading and unpacking a chunk takes beside its voxels that are in the volume: axes
 /// of one entry may have chunks of more.
 [[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes);
+/// The most that unpack_chunk_to_file() takes; nothing when a codec cannot.
+[[nodiscard]] std::optional<std::uint64_t> unpack_streaming(const ZarrArray& array);
+
+/// A missing file, and a chunk that a shard does not have, are fill values: an error when those are
+/// no labels.  An index of a shard is read once and kept with the last used others.
+/// REQUIRES: the array is checked, and axes are its.
+[[nodiscard]] std::unique_ptr<ChunkSource> zarr_chunks(const std::filesystem::path& folder,
+                                                       const ZarrArray& array, const AxisMap& axes);
 
 }  // namespace mw::io

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Finds chunks of a Zarr array in files and in shards, and reads them.
-#include "io/volume/zarr/zarr_chunks.h"
-
 #include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
 
+#include "io/chunks/chunked_volume.h"
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
+#include "io/volume/zarr/multiscale.h"
 #include "io/volume/zarr/zarr_array.h"
 
 namespace mw::io {
@@ -32,7 +35,34 @@ std::uint64_t number_of(Index3 shard) {
   return static_cast<std::uint64_t>(Box3{{0, 0, 0}, kAll}.offset(shard));
 }
 
-}  // namespace
+/// Bytes of a shard's file.  Not compared to the size of the file.
+struct ShardRange {
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// Reads the indices of shards, and keeps those used last.  Thread safety: any.
+class ShardIndices {
+ public:
+  explicit ShardIndices(ShardCoding coding);
+
+  /// shard: its number along x, y and z; path: its file; chunk: its number in the shard along each
+  /// axis of the array.
+  /// ENSURES: empty when there is no such file, or no such chunk in it.
+  /// ERRORS: mw::Error(kInput) naming the file when its index is damaged.
+  [[nodiscard]] std::optional<ShardRange> find(Index3 shard, const std::filesystem::path& path,
+                                               const std::vector<std::int64_t>& chunk) const;
+  /// The most that is kept.
+  [[nodiscard]] std::uint64_t max_bytes() const;
+
+ private:
+  [[nodiscard]] std::uint64_t index_bytes() const;  ///< with the checksum
+  [[nodiscard]] std::optional<Chunk> read(const std::filesystem::path& path) const;
+  [[nodiscard]] std::uint64_t offset_of(const std::vector<std::int64_t>& chunk) const;
+
+  ShardCoding coding_;
+  mutable ChunkCache kept_;
+};
 
 ShardIndices::ShardIndices(ShardCoding coding)
     : coding_(std::move(coding)), kept_(kept_bytes(index_bytes())) {}
@@ -81,8 +111,6 @@ std::optional<ShardRange> ShardIndices::find(Index3 shard, const std::filesystem
   return range;
 }
 
-namespace {
-
 /// What both kinds of files share.
 class ZarrChunks : public ChunkSource {
  public:
@@ -90,8 +118,14 @@ class ZarrChunks : public ChunkSource {
       : folder_(std::move(folder)), array_(std::move(array)), axes_(axes) {}
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
+  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override {
+    return unpack_streaming(array_);
+  }
 
  protected:
+  [[nodiscard]] bool is_streamed(ChunkPlace place) const {
+    return place == ChunkPlace::kFile && streaming_bytes();
+  }
   [[nodiscard]] const ZarrArray& array() const { return array_; }
   [[nodiscard]] const AxisMap& axes() const { return axes_; }
 
@@ -124,9 +158,11 @@ class ChunkFiles : public ZarrChunks {
   using ZarrChunks::ZarrChunks;
 
   [[nodiscard]] std::string name_of(Index3 chunk) const override { return path_of(chunk).string(); }
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/) const override {
-    const auto file = open_if_there(path_of(chunk));
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/,
+                                          ChunkPlace place) const override {
+    std::shared_ptr<const ByteSource> file = open_if_there(path_of(chunk));
     if (!file) return fill_of(chunk);
+    if (is_streamed(place)) return unpack_chunk_to_file(array(), axes(), std::move(file));
     return unpack_chunk(array(), axes(), read_rest(*file, 0, max_packed(array())), file->name());
   }
   [[nodiscard]] std::uint64_t scratch_bytes() const override {
@@ -146,13 +182,21 @@ class ShardFiles : public ZarrChunks {
     return text(path_of(shard_of(chunk)).string(), ": chunk (", inside.x, ", ", inside.y, ", ",
                 inside.z, ") of the shard");
   }
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/) const override {
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/,
+                                          ChunkPlace place) const override {
     const Index3 shard = shard_of(chunk);
     const std::filesystem::path path = path_of(shard);
     const auto inside = axes().spread(chunk_in_shard(chunk), array().shape.size());
     const auto range = indices_.find(shard, path, inside);
     if (!range) return fill_of(chunk);
-    return unpack_chunk(array(), axes(), read_range(path, *range, chunk), name_of(chunk));
+    const auto packed = part_of(path, *range, chunk);
+    if (is_streamed(place)) return unpack_chunk_to_file(array(), axes(), packed);
+    return unpack_chunk(array(), axes(), read_rest(*packed, 0, max_packed(array())),
+                        packed->name());
+  }
+  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override {
+    const auto chunk = ZarrChunks::streaming_bytes();
+    return chunk ? std::optional(*chunk + indices_.max_bytes()) : std::nullopt;
   }
   [[nodiscard]] std::uint64_t scratch_bytes() const override {
     return unpack_scratch(array(), axes()) + indices_.max_bytes();
@@ -165,19 +209,19 @@ class ShardFiles : public ZarrChunks {
   [[nodiscard]] Index3 chunk_in_shard(Index3 chunk) const {
     return {chunk.x % chunks_.x, chunk.y % chunks_.y, chunk.z % chunks_.z};
   }
-  [[nodiscard]] std::vector<std::byte> read_range(const std::filesystem::path& path,
-                                                  const ShardRange& range, Index3 chunk) const {
-    const FileSource file(path);
-    const bool is_inside = range.offset <= file.size() && range.bytes <= file.size() - range.offset;
+  [[nodiscard]] std::shared_ptr<const ByteSource> part_of(const std::filesystem::path& path,
+                                                          const ShardRange& range,
+                                                          Index3 chunk) const {
+    const auto file = std::make_shared<FileSource>(path);
+    const bool is_inside =
+        range.offset <= file->size() && range.bytes <= file->size() - range.offset;
     if (!is_inside || range.bytes > max_packed(array())) {
       fail_input(name_of(chunk), "shard index",
                  text("places it at ", range.offset, " with ", range.bytes, " bytes; the file has ",
-                      file.size(), " and a chunk at most ", max_packed(array())),
+                      file->size(), " and a chunk at most ", max_packed(array())),
                  "get a whole copy of the store");
     }
-    std::vector<std::byte> packed(range.bytes);
-    file.read_at(range.offset, packed);
-    return packed;
+    return std::make_shared<BytesPart>(file, range.offset, range.bytes, name_of(chunk));
   }
 
   Index3 chunks_;  ///< of a shard

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The metadata of a Zarr array of version 3.
-#include "io/volume/zarr/zarr_v3.h"
+#include "io/volume/zarr/zarr_metadata.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 
 #include "io/chunks/chunk.h"
 #include "io/file/errors.h"
-#include "io/volume/zarr/zarr_metadata.h"
 
 namespace mw::io {
 

@@ -92,7 +92,9 @@ bool CellLevels::is_uniform(Index3 cell, int level) const {
 }
 
 bool CellLevels::is_small(Index3 cell, int level) const {
-  return sizes_ == nullptr || sizes_->allows_cell(voxels_of(cell, level).lo, level);
+  if (sizes_ == nullptr) return true;
+  const Index3 lo = voxels_of(cell, level).lo;
+  return sizes_->allows_cell(lo, level, labels_.at(lo));
 }
 
 bool CellLevels::finer_allowed(Index3 cell, int level) const {

@@ -150,6 +150,7 @@ TEST_F(NamesTest, StandForLabelsInOptions) {
   same("--labels Twin", "--labels 5");
   same("--background spleen", "--background 2");
   same("--size liver=4,2=5", "--size 1=4,2=5");
+  same("--size 'liver|spleen=3,4th=4,*=5'", "--size '1|2=3,4=4,*=5'");
   same("--merge 'liver,2=seven;4th=5'", "--merge '1,2=7;4=5'");
   write("run.toml", "labels = \"liver,spleen\"\n");
   same("--config run.toml", "--labels 1,2");

@@ -71,12 +71,17 @@ class Sizes(unittest.TestCase):
         rows = {row["label"]: row for row in self.report["shape"]["per_label"]}
         for label, limit in limits.items():
             longest = mesh.longest(label)
-            self.assertLessEqual(longest, limit * (1 + 1e-9))
-            self.assertGreater(longest, 0.7 * limit)
+            self.assertLessEqual(longest, 1.25 * limit * (1 + 1e-9))
+            self.assertGreater(longest, 0.9 * limit)
             self.assertEqual(rows[label]["size"], limit)
             self.assertAlmostEqual(rows[label]["longest_edge"], longest, places=12)
+        ratios = self.report["size"]["edges_over_size"]
+        self.assertEqual(len(ratios["counts"]), len(ratios["bounds"]) + 1)
+        tets = sum((mesh.labels == label).sum() for label in limits)
+        self.assertEqual(sum(ratios["counts"]), 6 * tets)
+        self.assertEqual(sum(ratios["counts"][-2:]), 0)  # above 1.25
         plain = self.mesh("p.vtu")
-        self.assertTrue(all(plain.longest(label) > limit for label, limit in limits.items()))
+        self.assertTrue(all(plain.longest(label) > 1.25 * limit for label, limit in limits.items()))
         self.assertTrue(all("size" not in row for row in self.report["shape"]["per_label"]))
 
     def test_inner_vertices_are_added_where_asked(self):
@@ -87,6 +92,58 @@ class Sizes(unittest.TestCase):
         label = self.labels[2]
         one = self.mesh("o.vtu", "--inner-vertices", "--size", f"{label}=2.5")
         self.assertLess(one.lacking()[one.labels == label].mean(), 0.1)
+
+    def test_one_size_and_a_star_are_for_all_labels(self):
+        every = self.mesh("e.vtu", "--size", "2.5")
+        self.assertTrue(all(every.longest(label) <= 3.125 + 1e-9 for label in self.labels))
+        label = self.labels[2]
+        mesh = self.mesh("s.vtu", "--size", f"{label}=1.5,*=3")
+        self.assertLessEqual(mesh.longest(label), 1.875 + 1e-9)
+        rows = {row["label"]: row["size"] for row in self.report["shape"]["per_label"]}
+        self.assertEqual(rows, {other: 1.5 if other == label else 3 for other in self.labels})
+
+    def test_most_edges_have_the_size_that_was_asked(self):
+        z, y, x = np.mgrid[:32, :32, :32] + 0.5
+        ball = (x - 16) ** 2 + (y - 16) ** 2 + (z - 16) ** 2 < 100
+        np.save("b.npy", np.where(ball, 2, 1).astype(np.uint8))
+        counts = []
+        for size in (3, 4, 5, 6):
+            run("mesh", "b.npy", "-o", "b.vtu", "--size", f"2={size}")
+            mesh = Mesh("b.vtu")
+            tets = mesh.tets[mesh.labels == 2]
+            edges = np.unique(np.sort(np.concatenate([tets[:, p] for p in PAIRS])), axis=0)
+            lengths = np.linalg.norm(mesh.points[edges[:, 0]] - mesh.points[edges[:, 1]], axis=1)
+            self.assertGreater(((lengths > 0.6 * size) & (lengths < 1.5 * size)).mean(), 0.9, size)
+            counts.append(len(tets))
+        self.assertEqual(counts, sorted(counts, reverse=True))
+
+    def test_interfaces_have_sizes_of_their_own(self):
+        z, y, x = np.mgrid[:32, :32, :32]
+        np.save("i.npy", np.where(x < 8, 1, np.where(x < 24, 2, 3)).astype(np.uint8))
+        run("mesh", "i.npy", "-o", "i.vtu", "--size", "2|3=2.5", "--gradation", "1")
+        mesh = Mesh("i.vtu")
+        middles = mesh.points[mesh.tets].mean(1)[:, 0]
+        self.assertGreater((abs(middles - 24) < 4).sum(), 5 * (abs(middles - 8) < 4).sum())
+
+    def test_an_image_has_the_size_at_each_voxel(self):
+        z, y, x = np.mgrid[:32, :32, :32]
+        np.save("l.npy", np.where(y < 16, 1, 2).astype(np.uint8))
+        sizes = np.where(x < 16, 2.5, 12).astype(np.float32)
+        sizes[z > 29] = np.nan
+        np.save("h.npy", sizes)
+        digests = set()
+        for threads in "1", "2":
+            run("mesh", "l.npy", "-o", "l.vtu", "--size", "h.npy", "--gradation", "1",
+                "--threads", threads)
+            digests.add(run("digest", "l.vtu"))
+        self.assertEqual(len(digests), 1)
+        mesh = Mesh("l.vtu")
+        middles = mesh.points[mesh.tets].mean(1)[:, 0]
+        self.assertGreater((middles < 16).sum(), 5 * (middles > 16).sum())
+        np.save("h.npy", sizes[:-1])
+        done = start("mesh", "l.npy", "-o", "l.vtu", "--size", "h.npy")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("h.npy: has 32 x 32 x 31 voxels", done.stderr)
 
     def test_threads_and_resume_change_nothing(self):
         options = ("--size", f"{self.labels[1]}=2", "--inner-vertices")
@@ -103,8 +160,8 @@ class Sizes(unittest.TestCase):
     def test_errors_name_what_is_wrong(self):
         label = self.labels[1]
         self.refused(2, "no label 4711", "--size", "4711=3")
-        self.refused(2, "can be kept", "--size", f"{label}=1.5")
-        self.refused(2, "expected LABEL=H", "--size", f"{label}:3")
+        self.refused(2, "can be kept", "--size", f"{label}=1.3")
+        self.refused(2, "expected H, LABEL=H", "--size", f"{label}:3")
         self.refused(2, "must be positive", "--size", f"{label}=-3")
         self.refused(2, "two sizes", "--size", f"{label}=3,{label}=3")
         self.refused(2, "nothing to grade", "--gradation", "0.3")

@@ -39,6 +39,13 @@ TEST_F(UsageTest, HelpIsOneLineAnOption) {
   }
 }
 
+TEST_F(UsageTest, UsageNamesWhatIsRequired) {
+  const std::string synth = run("synth --help").out;
+  EXPECT_NE(synth.find("synth KIND --shape X,Y,Z --count N --seed S -o OUTPUT"), std::string::npos)
+      << synth;
+  EXPECT_EQ(run("stats --help").out, run("info --help").out);
+}
+
 TEST_F(UsageTest, HelpOfMeshIsShort) {
   const std::vector<std::string> lines = lines_of(run("mesh --help").out);
   EXPECT_LE(lines.size(), 45U);

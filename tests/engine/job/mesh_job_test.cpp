@@ -39,7 +39,9 @@ std::string said(const audit::test::SmallVolume& before, const audit::test::Smal
   const MemoryVolume second(after, {});
   const auto voxels = static_cast<double>(before.shape.product());
   const ChangingVolume volume(first, second, static_cast<std::int64_t>(readings * voxels));
-  MeshJob job{.steps = steps, .folder = folder.path()};
+  MeshJob job;
+  job.steps = steps;
+  job.folder = folder.path();
   job.run.threads = 2;
   job.run.store.memory = std::uint64_t{1} << 30U;
   MemorySink sink;

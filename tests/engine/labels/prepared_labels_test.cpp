@@ -101,7 +101,7 @@ MeshSettings settings_of(int i) {
   MeshSettings settings{.start = kStarts[static_cast<std::size_t>(i) % 3]};
   if (i % 4 == 1) settings.max_distance.reset();
   if (i % 5 == 2) settings.topology = KeptTopology::kInterfaces;
-  if (i % 7 == 3) settings.sizes.labels = {{test::raw_label(0), 4.0}};
+  if (i % 7 == 3) settings.sizes.rules.labels = {{test::raw_label(0), 4.0}};
   return settings;
 }
 

@@ -50,8 +50,8 @@ TEST(SettingTable, LeavesOutNoField) {
   const MeshSettings defaults;
   const auto& [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a_sizes, a13] = changed;
   const auto& [b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b_sizes, b13] = defaults;
-  const auto& [a_labels, a_gradation, a_inner_vertices] = a_sizes;
-  const auto& [b_labels, b_gradation, b_inner_vertices] = b_sizes;
+  const auto& [a_rules, a_gradation, a_inner_vertices] = a_sizes;
+  const auto& [b_rules, b_gradation, b_inner_vertices] = b_sizes;
   EXPECT_NE(a0, b0);
   EXPECT_NE(a1, b1);
   EXPECT_NE(a2, b2);
@@ -65,7 +65,7 @@ TEST(SettingTable, LeavesOutNoField) {
   EXPECT_NE(a10, b10);
   EXPECT_NE(a11, b11);
   EXPECT_NE(a13, b13);
-  EXPECT_NE(a_labels, b_labels);
+  EXPECT_NE(a_rules, b_rules);
   EXPECT_NE(a_gradation, b_gradation);
   EXPECT_NE(a_inner_vertices, b_inner_vertices);
 }
@@ -157,10 +157,16 @@ TEST(SettingTable, CheckNamesSettingValueAndWhatIsAllowed) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double size : {0.0, -1.0, kInfinity, kNan}) {
-    EXPECT_THAT(refusal({.sizes = {.labels = {{3, size}}}}), HasSubstr("size must be positive"));
+    EXPECT_THAT(refusal({.sizes = {.rules = {.labels = {{3, size}}}}}),
+                HasSubstr("size must be positive"));
+    EXPECT_THAT(refusal({.sizes = {.rules = {.others = size}}}), HasSubstr("positive"));
+    EXPECT_THAT(refusal({.sizes = {.rules = {.interfaces = {{3, 4, size}}}}}),
+                HasSubstr("positive"));
   }
-  EXPECT_THAT(refusal({.sizes = {.labels = {{3, 1.0}, {2, 1.0}, {3, 2.0}}}}), HasSubstr("once"));
-  EXPECT_EQ(refusal({.sizes = {.labels = {{3, 1.0}, {2, 1.0}}}}), "allowed");
+  EXPECT_THAT(refusal({.sizes = {.rules = {.labels = {{2, 1.0}, {2, 2.0}}}}}), HasSubstr("once"));
+  EXPECT_THAT(refusal({.sizes = {.rules = {.labels = {{3, 1.0}, {2, 1.0}}}}}),
+              HasSubstr("ascending"));
+  EXPECT_EQ(refusal({.sizes = {.rules = {.labels = {{2, 1.0}, {3, 1.0}}}}}), "allowed");
   EXPECT_THAT(refusal({.sizes = {.gradation = kNan}}), HasSubstr("gradation = nan: "));
 }
 
@@ -171,7 +177,11 @@ TEST(SettingTable, SizesAreSortedByLabel) {
   ASSERT_NE(size, table.end());
   EXPECT_EQ(size->text(with(*size, "7=4,1=2.5")), "1=2.5,7=4");
   EXPECT_EQ(size->text(with(*size, "-1=4")), "18446744073709551615=4");
+  EXPECT_EQ(size->text(with(*size, "4,5|3=2,2=1,@f.nii.gz")), "2=1,3|5=2,*=4,@f.nii.gz");
+  EXPECT_EQ(size->text(with(*size, "d/f.npy")), "@d/f.npy");
   EXPECT_THAT(message_of(*size, "3=1,2=1,3=1"), HasSubstr("label 3 has two sizes"));
+  EXPECT_THAT(message_of(*size, "3|1=1,1|3=1"), HasSubstr("1|3 has two sizes"));
+  EXPECT_THAT(message_of(*size, "3,*=1"), HasSubstr("* has two sizes"));
 }
 
 }  // namespace

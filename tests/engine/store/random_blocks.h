@@ -7,8 +7,8 @@
 #include <random>
 
 #include "engine/store/codec/block_codec.h"
+#include "io/codec/checksums.h"
 #include "io/file/byte_order.h"
-#include "io/file/checksum.h"
 
 namespace mw::engine::test {
 

@@ -27,7 +27,8 @@ class MemoryChunks : public ChunkSource {
   }
   [[nodiscard]] std::uint64_t scratch_bytes() const override { return 7; }
 
-  [[nodiscard]] std::optional<Chunk> load(Index3 number, const Box3& box) const override {
+  [[nodiscard]] std::optional<Chunk> load(Index3 number, const Box3& box,
+                                          ChunkPlace /*place*/) const override {
     ++loads;
     if (failures.fetch_sub(1) > 0) fail_input(name_of(number), {}, "cannot be read now");
     if (is_missing && is_missing(number)) return std::nullopt;
@@ -217,6 +218,18 @@ TEST(ChunkedVolume, ChunksThatCannotHoldTheirVoxelsAreRefused) {
     expect_error(ErrorKind::kInput, {"chunk 0 0 0", "too short", "whole copy"},
                  [&] { static_cast<void>(read_all(*volume.volume)); });
   }
+}
+
+// Chunks that are large against what may be kept wait in files: each is unpacked once, in whatever
+// order its voxels are read, and takes no memory between reads.
+TEST(ChunkedVolume, UnpacksALargeChunkOnce) {
+  Random random(10);
+  const Index3 shape{110, 110, 100}, chunk{110, 100, 100};
+  Volume volume = random_volume(random, shape, chunk, 1 << 16);
+  for (int i = 0; i < 3; ++i) expect_regions(random, *volume.volume, shape, volume.labels);
+  volume.volume->drop_buffers();
+  EXPECT_EQ(read_all(*volume.volume), volume.labels);
+  EXPECT_EQ(volume.chunks->loads, count_of(shape, chunk));
 }
 
 TEST(ChunkedVolume, EmptyBoxesReadNothing) {

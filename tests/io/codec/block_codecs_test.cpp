@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // LZF and HDF5's framing of LZ4, by hand.
-#include "io/codec/unpackers.h"
+#include "io/codec/codec.h"
 
 #include "tests/io/codec/packers.h"
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <thread>
 
+#include "io/chunks/chunk.h"
 #include "io/codec/checksums.h"
 #include "tests/io/codec/packers.h"
 #include "tests/peak_growth.h"
@@ -211,6 +212,33 @@ TEST(Codec, ClaimsTakeNoMemory) {
   });
   EXPECT_GE(growth, 0);
   EXPECT_LE(growth, 24 * 1024);
+}
+
+// To a file, piece by piece, comes what comes to memory.
+TEST(Codec, StreamsToAFile) {
+  std::mt19937 random(7);
+  for (const std::size_t size : {std::size_t{100}, std::size_t{3000000}}) {
+    const std::string plain = some_bytes(random, size);
+    for (const Packer& packer : kPackers) {
+      if (!max_streamed(packer.codec)) continue;
+      const std::string packed = packer.pack(plain);
+      const auto bytes = std::as_bytes(std::span(packed));
+      const auto source = written_to_file(bytes, "packed");
+      const auto out = unpack_to_file(packer.codec, source, plain.size());
+      EXPECT_EQ(read_whole(*out, plain.size()), plain);
+      if (packed.size() < 2) continue;
+      const auto cut = written_to_file(bytes.first(packed.size() / 2), "packed");
+      if (packer.codec != Codec::kNone) {
+        expect_error(ErrorKind::kInput, {"packed", name(packer.codec)},
+                     [&] { static_cast<void>(unpack_to_file(packer.codec, cut, plain.size())); });
+      }
+      if (size > 0) {
+        expect_error(ErrorKind::kInput, {"more than"}, [&] {
+          static_cast<void>(unpack_to_file(packer.codec, source, plain.size() - 1));
+        });
+      }
+    }
+  }
 }
 
 TEST(Codec, ManyThreadsAtOnce) {

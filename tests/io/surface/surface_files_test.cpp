@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "io/file/sink/atomic_folder.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/surface/open_surface.h"
 #include "tests/io/surface/collected_surface.h"
 #include "tests/peak_growth.h"

@@ -148,6 +148,23 @@ TEST(VolumeErrors, Nrrd) {
   refuse(good + "data file: LIST\n", {"data file"});
   refuse(good + "data file: gone.raw\n", {"data file", "gone.raw"});
   expect_refused(dir, "b.nrrd", "plain text", {"magic"});
+  // A header from a stranger opens nothing outside of its folder, unless the user says so.
+  const auto data = dir.file("a.raw", kEight);
+  for (const std::string& name : {data.string(), std::string("../a.raw")}) {
+    refuse(good + "data file: " + name + "\n", {"data file", "leads out", "--trust-paths"});
+  }
+  const auto header =
+      dir.file("c.nrrd", "NRRD0004\n" + good + "data file: " + data.string() + "\n\n");
+  EXPECT_EQ(read_all(*open_volume(header, {.trust_paths = true})).size(), 8U);
+}
+
+TEST(VolumeErrors, DicomSaysWhatToDo) {
+  const TempDir dir;
+  const std::string content = std::string(128, '\0') + "DICM" + std::string(500, 'x');
+  expect_refused(dir, "slice1", content, {"DICOM", "dcm2niix", "3D Slicer"});
+  expect_refused(dir, "slice.dcm", "anything", {"DICOM", "dcm2niix"});
+  expect_error(ErrorKind::kInput, {dir.path().string(), "DICOM", "dcm2niix"},
+               [&] { static_cast<void>(open_volume(dir.path())); });
 }
 
 TEST(VolumeErrors, Raw) {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "io/file/errors.h"
-#include "io/volume/npy_writer.h"
+#include "io/volume/npy/open_npy.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/sample_files.h"
 #include "tests/io/volume/volume_checks.h"

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "kernels/core/index.h"
 #include "tests/oracle/small_volumes.h"
@@ -17,8 +18,6 @@ namespace {
 using audit::test::below;
 using audit::test::SmallVolume;
 using audit::test::volume_from;
-
-constexpr std::int64_t kCube = SizeField::kCube;
 
 /// A volume with few voxels of labels above 0, and limits on some of them.
 struct Case {
@@ -41,7 +40,9 @@ struct Case {
 Case random_case(std::mt19937& random) {
   constexpr std::array<std::array<double, 3>, 3> kSpacings{{{1, 1, 1}, {1, 1, 2.5}, {3, 1, 2}}};
   const auto edge = [&] { return std::int64_t{5 + below(random, 70)}; };
-  const Index3 shape{edge(), edge(), edge()};
+  // One volume in ten has more voxels than a field has cubes.
+  const Index3 shape = below(random, 10) == 0 ? Index3{130 + edge(), 120 + edge(), 140 + edge()}
+                                              : Index3{edge(), edge(), edge()};
   const auto labels = 2 + below(random, 5);
   Case out{.volume = volume_from(shape, labels,
                                  [&](auto, auto, auto) {
@@ -57,8 +58,9 @@ Case random_case(std::mt19937& random) {
 }
 
 Index3 cube_of(const Case& c, Point p) {
-  const auto along = [](std::int32_t u, std::int64_t voxels) {
-    return std::min<std::int64_t>(u / kUnitsPerVoxel, voxels - 1) / kCube;
+  const std::int64_t edge = SizeField::cube_voxels(c.volume.shape);
+  const auto along = [edge](std::int32_t u, std::int64_t voxels) {
+    return std::min<std::int64_t>(u / kUnitsPerVoxel, voxels - 1) / edge;
   };
   return {along(p.x, c.volume.shape.x), along(p.y, c.volume.shape.y), along(p.z, c.volume.shape.z)};
 }
@@ -66,7 +68,8 @@ Index3 cube_of(const Case& c, Point p) {
 /// The definition: every voxel is looked at.
 double defined_at(const Case& c, Point p) {
   const Index3 here = cube_of(c, p);
-  const Vec3 edges = c.metric.voxel() * kCube;
+  const std::int64_t cube = SizeField::cube_voxels(c.volume.shape);
+  const Vec3 edges = c.metric.voxel() * static_cast<double>(cube);
   const auto gap = [](std::int64_t a, std::int64_t b) {
     return static_cast<double>(std::max<std::int64_t>(std::abs(a - b) - 1, 0));
   };
@@ -74,8 +77,8 @@ double defined_at(const Case& c, Point p) {
   for_each_index(c.volume.shape, [&](Index3 v) {
     const double limit = c.limits[c.label_at(v)];
     if (limit == SizeField::kNoLimit) return;
-    const Vec3 gaps{gap(here.x, v.x / kCube) * edges[0], gap(here.y, v.y / kCube) * edges[1],
-                    gap(here.z, v.z / kCube) * edges[2]};
+    const Vec3 gaps{gap(here.x, v.x / cube) * edges[0], gap(here.y, v.y / cube) * edges[1],
+                    gap(here.z, v.z / cube) * edges[2]};
     min = std::min(min, limit + c.gradation * gaps.norm());
   });
   return min;
@@ -91,10 +94,11 @@ Point random_position(std::mt19937& random, Index3 shape) {
 
 TEST(SizeField, IsWhatItsDefinitionSays) {
   std::mt19937 random(2201);
-  int limited = 0;
+  int limited = 0, large = 0;
   for (int i = 0; i < 30 && !HasFailure(); ++i) {
     const Case c = random_case(random);
     const SizeField field = c.field();
+    large += SizeField::cube_voxels(c.volume.shape) > 1 ? 1 : 0;
     for (int k = 0; k < 8; ++k) {
       const Point p = random_position(random, c.volume.shape);
       const double expected = defined_at(c, p);
@@ -108,6 +112,43 @@ TEST(SizeField, IsWhatItsDefinitionSays) {
     }
   }
   EXPECT_GT(limited, 100);
+  EXPECT_GT(large, 1);
+}
+
+TEST(SizeField, HasCubesThatAreFewAndAtMostOfEightVoxels) {
+  const auto of = [](std::int64_t n) { return SizeField::cube_voxels({n, n, n}); };
+  EXPECT_EQ(of(96), 1);
+  EXPECT_EQ(of(128), 1);
+  EXPECT_EQ(of(129), 2);
+  EXPECT_EQ(of(512), 4);
+  EXPECT_EQ(of(1024), 8);
+  EXPECT_EQ(of(4096), 8);
+}
+
+TEST(SizeField, TakesLimitsOfVoxelsWhateverTheirLabels) {
+  SizeField field({20, 10, 10}, Metric({1, 1, 1}), {SizeField::kNoLimit}, 0.5, true);
+  field.limit_voxel({3, 4, 5}, 2.0);
+  field.limit_voxel({3, 4, 5}, 3.0);
+  field.limit_voxel({15, 4, 5}, 2.5);
+  field.spread();
+  const auto at = [&](std::int32_t x) {
+    return field.at({x * kUnitsPerVoxel, 4 * kUnitsPerVoxel, 5 * kUnitsPerVoxel});
+  };
+  EXPECT_EQ(at(3), 2.0);
+  EXPECT_EQ(at(7), 2.0 + 0.5 * 3);  // from box to box
+  EXPECT_EQ(at(15), 2.5);
+  EXPECT_TRUE(field.is_asked(0));
+}
+
+TEST(SizeField, RoundsLimitsToFew) {
+  std::set<double> rungs;
+  for (double limit = 0.05; limit < 40.0; limit *= 1.003) {
+    const double rung = SizeField::rung_below(limit);
+    EXPECT_LE(rung, limit);
+    EXPECT_GT(rung, limit / 1.051);
+    rungs.insert(rung);
+  }
+  EXPECT_LT(rungs.size(), 150U);
 }
 
 TEST(SizeField, AllowsCellsWhoseDiagonalFitsAtAllTheirCorners) {
@@ -132,10 +173,12 @@ TEST(SizeField, AllowsCellsWhoseDiagonalFitsAtAllTheirCorners) {
                                       lo.y + static_cast<std::int32_t>(at.y) * units / 2,
                                       lo.z + static_cast<std::int32_t>(at.z) * units / 2}));
       });
-      const bool fits = c.metric.vector(lo, hi).norm() <= min;
+      const Label label =
+          c.label_at({lo.x / kUnitsPerVoxel, lo.y / kUnitsPerVoxel, lo.z / kUnitsPerVoxel});
+      const bool fits = c.metric.vector(lo, hi).norm() <= std::min(min, c.limits[label]);
       const Index3 voxel{lo.x / kUnitsPerVoxel, lo.y / kUnitsPerVoxel, lo.z / kUnitsPerVoxel};
-      EXPECT_EQ(field.allows_cell(voxel, level), fits);
-      EXPECT_TRUE(field.allows_cell(voxel, 0));
+      EXPECT_EQ(field.allows_cell(voxel, level, label), fits);
+      EXPECT_TRUE(field.allows_cell(voxel, 0, label));
       ++seen[fits ? 1 : 0];
     }
   }

@@ -10,7 +10,6 @@
 #include <set>
 
 #include "io/file/sink/atomic_file.h"
-#include "io/file/sink/atomic_folder.h"
 #include "tests/io/test_files.h"
 
 namespace mw::io {

@@ -3,7 +3,7 @@
 // Which data set of an HDF5 file is read, its axes, and where it lies.
 #include <limits>
 
-#include "io/volume/hdf5/place.h"
+#include "io/volume/hdf5/description.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/hdf5/hdf5_files.h"
 #include "tests/io/volume/volume_checks.h"

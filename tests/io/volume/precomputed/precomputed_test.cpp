@@ -142,6 +142,9 @@ TEST(Precomputed, ScalesByNumberAndByKey) {
   EXPECT_EQ(read_all(*open_volume(root)), fine_labels);
   OpenOptions options;
   options.scale = 1;
+  expect_error(ErrorKind::kInput, {"scales[1].key", "../other/16", "leads out", "--trust-paths"},
+               [&] { static_cast<void>(open_volume(root, options)); });
+  options.trust_paths = true;
   EXPECT_EQ(read_all(*open_volume(root, options)), coarse_labels);
   for (const int scale : {-1, 2}) {
     options.scale = scale;
@@ -190,9 +193,9 @@ TEST(PrecomputedErrors, Info) {
   expect_info_refused("\"compressed_segmentation\"", "\"compresso\"", {"encoding", "compresso"});
   expect_info_refused("\"compressed_segmentation\"", "\"jpeg\"", {"encoding", "jpeg"});
   expect_info_refused("[8, 8, 8]", "[8, 8, 10000000]", {"block_size", "10000000"});
-  expect_info_refused("8_8_40", "/etc", {"scales[0].key", "out of the store"});
-  expect_info_refused("8_8_40", "../../8", {"scales[0].key", "out of the store"});
-  expect_info_refused("8_8_40", "a/../../../8", {"scales[0].key", "out of the store"});
+  expect_info_refused("8_8_40", "/etc", {"scales[0].key", "leads out"});
+  expect_info_refused("8_8_40", "../../8", {"scales[0].key", "leads out"});
+  expect_info_refused("8_8_40", "a/../../../8", {"scales[0].key", "leads out"});
   expect_info_refused("8_8_40", "8_8_41", {"scales[0].key", "8_8_41", "missing"});
   expect_info_refused("uint64_sharded_v1", "uint64_sharded_v2", {"sharding.@type", "v2"});
   expect_info_refused("identity", "md5", {"sharding.hash", "md5"});

@@ -181,6 +181,7 @@ TEST(Tiff, OmeSizesAndUnits) {
   EXPECT_EQ(mixed.unit, "nm");
   EXPECT_NEAR(mixed.spacing[2], 2000, 1e-9);
   EXPECT_EQ(space_of(sizes).spacing, (Vector3{1, 1, 1}));
+  EXPECT_EQ(space_of(sizes + "PhysicalSizeX=\"0.5\"").spacing, (Vector3{0.5, 0.5, 0.5}));
   const auto refuse = [&](const std::string& pixels, const std::vector<std::string>& pieces,
                           const std::string& more = "") {
     expect_error(ErrorKind::kInput, pieces, [&] { static_cast<void>(space_of(pixels, more)); });

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Reads boxes of numbers and keeps those that are sizes.
+#include "engine/labels/size_image.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "io/file/errors.h"
+#include "kernels/core/index.h"
+
+namespace mw::engine {
+
+SizeImage::SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file)
+    : numbers_(dynamic_cast<const io::NumberVolume*>(&image)), shape_(image.info().shape) {
+  if (numbers_ == nullptr) {
+    io::fail_input(file, {}, "numbers of a " + image.info().format + " file are not read here",
+                   "give sizes as .npy, NIfTI, NRRD or MetaImage, and the whole grid");
+  }
+  if (shape_ == labels.shape) return;
+  const Index3 &a = shape_, &b = labels.shape;
+  io::fail_input(file, {},
+                 io::text("has ", a.x, " x ", a.y, " x ", a.z, " voxels, the labels have ", b.x,
+                          " x ", b.y, " x ", b.z),
+                 "give a size for each voxel of the labels");
+}
+
+std::vector<double> SizeImage::read(const Box3& box, Index3 lattice) const {
+  const Index3 layers{lattice.x / shape_.x, lattice.y / shape_.y, lattice.z / shape_.z};
+  const Box3 below{{box.lo.x / layers.x, box.lo.y / layers.y, box.lo.z / layers.z},
+                   {(box.hi.x - 1) / layers.x + 1, (box.hi.y - 1) / layers.y + 1,
+                    (box.hi.z - 1) / layers.z + 1}};
+  std::vector<double> coarse(static_cast<std::size_t>(below.voxels()));
+  numbers_->read_numbers(below, coarse);
+  std::vector<double> out;
+  out.reserve(static_cast<std::size_t>(box.voxels()));
+  for_each_index(box, [&](Index3 v) {
+    const Index3 voxel{v.x / layers.x, v.y / layers.y, v.z / layers.z};
+    const double size = coarse[static_cast<std::size_t>(below.offset(voxel))];
+    out.push_back(size > 0.0 ? size : std::numeric_limits<double>::infinity());
+  });
+  return out;
+}
+
+std::uint64_t SizeImage::fingerprint() const {
+  constexpr std::uint64_t kPrime = 1099511628211U;  // FNV-1a
+  std::uint64_t sum = 14695981039346656037U;
+  for (std::int64_t z = 0; z < shape_.z; ++z) {
+    for (const double size : read({{0, 0, z}, {shape_.x, shape_.y, z + 1}}, shape_)) {
+      sum = (sum ^ std::bit_cast<std::uint64_t>(size)) * kPrime;
+    }
+  }
+  return sum;
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sizes of edges, voxel by voxel, that come from a volume beside the labels.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/volume/label_volume.h"
+#include "io/volume/number_volume.h"
+
+namespace mw::engine {
+
+/// The volume must outlive it.  Thread safety: const members from many threads.
+class SizeImage {
+ public:
+  /// labels: of the volume that is meshed.
+  /// ERRORS: mw::Error(kInput) when the image has another shape, or is of a format whose numbers
+  ///         are not read here.
+  SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file);
+
+  /// The sizes in a box of the lattice, x fastest, physical units; what is no positive number is
+  /// infinity: nothing is asked there.  lattice: its shape, a multiple of the labels'.
+  [[nodiscard]] std::vector<double> read(const Box3& box, Index3 lattice) const;
+  /// A sum of all that it holds.  Cost: it is read once.
+  [[nodiscard]] std::uint64_t fingerprint() const;
+
+ private:
+  const io::NumberVolume* numbers_;
+  Index3 shape_;
+};
+
+}  // namespace mw::engine
