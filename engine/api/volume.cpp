@@ -42,6 +42,9 @@ Volume Volume::open(const VolumeFile& file) {
                             .scale = file.scale,
                             .trust_paths = file.trust_paths};
     if (file.crop) options.crop = mw::api::io_box(*file.crop);
+    if (file.scale && *file.scale < 0) {
+      throw mw::Error(mw::ErrorKind::kUsage, "scale: levels count from 0, the finest");
+    }
     return VolumeAccess::wrap(io::open_volume(mw::api::checked_path(file.path), options));
   });
 }

@@ -223,9 +223,6 @@ void check_place(const std::optional<Vector3>& spacing, const std::optional<Vect
 std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {
   check_place(options.spacing, options.origin);
-  if (options.scale && *options.scale < 0) {
-    throw Error(ErrorKind::kUsage, "--scale: levels count from 0, the finest");
-  }
   return cropped(open_whole(path, options), path.string(), options);
 }
 

@@ -39,7 +39,7 @@ class FailingMalloc : public ProgramTest {
   /// Fails about this many of the allocations of a run that writes `output`.
   void fail_some(const std::string& arguments, const std::string& output, unsigned times) const {
     const unsigned long all = count(arguments);
-    ASSERT_GT(all, 1000U) << "the module is not there";
+    ASSERT_GT(all, 500U) << "the module is not there";
     const std::string whole = read(output);
     for (unsigned long n = 1; n < all; n += all / times + 1) {
       std::filesystem::remove(folder() / output);
