@@ -164,7 +164,7 @@ class Sizes(unittest.TestCase):
         self.refused(2, "expected H, LABEL=H", "--size", f"{label}:3")
         self.refused(2, "must be positive", "--size", f"{label}=-3")
         self.refused(2, "two sizes", "--size", f"{label}=3,{label}=3")
-        self.refused(2, "nothing to grade", "--gradation", "0.3")
+        self.refused(2, "nothing to grade", "--gradation", "0.2")
         self.refused(2, "from 0 to 10", "--size", f"{label}=3", "--gradation", "11")
         self.refused(2, "--optimizer local", "--inner-vertices", "--optimizer", "tetgen")
         for text, piece in (("1,2,3\n", "line 1: has 3 values"), ("# nothing\n", "has no sizes"),
