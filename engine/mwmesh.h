@@ -278,9 +278,9 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                 std::string_view element = "tet4");
-/// As of a volume.
+/// Returns the label of a mesh that is called so, with the errors of find_label(Volume).
 [[nodiscard]] std::uint64_t find_label(const Mesh& mesh, std::string_view text);
-/// A PNG of all labels but the one around them, as `mwmesh picture` draws it.
+/// A PNG of all labels except the one around them, as `mwmesh picture` draws it.
 /// ERRORS: kUsage unless from 16 to 8,192 pixels; kInput when there is nothing to see.
 [[nodiscard]] std::string picture(const Mesh& mesh, int width = 1200, int height = 900);
 /// "sha256:...", the same for every format, order of rows and machine.

@@ -81,7 +81,7 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .assign = into(job.ascii)});
   options.add({.name = "pieces",
                .value = "N",
-               .help = "a .pvtu and so many .vtu beside it; vertices have GlobalNodeIds",
+               .help = "a .pvtu and N .vtu beside it; vertices have GlobalNodeIds",
                .group = kOutputGroup,
                .kind = ValueKind::kInteger,
                .assign = into(job.pieces, parse_pieces)});

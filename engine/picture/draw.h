@@ -28,7 +28,7 @@ void check_sides(std::int64_t width, std::int64_t height);
 /// Returns how many triangles it drew, hidden ones too.
 /// Memory: 64 MiB of samples, and for one row; the scene is drawn once for each band of rows that
 /// fits there, and once more before to see how large it is.
-/// The same pixels on every machine (Raster).
+/// ENSURES: the pixels are the same on every machine (Raster).
 /// ERRORS: those of scene and take; kInput when there is nothing to see or it is too large to
 /// compute with.
 std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBytes& take);

@@ -13,7 +13,7 @@ namespace mw::report {
 [[nodiscard]] std::string format_label(RawLabel label, bool is_signed);
 /// "12.3 MiB".
 [[nodiscard]] std::string format_bytes(std::uint64_t bytes);
-/// As audit::number(): four significant digits.
+/// Returns four significant digits, as audit::number() does.
 [[nodiscard]] std::string format_figure(double value);
 /// A volume in cubes of the unit, as format_figure(): "490 mm3", "17.18 mL" from 1,000 mm3 on, and
 /// the number alone where the unit is not known.

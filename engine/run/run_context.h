@@ -20,7 +20,7 @@ void check_unpacking(const io::LabelVolume& volume, const MeshSettings& settings
                      const RunHooks& hooks);
 
 /// Threads that read labels, and what these hold meanwhile, beside what the volume keeps of its
-/// file: so many that this stays below a quarter of the budget.
+/// file.  Their number keeps this below a quarter of the budget.
 struct LabelReaders {
   LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings, const RunHooks& hooks,
                RunStore& store);

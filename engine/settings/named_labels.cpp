@@ -85,7 +85,7 @@ bool is_same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-/// As parse_label() reads it, with a sign where the number has one.
+/// Returns text that parse_label() reads, with a sign where the number has one.
 std::string number_of(std::string_view token, const io::LabelNames& names) {
   const bool quoted = token.size() >= 2 && token.starts_with('"') && token.ends_with('"');
   const std::string name(quoted ? token.substr(1, token.size() - 2) : token);

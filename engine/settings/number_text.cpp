@@ -14,7 +14,7 @@
 namespace mw::engine {
 namespace {
 
-/// Of "", "K", "kib", "KB" and so on.
+/// Returns how many bytes a unit stands for: "", "K", "kib", "KB" and so on.
 std::optional<std::uint64_t> bytes_of_unit(std::string_view unit) {
   constexpr std::string_view kLetters = "kmgt";
   std::string name;

@@ -49,7 +49,7 @@ struct LabelSize {
   friend bool operator==(const LabelSize&, const LabelSize&) = default;
 };
 
-/// The same near the faces between two labels.
+/// The size that is asked for near the faces between two labels.
 struct InterfaceSize {
   RawLabel low = 0;
   RawLabel high = 0;
@@ -72,7 +72,7 @@ struct SizeRules {
   }
   /// The least that is written here, infinity when there is only an image.
   [[nodiscard]] double least() const;
-  /// Of a label; none: only what is around it limits its edges.
+  /// Returns the size of a label; none where only what is around it limits its edges.
   [[nodiscard]] std::optional<double> of_label(RawLabel label) const;
 
   friend bool operator==(const SizeRules&, const SizeRules&) = default;

@@ -56,7 +56,7 @@ class ChunkSource {
 
   /// The most that load() takes in memory beside what it returns there.
   [[nodiscard]] virtual std::uint64_t scratch_bytes() const = 0;
-  /// The same with kFile; nothing where the bytes come in memory nevertheless.
+  /// Returns scratch_bytes() with kFile; nothing where the bytes come in memory nevertheless.
   [[nodiscard]] virtual std::optional<std::uint64_t> streaming_bytes() const {
     return std::nullopt;
   }

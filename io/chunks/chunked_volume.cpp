@@ -136,7 +136,7 @@ Box3 ChunkedVolume::box_of(Index3 chunk) const {
   return intersection({lo, lo + c}, {{0, 0, 0}, info_.shape});
 }
 
-/// Of the voxels of a whole chunk.
+/// Returns the bytes of the voxels of a whole chunk.
 std::uint64_t ChunkedVolume::chunk_bytes() const {
   return static_cast<std::uint64_t>(info_.chunk.product()) *
          static_cast<std::uint64_t>(byte_size(coding_.type));
@@ -150,7 +150,7 @@ std::uint64_t ChunkedVolume::unpacking_bytes() const {
   return chunk_bytes() + source_->scratch_bytes();
 }
 
-/// As many as take no more than what is kept may take, but one.
+/// Returns how many chunks together take no more than the cache may; at least one.
 std::uint64_t ChunkedVolume::unpacked_at_once() const {
   constexpr std::uint64_t kMost = 1024;
   return std::clamp<std::uint64_t>(cache_bytes_ / unpacking_bytes(), 1, kMost);

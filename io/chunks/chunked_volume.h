@@ -89,7 +89,7 @@ class ChunkedVolume : public LabelVolume {
   std::uint64_t cache_bytes_;
   ChunkPlace place_;
   mutable ChunkCache cache_;
-  mutable std::counting_semaphore<> unpacking_;  ///< so many at once share the bound
+  mutable std::counting_semaphore<> unpacking_;  ///< as many threads at once as share the bound
 };
 
 }  // namespace mw::io

@@ -40,8 +40,8 @@ enum class Codec {
 /// The most that unpack() takes in memory beside what it returns.
 [[nodiscard]] std::uint64_t max_scratch(Codec codec, std::size_t max);
 
-/// The same from a source to a file without a name in $TMPDIR or /tmp (of bytes that are not packed
-/// the source itself), piece by piece, for more than memory should hold.
+/// Unpacks from a source to a file without a name in $TMPDIR or /tmp, piece by piece, for more than
+/// memory should hold; returns the source itself where the bytes are not packed.
 /// REQUIRES: max_streamed(codec) is something.
 /// ERRORS: also mw::Error(kResource) when the disk is full, and for a frame of Zstandard that looks
 /// back farther than kMaxZstdWindow.
@@ -54,8 +54,8 @@ enum class Codec {
 /// Levels up to 20 of Zstandard look back no farther.
 inline constexpr std::uint64_t kMaxZstdWindow = std::uint64_t{32} << 20U;
 
-// Of all: name is what errors call the packed bytes.  Memory: what comes out, at most `max` bytes,
-// and what is said.  Thread safety: any; no state of a library is shared.
+// In all of them name is what errors call the packed bytes.  Memory: what comes out, at most `max`
+// bytes, and what is said.  Thread safety: any; no state of a library is shared.
 // ERRORS: mw::Error(kInput) for damage, truncation and more than `max` bytes.
 
 /// gzip (RFC 1952) by zlib: one or several members, behind which zeros may fill up.  Memory: 64
@@ -63,7 +63,7 @@ inline constexpr std::uint64_t kMaxZstdWindow = std::uint64_t{32} << 20U;
 [[nodiscard]] std::vector<std::byte> unpack_gzip(std::span<const std::byte> packed, std::size_t max,
                                                  std::string_view name);
 
-/// The same for zlib's framing (RFC 1950).
+/// Unpacks zlib's framing (RFC 1950).
 [[nodiscard]] std::vector<std::byte> unpack_zlib(std::span<const std::byte> packed, std::size_t max,
                                                  std::string_view name);
 
@@ -98,7 +98,7 @@ inline constexpr std::uint64_t kMaxZstdWindow = std::uint64_t{32} << 20U;
                                                   std::size_t max, std::string_view name);
 
 /// What the decoder of xz may take for itself: preset 9, the largest, has a dictionary of 64 MiB.
-/// Of a dictionary only as much is touched as comes out.
+/// The decoder touches only as much of a dictionary as comes out.
 inline constexpr std::uint64_t kMaxXzBytes = std::uint64_t{80} << 20U;
 
 /// .xz (LZMA2 in its container) by liblzma: one or several streams.  Memory: kMaxXzBytes.

@@ -107,7 +107,7 @@ class HeldOutput {
   std::vector<std::byte> bytes_;
 };
 
-/// The same into a file.
+/// Takes what comes out into a file.
 class FileOutput {
  public:
   FileOutput() : file_(scratch_folder()), piece_(kPieceBytes) {}

@@ -59,7 +59,7 @@ inline constexpr std::size_t kMaxStreamStep = std::size_t{1} << 30U;
                                                     std::span<const std::byte> packed,
                                                     std::size_t max, const PackedName& name);
 
-/// The same from a source to an unlinked file in $TMPDIR or /tmp.  Memory: 3 MiB.
+/// Unpacks from a source to an unlinked file in $TMPDIR or /tmp.  Memory: 3 MiB.
 /// ERRORS: also mw::Error(kResource) when the disk is full.
 [[nodiscard]] std::shared_ptr<const ByteSource> unpack_streams(StreamDecoder& decoder,
                                                                const ByteSource& packed,

@@ -59,7 +59,7 @@ struct SpeckLimits {
 [[nodiscard]] Specks find_specks(const LabelVolume& volume, const SpeckRule& rule,
                                  const SpeckLimits& limits);
 
-/// Throws mw::Error(kResource): there are so many specks, for which so many bytes are enough.
+/// Throws mw::Error(kResource) that tells the number of specks and the bytes that are enough.
 [[noreturn]] void fail_too_many_specks(const SpeckRule& rule, std::uint64_t specks,
                                        const SpeckLimits& limits, std::uint64_t enough);
 

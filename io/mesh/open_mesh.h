@@ -45,7 +45,7 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
 /// The ending of meshes in pieces.
 inline constexpr const char* kPiecesExtension = ".pvtu";
-/// A mesh of four nodes a tet in so many pieces (pieces/pvtu.h), for programs that run on many
+/// Writes a mesh of four nodes a tet in pieces (pieces/pvtu.h), for programs that run on many
 /// processes.
 /// ERRORS: mw::Error(kUsage) for another extension or no pieces, or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,

@@ -45,7 +45,7 @@ struct VoxelCoding {
                                         const VoxelCoding& coding, RawLabel* out,
                                         std::size_t stride);
 
-/// The same as what they are, and every number is good.
+/// Decodes voxels as numbers instead of labels, so every number is good.
 void decode_numbers(const std::byte* bytes, std::size_t count, const VoxelCoding& coding,
                     double* out, std::size_t stride);
 

@@ -14,7 +14,7 @@ namespace mw::io {
 class NumberVolume {
  public:
   virtual ~NumberVolume() = default;
-  /// As LabelVolume::read(), of any number; integers that a double does not hold are rounded.
+  /// Reads a box of any numbers; integers that a double does not hold are rounded.
   virtual void read_numbers(const Box3& box, std::span<double> out) const = 0;
 };
 

@@ -24,7 +24,7 @@ struct VolumeSide {
   double voxel_volume = 1;  ///< cubic physical units
   std::string unit = {};    ///< of lengths; empty: unknown
   io::LabelNames names;
-  /// Of faces of voxels, by contact, the smaller label first; square physical units.
+  /// Area of voxel faces of each contact, the smaller label first; in square physical units.
   std::map<std::pair<RawLabel, RawLabel>, double> areas;
 };
 

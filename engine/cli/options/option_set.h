@@ -66,7 +66,7 @@ class OptionSet {
  public:
   void add(Option option);
 
-  /// Finds and assigns every value, in the order of the list, but for those with names of labels.
+  /// Finds and assigns every value, in the order of the list; values with names of labels wait.
   /// flags: values of those that were given, by name; "true" of a switch.
   /// ERRORS: mw::Error(kUsage) naming flag, variable, or file, line and key.
   void resolve(const std::map<std::string, std::string>& flags);
@@ -80,7 +80,7 @@ class OptionSet {
   [[nodiscard]] const std::string& text(const std::string& name) const { return find(name).text; }
   /// The effective values as a config file that gives the same ones.
   [[nodiscard]] std::string toml() const;
-  /// The same as JSON; unset is null.
+  /// Returns the values of toml() as JSON; an unset one is null.
   [[nodiscard]] io::Json json() const;
 
   struct Entry {

@@ -15,7 +15,7 @@ inline constexpr std::uint64_t kMaxViewTriangles = 600'000;
 inline constexpr std::size_t kMaxViewLabels = 1000;
 
 /// The facets of the largest labels, each with all of its facets, as long as they fit.
-/// Of the surrounding label (picture::surrounding_label) last, as it hides the others.
+/// Those of the surrounding label (picture::surrounding_label) come last, as it hides the others.
 class ViewData {
  public:
   /// The mesh outlives it.  surrounding: may be empty.

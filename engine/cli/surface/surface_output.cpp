@@ -26,7 +26,7 @@ class FileOutput : public SurfaceOutput {
   std::unique_ptr<io::SurfaceSink> sink_;
 };
 
-/// As AtomicFile, which writes under another name here: the file that a link names, or an error.
+/// Returns the file that a link names, or throws, as AtomicFile does under the final name.
 std::filesystem::path replaceable(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);

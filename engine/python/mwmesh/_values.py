@@ -28,7 +28,7 @@ def naming(name):
 
 
 def whole(value, name, bits=64):
-    """A whole number, as int, of numpy, or without a fraction; what a signed number of so many bits
+    """A whole number, as int, of numpy, or without a fraction; what a signed number of these bits
     cannot hold becomes its nearest, which the core refuses."""
     try:
         if isinstance(value, (bool, np.bool_)):

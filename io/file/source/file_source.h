@@ -62,7 +62,7 @@ class JoinedFiles : public ByteSource {
                                                std::string_view field, std::string_view name,
                                                bool is_trusted);
 
-/// The same for a file.  ERRORS: also for what is no file.
+/// Applies that rule to a file.  ERRORS: also for what is no file.
 [[nodiscard]] std::filesystem::path named_beside(const std::filesystem::path& header,
                                                  std::string_view field, std::string_view name,
                                                  bool is_trusted = false);

@@ -44,10 +44,10 @@ std::array<std::uint64_t, 3> GroupedMesh::facet_middles(const Facet& facet) {
 
 namespace {
 
-/// Of the length of a box, of what lies on its side.
+/// Share of the length of a box within which a point lies on its side.
 constexpr double kTolerance = 1e-9;
 
-/// Of a point along an edge of the box: 0 at its beginning, 1 at its end.
+/// Returns where a point is along an edge of the box: 0 at its beginning, 1 at its end.
 double share_along(const MeshBox& box, std::size_t axis, const Position& p) {
   double along = 0;
   double length = 0;

@@ -40,7 +40,7 @@ struct Facet {
   std::array<std::uint64_t, 3> rows{};  ///< its normal (by the right hand) points out of `first`
   std::uint64_t tet = 0;                ///< that of label `first`
   std::uint64_t opposite = 0;           ///< which corner of that tet is not in it, 0 to 3
-  // Of an interface the same of label `second`.
+  // For an interface: the tet and the corner of label `second`.
   std::uint64_t second_tet = 0;
   std::uint64_t second_opposite = 0;
 };

@@ -48,7 +48,7 @@ class PvtuSink : public MeshDataSink {
 
 /// The .vtu files that a .pvtu names, in its folder or below, put together: vertices by ascending
 /// PointData/GlobalNodeIds, tets piece by piece, names of labels from all.  A single piece needs no
-/// ids.  Of what PvtuSink wrote it is the mesh again, but for the order of tets.
+/// ids.  What PvtuSink wrote comes back as the mesh; only the order of tets may differ.
 /// Memory: the mesh, and 24 bytes a vertex of a piece.
 /// ERRORS: mw::Error(kInput) with file and place as read_vtu(); for pieces that overlap (ghost
 /// cells), without ids, or with tets of ten nodes, and for an id at two places.

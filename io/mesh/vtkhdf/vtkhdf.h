@@ -89,7 +89,7 @@ class VtkhdfShared : public SharedMesh {
 /// the other.  The label is the cell array `label`, else `Label`, `labels`, `material` or
 /// `medit:ref`, else the only integer cell array.
 /// The HDF5 library reads in a child process: damaged files crash it.
-/// Of tets with ten nodes the corners are read; the middles of edges go.
+/// Tets with ten nodes are read by their corners, without the middles of edges.
 /// Memory: batches of 65,536 rows, whatever the size of the mesh; of one with ten-node tets a
 /// quarter of a byte a node as well.
 /// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not

@@ -37,7 +37,7 @@ struct Unfiltering {
                                               std::vector<std::byte> stored,
                                               const Unfiltering& wanted);
 
-/// The same to a file without a name, piece by piece.  REQUIRES: unfilter_streaming().
+/// Unfilters to a file without a name, piece by piece.  REQUIRES: unfilter_streaming().
 [[nodiscard]] std::shared_ptr<const ByteSource> unfilter_to_file(
     const std::vector<Hdf5Filter>& filters, std::shared_ptr<const ByteSource> stored,
     const Unfiltering& wanted);

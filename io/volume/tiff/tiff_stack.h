@@ -56,7 +56,7 @@ struct TiffPage {
   std::int64_t width = 0;
   std::int64_t height = 0;
   VoxelType type = VoxelType::kU8;
-  /// Pixels are packed in blocks of so many, from the top left corner on: strips or tiles.
+  /// Pixels are packed in blocks of this size, from the top left corner on: strips or tiles.
   std::int64_t block_width = 0;
   std::int64_t block_height = 0;
   bool tiled = false;
@@ -71,7 +71,7 @@ struct TiffPage {
   }
 };
 
-/// Of the page where the handle stands.  place: what errors call it, "page 3".
+/// Reads the page where the handle stands.  place: what errors call it, "page 3".
 /// ENSURES: extents within kMaxAxisVoxels; blocks that the file can hold, below 512 MiB.
 /// ERRORS: mw::Error(kInput) naming file and page for pixels that are no labels: of several
 /// samples, of a type or compression that is not read, or of a depth.

@@ -83,7 +83,7 @@ void check_chunk(std::string_view file, std::string_view field,
 [[nodiscard]] Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes,
                                  std::vector<std::byte> packed, std::string_view name);
 
-/// The same to a file without a name, piece by piece.  REQUIRES: unpack_streaming() is something.
+/// Unpacks to a file without a name, piece by piece.  REQUIRES: unpack_streaming() is something.
 [[nodiscard]] Chunk unpack_chunk_to_file(const ZarrArray& array, const AxisMap& axes,
                                          std::shared_ptr<const ByteSource> packed);
 

@@ -47,7 +47,7 @@ TEST_F(SurfaceCommand, RefusesWhatTheMeshDoesNotHave) {
   expect_failure(2, "surface v.vtu --pair 4,4 -o s.stl", "two labels");
 }
 
-/// As 3D Slicer looks for it, and as is printed.
+/// 3D Slicer looks for this word, and the command prints the frame.
 TEST_F(SurfaceCommand, SaysWhichFrameItWrote) {
   make_mesh();
   EXPECT_NE(run("surface v.vtu -o s.stl").out.find("does not name"), std::string::npos);

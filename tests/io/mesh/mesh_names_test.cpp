@@ -153,7 +153,7 @@ TEST(MeshNames, VtuFieldDataAsVtkWritesIt) {
   expect_same_names(read(kIds + "<Array type=\"String\" Name=\"label_name\" NumberOfTuples=\"2\" "
                                 "format=\"binary\">BAAAAAAAAABhAGIA</Array>"),
                     LabelNames({{7, "a", {}}, {static_cast<RawLabel>(-9), "b", {}}}));
-  // As it is written here, and as VTK writes that again.
+  // The first is what we write, the second what VTK makes of it.
   for (const char* array :
        {"format=\"ascii\">97 195 169 0 98 0", "format=\"binary\">BgAAAAAAAABhw6kAYgA="}) {
     expect_same_names(

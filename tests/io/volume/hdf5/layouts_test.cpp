@@ -150,7 +150,7 @@ TEST(Hdf5, RandomBoxesEqualThePartOfTheWhole) {
   expect_regions(random, *volume, {50, 40, 30}, labels, 100);
 }
 
-/// As h5py writes them: an enumeration of two names.
+/// h5py writes them as an enumeration of two names.
 TEST(Hdf5, BooleansAreNumbers) {
   const TempDir dir;
   const auto path = dir.path() / "a.h5";
