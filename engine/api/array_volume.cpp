@@ -14,7 +14,6 @@
 namespace mw::api {
 namespace {
 
-constexpr const char* kArray = "array";
 constexpr io::ByteOrder kMachine =
     std::endian::native == std::endian::little ? io::ByteOrder::kLittle : io::ByteOrder::kBig;
 

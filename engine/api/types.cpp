@@ -13,8 +13,6 @@
 namespace mw::api {
 namespace {
 
-constexpr const char* kArray = "array";
-
 io::WorldFrame frame_of(const std::string& name) {
   for (const io::WorldFrame frame :
        {io::WorldFrame::kOwn, io::WorldFrame::kRas, io::WorldFrame::kLps}) {

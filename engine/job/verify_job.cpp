@@ -163,7 +163,7 @@ audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::Vo
   options.radius_ratio_floor = promises.quality_floor;
   options.count_junctions = promises.interfaces;
   options.max_distance = promises.max_distance;
-  options.layers = promises.smooth ? layers_of(space.spacing) : Index3{1, 1, 1};
+  options.layers = promises.smooth ? mw::layers_of(space.spacing) : Index3{1, 1, 1};
   return options;
 }
 

@@ -5,21 +5,16 @@
 
 #include <algorithm>
 
-#include "io/labels/brick_volume.h"
+#include "engine/labels/bricks.h"
 #include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {
 
-constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 static_assert(3 * kBrick * kBrick * kBrick <= 0xffff);
 
 std::int64_t bricks_along(std::int64_t voxels) {
   return (voxels + kBrick - 1) / kBrick;
-}
-
-bool is_empty(const Box3& box) {
-  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
 }
 
 /// Of `count` voxels of a row, with the next in x of `next` of them; up, out: steps to the one

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/labels/bricks.h"
 #include "engine/labels/reading_tiles.h"
 #include "kernels/start/coarsen/coarsen.h"
 #include "kernels/start/graded_start.h"
@@ -12,15 +13,10 @@
 namespace mw::engine {
 namespace {
 
-constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 /// A start mesh asks for the leaves a voxel around its block, in pairs of voxels.
 constexpr std::int64_t kLeafHalo = 2;
 // Each of the steps below grows by whole bricks, one of them.
 static_assert(kCoarsenHalo <= kBrick && LevelMap::kHalo <= kBrick && LevelMap::kCube == kBrick);
-
-bool is_empty(const Box3& box) {
-  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
-}
 
 Box3 bricks_around(const Box3& voxels, std::int64_t halo, Index3 volume) {
   if (is_empty(voxels)) return {};

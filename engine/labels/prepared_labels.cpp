@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/labels/bricks.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
@@ -18,7 +19,6 @@
 namespace mw::engine {
 namespace {
 
-constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 /// Bricks along an axis of a tile that is coarsened at once; the halo is one brick.
 constexpr std::int64_t kBricksPerTile = 4;
 
@@ -28,10 +28,6 @@ Box3 clipped(const Box3& box, Index3 shape) {
 
 Index3 scaled(Index3 v, std::int64_t by) {
   return {v.x * by, v.y * by, v.z * by};
-}
-
-bool is_empty(const Box3& box) {
-  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
 }
 
 bool is_within(const Box3& part, const Box3& whole) {

@@ -5,13 +5,12 @@
 
 #include <algorithm>
 
-#include "io/labels/brick_volume.h"
+#include "engine/labels/bricks.h"
 #include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {
 
-constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 /// Of volumes without chunks: long rows, 2 MiB of labels.
 constexpr Index3 kPlainTile{1024, kBrick, kBrick};
 

@@ -153,7 +153,7 @@ void add_size(Label label, const FinishedRun& run, Json& row) {
 }
 
 /// Rows of labels have theirs.
-Json distance_json(const FinishedRun& run) {
+Json run_distance_json(const FinishedRun& run) {
   Json out{{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}};
   if (!run.certificate || !run.certificate->distance) return out;
   out["max_voxels"] = run.certificate->distance->max_voxels;
@@ -203,7 +203,7 @@ Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json 
           {"quality", quality_json(run.engine.quality.value())},
           {"shape", shape_json(run)},
           {"size", size_json(run)},
-          {"distance", distance_json(run)},
+          {"distance", run_distance_json(run)},
           {"topology", topology_json(run)},
           {"certificate", certificate_json(run)},
           {"performance", performance_json(run)},

@@ -11,8 +11,8 @@ namespace {
 
 enum Kind : std::uint64_t { kGathered = 1, kParcel, kSignal, kFailure };
 
-std::vector<std::byte> bytes_of(const std::string& text) {
-  return engine::bytes_of(text.data(), text.size());
+std::vector<std::byte> text_bytes(const std::string& text) {
+  return bytes_of(text.data(), text.size());
 }
 
 std::string text_of(const std::vector<std::byte>& bytes) {
@@ -90,7 +90,7 @@ std::vector<std::vector<std::byte>> Team::trade(std::vector<std::vector<std::byt
 
 std::vector<std::string> Team::gather(const std::string& mine) {
   std::vector<std::string> out;
-  for (const auto& said : gather(bytes_of(mine))) out.push_back(text_of(said));
+  for (const auto& said : gather(text_bytes(mine))) out.push_back(text_of(said));
   return out;
 }
 
@@ -133,7 +133,7 @@ void Team::fail(const Error& error) {
   }
   changed_.notify_all();
   const std::string who = is_first() ? "" : "rank " + std::to_string(rank()) + ": ";
-  const SharedBytes text = shared(bytes_of(who + error.what()));
+  const SharedBytes text = shared(text_bytes(who + error.what()));
   const auto kind = static_cast<std::uint64_t>(error.kind());
   for (int to = 0; to < ranks(); ++to) {
     if (to != rank()) exchange_.send(to, {kFailure, kind, 0, 0}, text);

@@ -24,7 +24,7 @@ struct TileDistances {
   std::vector<audit::LabelDistances> rows;
 };
 
-struct TileFindings {
+struct VoxelFindings {
   audit::PartsPiece parts;
   std::vector<audit::SharedRun> shared;
   audit::JunctionsPiece junctions;
@@ -79,9 +79,9 @@ class VolumeStage {
   }
 
   VolumeFindings run() {
-    each_in_order<TileFindings>(
+    each_in_order<VoxelFindings>(
         task_.threads, grid_.size(), [this](std::uint32_t tile) { return look_at(tile); },
-        [this](std::uint32_t tile, TileFindings&& found) { merge(tile, std::move(found)); });
+        [this](std::uint32_t tile, VoxelFindings&& found) { merge(tile, std::move(found)); });
     links_.unite(parts_);
     found_.betti = parts_.betti_of_volume();
     if (junctions_ != nullptr) junctions_->close(JunctionLedger::Side::kVolume, parts_.cavities());
@@ -112,18 +112,18 @@ class VolumeStage {
     return out;
   }
 
-  [[nodiscard]] TileFindings look_at(std::uint32_t tile) const {
+  [[nodiscard]] VoxelFindings look_at(std::uint32_t tile) const {
     const Box3 box = grid_.box(tile);
     const double reach = first_reach();
     const double halo = pieces_ == nullptr ? 1 : reach + pieces_->radius();
     LoadedVoxels loaded = load(around(box, halo));
-    TileFindings out;
+    VoxelFindings out;
     take_parts(box, loaded, out);
     if (pieces_ != nullptr) out.distances = measure(box, reach, std::move(loaded));
     return out;
   }
 
-  void take_parts(const Box3& box, const LoadedVoxels& loaded, TileFindings& out) const {
+  void take_parts(const Box3& box, const LoadedVoxels& loaded, VoxelFindings& out) const {
     const Box3 all{{0, 0, 0}, grid_.shape()};
     const Box3 needed = intersection({box.lo - Index3{1, 1, 1}, box.hi}, all);
     LoadedVoxels voxels = loaded.part(needed);
@@ -147,7 +147,7 @@ class VolumeStage {
   }
 
   void count_voxels(const Box3& box, const LoadedVoxels& voxels, const TileLabels& names,
-                    TileFindings& out) const {
+                    VoxelFindings& out) const {
     out.labels = names.whole();
     out.voxels = audit::count_voxels({voxels.box.shape(), voxels.labels}, voxels.box, box,
                                      names.size(), layers_);
@@ -221,7 +221,7 @@ class VolumeStage {
     return false;
   }
 
-  void merge(std::uint32_t tile, TileFindings&& found) {
+  void merge(std::uint32_t tile, VoxelFindings&& found) {
     const std::uint32_t first = parts_.add(std::move(found.parts));
     for (const audit::SharedRun& run : found.shared) {
       links_.add(run.first, run.count, first + run.part);

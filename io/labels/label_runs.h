@@ -14,6 +14,9 @@
 
 namespace mw::io {
 
+/// Voxels of a slab where labels are looked at once, one slab after the other.
+inline constexpr std::int64_t kSlabVoxels = 1 << 16;
+
 /// Calls visit(Box3) on boxes that cover box in file order (x fastest), each of at most max_voxels
 /// voxels or one row: whole planes, or rows of one plane.  Each is contiguous in an array over box.
 template <class Visit>

@@ -65,7 +65,6 @@ std::vector<RawLabel> LabelSet::values() const {
 namespace {
 
 /// 512 KiB of raw labels: stays in a second-level cache.
-constexpr std::int64_t kSlabVoxels = 1 << 16;
 
 }  // namespace
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::uint64_t kDirectRange = 1 << 16;
 /// 512 KiB of raw labels: stays in a second-level cache.
-constexpr std::int64_t kSlabVoxels = 1 << 16;
 
 }  // namespace
 

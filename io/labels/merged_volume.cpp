@@ -11,8 +11,6 @@
 namespace mw::io {
 namespace {
 
-constexpr std::int64_t kSlabVoxels = 1 << 16;
-
 std::string label_text(RawLabel label, bool is_signed) {
   return is_signed ? text(static_cast<std::int64_t>(label)) : text(label);
 }

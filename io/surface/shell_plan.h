@@ -12,6 +12,9 @@
 
 namespace mw::io {
 
+/// Memory of each sort that the surface of a mesh is put together with.
+inline constexpr std::size_t kSortBytes = 8 << 20;
+
 /// Facets of one group.
 struct ShellPart {
   std::size_t group = 0;  ///< of GroupedMesh::facet_groups()

@@ -11,8 +11,6 @@
 namespace mw::io {
 namespace {
 
-constexpr std::size_t kSortBytes = 8 << 20;
-
 /// Row of the mesh, sheet, corner.
 using CornersByVertex = ExternalSort<3>;
 /// Corner, vertex of the surface.

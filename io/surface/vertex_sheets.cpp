@@ -10,8 +10,6 @@
 namespace mw::io {
 namespace {
 
-constexpr std::size_t kSortBytes = 8 << 20;
-
 /// Facets at an edge: third corner, and whether the facet runs along the edge as its rows ascend.
 using EdgeFacets = std::map<std::uint64_t, bool>;
 using SharedEdges = std::map<EdgeRows, EdgeFacets>;

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh mesh: a labelled volume to a mesh.
-#include <spdlog/spdlog.h>
-
 #include <iostream>
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/interrupt.h"
+#include "engine/cli/log.h"
 #include "engine/cli/mesh/mesh_request.h"
 #include "engine/cli/mesh/mesh_summary.h"
 #include "engine/cli/mesh/progress.h"
@@ -19,6 +18,7 @@
 #include "engine/settings/size_text.h"
 #include "engine/system/crew.h"
 #include "engine/system/memory.h"
+#include "io/file/errors.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
@@ -108,7 +108,7 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   engine::MeshJob job = request.job;
   job.stop = stop_if_interrupted;
   job.size_image = open_sizes(request);
-  job.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
+  job.labels_known = [](std::size_t labels) { log_info(io::text("meshing ", labels, " labels")); };
   engine::RunHooks& run = job.run;
   run.together = files.shared.mesh.get();
   run.stop_after_save = is_save_requested;
@@ -142,19 +142,20 @@ void log_processes(const engine::RunReport& run) {
   for (std::size_t rank = 0; rank < run.processes.size(); ++rank) {
     const engine::ProcessFacts& facts = run.processes[rank];
     const auto output = static_cast<std::size_t>(engine::Purpose::kOutput);
-    spdlog::info("rank {}: {} windows, {} blocks sent, at most {} accounted, {} to write", rank,
-                 facts.windows, facts.blocks_sent, format_bytes(facts.peak_accounted_bytes),
-                 format_bytes(facts.peak_bytes_by_purpose[output]));
+    log_info(io::text("rank ", rank, ": ", facts.windows, " windows, ", facts.blocks_sent,
+                      " blocks sent, at most ", format_bytes(facts.peak_accounted_bytes),
+                      " accounted, ", format_bytes(facts.peak_bytes_by_purpose[output]),
+                      " to write"));
   }
 }
 
 void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
   if (!request.job.run.store.resume) return;
   if (facts.resumed_windows == 0) {
-    spdlog::warn("{}: no saved work to resume, started from the beginning",
-                 request.job.run.store.workdir.string());
+    log_warning(io::text(request.job.run.store.workdir.string(),
+                         ": no saved work to resume, started from the beginning"));
   } else {
-    spdlog::info("{} windows were done before", facts.resumed_windows);
+    log_info(io::text(facts.resumed_windows, " windows were done before"));
   }
 }
 
@@ -164,10 +165,10 @@ int threads_at_hand(int asked) {
   const int wanted = engine::thread_count(asked);
   const int given = engine::Crew(wanted).size();
   if (given < wanted) {
-    spdlog::warn(
-        "the system gives {} of {} threads; the mesh is the same, later. Raise the limit of "
-        "processes (ulimit -u) or of address space (ulimit -v), or give --threads {}",
-        given, wanted, given);
+    log_warning(io::text("the system gives ", given, " of ", wanted,
+                         " threads; the mesh is the same, later. Raise the limit of processes "
+                         "(ulimit -u) or of address space (ulimit -v), or give --threads ",
+                         given));
   }
   return given;
 }
@@ -192,10 +193,10 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   // Refused before any file is opened.
   const bool is_certified = engine::plan_certificate(request.job).why_not.empty();
   const std::string why = engine::why_no_volumes(engine::promises_of(request.job.settings));
-  if (!why.empty()) spdlog::warn("{}: the volumes of labels are not promised (P8)", why);
+  if (!why.empty()) log_warning(why + ": the volumes of labels are not promised (P8)");
   const report::ResourceMeter meter;
   MeshFiles files(request, open_shared_output(request, is_certified));
-  spdlog::info("reading {}", request.volume.path.string());
+  log_info("reading " + request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
   report::FinishedRun run = mesh_into(request, *volume, files);
   if (files.trace) files.trace->finish();

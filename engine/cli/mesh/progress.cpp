@@ -3,8 +3,6 @@
 // Log lines, the bar, and lines of a trace.
 #include "engine/cli/mesh/progress.h"
 
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -71,13 +69,6 @@ void Progress::show(const engine::RunProgress& at) {
   } else {
     show_line(at, seconds_between(start_, now));
   }
-}
-
-void start_log(const std::string& level) {
-  auto sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-  spdlog::set_default_logger(std::make_shared<spdlog::logger>("mwmesh", std::move(sink)));
-  spdlog::set_pattern("mwmesh: %l: %v");
-  spdlog::set_level(spdlog::level::from_str(level));
 }
 
 TraceFile::TraceFile(const std::filesystem::path& path) : file_(path) {

@@ -34,9 +34,6 @@ class Progress {
   std::uint64_t done_ = 0;  ///< windows that were shown
 };
 
-/// Log lines go to stderr from this level on: debug, info, warn, error, off.
-void start_log(const std::string& level);
-
 /// Comma-separated values: a line of names, then a line for each visit in order of completion.
 ///   march    from 0
 ///   x,y,z    the window's place among the windows of its march

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cli/mesh/run_processes.h"
 
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
 
+#include "engine/cli/log.h"
 #include "engine/march/march.h"
+#include "io/file/errors.h"
 #include "io/mesh/open_mesh.h"
 
 namespace mw::cli {
@@ -26,10 +27,10 @@ int threads_of_process(int asked, int processes_here) {
   const int share = std::max(1, machine / processes_here);
   if (own == machine) return share;
   if (own < share) {
-    spdlog::warn(
-        "this process may use {} of {} cores, and its share of them is {}: let mpirun bind "
-        "less tightly (--bind-to none, or --map-by ppr:{}:node:PE={})",
-        own, machine, share, processes_here, share);
+    log_warning(io::text(
+        "this process may use ", own, " of ", machine, " cores, and its share of them is ", share,
+        ": let mpirun bind less tightly (--bind-to none, or --map-by ppr:", processes_here,
+        ":node:PE=", share, ")"));
   }
   return own;
 }

@@ -3,10 +3,9 @@
 // Options about the input volume, shared by all subcommands that read one.
 #include "engine/cli/options/volume_options.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
+#include "engine/cli/log.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "io/file/errors.h"
@@ -231,7 +230,7 @@ io::LabelNames names_of(const VolumeRequest& request) {
 
 std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request) {
   auto volume = io::open_volume(request.path, open_options(request));
-  if (!volume->info().note.empty()) spdlog::warn(volume->info().note);
+  if (!volume->info().note.empty()) log_warning(volume->info().note);
   if (request.names.empty()) return volume;
   return std::make_unique<io::NamedVolume>(std::move(volume), io::read_names(request.names));
 }

@@ -14,7 +14,7 @@ namespace mw::io {
 namespace {
 
 constexpr std::int32_t kSurface = 2;
-constexpr std::int32_t kVolume = 3;
+constexpr std::int32_t kVolumeDimension = 3;
 /// Gmsh has the middle of edge 2 3 before that of 1 3.
 constexpr std::array<std::size_t, 10> kGmshOrder{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 
@@ -81,9 +81,9 @@ void MshWriter::write(GroupedMesh& mesh) {
 MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {
   const std::size_t groups = contents.mesh.facet_groups().size();
   if (entity < groups) return {kSurface, surface_tag(contents.numbers, entity)};
-  if (contents.mesh.table().size() == 0) return {kVolume, 1};
+  if (contents.mesh.table().size() == 0) return {kVolumeDimension, 1};
   const auto rank = static_cast<Label>(entity - groups);
-  return {kVolume, static_cast<std::int32_t>(contents.numbers[rank])};
+  return {kVolumeDimension, static_cast<std::int32_t>(contents.numbers[rank])};
 }
 
 void MshWriter::write_format() {
@@ -114,7 +114,7 @@ void MshWriter::write_physical_names(const Contents& contents) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const std::string plain = plain_volume_name(mesh.table(), rank);
     lines.push_back(
-        name_line(kVolume, contents.numbers[rank], gmsh_name(names.volume(rank), plain)));
+        name_line(kVolumeDimension, contents.numbers[rank], gmsh_name(names.volume(rank), plain)));
   }
   out_.begin_section("PhysicalNames");
   out_.add_line(text(lines.size()));

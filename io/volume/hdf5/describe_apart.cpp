@@ -71,7 +71,6 @@ std::string type_text(hid_t type) {
 
 namespace {
 
-constexpr const char* kDamaged = "the file is damaged: check it with h5dump, or h5repack it";
 /// A compact data set is part of a header message, which has a size of 16 bits.
 constexpr std::uint64_t kMaxCompactBytes = 1 << 16;
 /// Chunks of the grid that a slow processor finds in a second.
@@ -107,7 +106,7 @@ class Describer {
         fail("its voxels are in other files (a virtual data set)",
              "copy it into one file: h5py's out['labels'] = file[...][()]");
       default:
-        fail("its storage is unknown", kDamaged);
+        fail("its storage is unknown", kHdf5Damaged);
     }
     find_geometry(hdf5_, set_.get(), source_.bytes->name(), out_);
     return std::move(out_);
@@ -152,7 +151,7 @@ class Describer {
     auto bytes = static_cast<std::uint64_t>(byte_size(out_.type));
     for (const std::uint64_t extent : out_.shape) {
       if (extent > kMaxCompactBytes || (bytes *= extent) > kMaxCompactBytes) {
-        fail("its shape does not fit its storage", kDamaged);
+        fail("its shape does not fit its storage", kHdf5Damaged);
       }
     }
     out_.bytes.resize(bytes);
@@ -178,7 +177,8 @@ class Describer {
     out_.layout = Hdf5Layout::kChunked;
     std::array<hsize_t, H5S_MAX_RANK> shape{};
     const int rank = H5Pget_chunk(list, shape.size(), shape.data());
-    if (rank != static_cast<int>(out_.shape.size())) fail("its chunks have other axes", kDamaged);
+    if (rank != static_cast<int>(out_.shape.size()))
+      fail("its chunks have other axes", kHdf5Damaged);
     out_.chunk_shape.assign(shape.begin(), shape.begin() + rank);
     find_filters(list);
     find_fill(list);
@@ -218,7 +218,7 @@ class Describer {
     std::uint64_t all = 1;
     for (std::size_t d = 0; d < out_.shape.size(); ++d) {
       const std::uint64_t extent = out_.shape[d], chunk = out_.chunk_shape[d];
-      if (chunk == 0) fail("a chunk is empty", kDamaged);
+      if (chunk == 0) fail("a chunk is empty", kHdf5Damaged);
       counts.push_back(extent / chunk + (extent % chunk == 0 ? 0 : 1));
       if (__builtin_mul_overflow(all, counts.back(), &all) || all > kMaxHdf5Chunks) {
         fail(text("it is in more than ", kMaxHdf5Chunks, " chunks"),
@@ -239,7 +239,7 @@ class Describer {
     if (out_.chunks.size() != stored) {
       fail(text("its index of chunks has ", stored, ", of which ", out_.chunks.size(),
                 " can be found"),
-           kDamaged);
+           kHdf5Damaged);
     }
   }
 
@@ -270,7 +270,7 @@ class Describer {
     source_.only_note_data = false;
     if (done < 0) fail_library("its index of chunks cannot be read");
     if (!source_.noted || source_.noted->bytes != bytes || bytes > UINT32_MAX) {
-      fail("its index of chunks contradicts itself", kDamaged);
+      fail("its index of chunks contradicts itself", kHdf5Damaged);
     }
     out_.chunks.push_back({.number = number,
                            .offset = source_.noted->offset,
@@ -282,7 +282,7 @@ class Describer {
     fail_input(source_.bytes->name(), text("data set ", out_.path), reason, way_out);
   }
   [[noreturn]] void fail_library(const char* what) const {
-    fail(text(what, ": ", hdf5_reason()), kDamaged);
+    fail(text(what, ": ", hdf5_reason()), kHdf5Damaged);
   }
 
   Hdf5Source& source_;

@@ -14,13 +14,12 @@ namespace mw::io {
 namespace {
 
 constexpr hssize_t kMaxNumbers = H5S_MAX_RANK;
-constexpr const char* kDamaged = "the file is damaged: check it with h5dump, or h5repack it";
 constexpr std::size_t kMaxTextBytes = 1 << 14;
 
 /// Looks things up by name.  None is an answer; a look-up that fails is damage.
-class Reader {
+class AttributeReader {
  public:
-  explicit Reader(std::string_view file) : file_(file) {}
+  explicit AttributeReader(std::string_view file) : file_(file) {}
 
   [[nodiscard]] bool has_attribute(hid_t object, const char* name) const {
     return demand(H5Aexists(object, name), name) > 0;
@@ -80,14 +79,15 @@ class Reader {
 
  private:
   [[noreturn]] void refuse(const char* name) const {
-    fail_input(file_, name, text("is not one text of up to ", kMaxTextBytes, " bytes"), kDamaged);
+    fail_input(file_, name, text("is not one text of up to ", kMaxTextBytes, " bytes"),
+               kHdf5Damaged);
   }
 
   /// What the library returned, unless it is negative: it failed.
   template <class Result>
   Result demand(Result result, const char* name) const {
     if (result < 0) {
-      fail_input(file_, name, text("cannot be read: ", hdf5_reason()), kDamaged);
+      fail_input(file_, name, text("cannot be read: ", hdf5_reason()), kHdf5Damaged);
     }
     return result;
   }
@@ -106,7 +106,8 @@ class Reader {
     const bool numbers = kind == H5T_INTEGER || kind == H5T_FLOAT;
     if (!numbers) return 0;
     if (count > kMaxNumbers) {
-      fail_input(file_, name, text("holds ", count, " numbers, more than a place has"), kDamaged);
+      fail_input(file_, name, text("holds ", count, " numbers, more than a place has"),
+                 kHdf5Damaged);
     }
     return static_cast<std::size_t>(count);
   }
@@ -130,7 +131,7 @@ void keep(Hdf5Description& description, const char* name, std::vector<double> nu
 
 /// The geometry of DREAM.3D: a group `_SIMPL_GEOMETRY` of data sets up to version 7, attributes of
 /// the image's group from version 8 on.  Whether there is one.
-bool find_geometry(const Reader& reader, hid_t group, Hdf5Description& out) {
+bool find_geometry(const AttributeReader& reader, hid_t group, Hdf5Description& out) {
   if (reader.has_attribute(group, "_SPACING")) {
     keep(out, "DIMENSIONS", reader.attribute_numbers(group, "_DIMENSIONS"));
     keep(out, "SPACING", reader.attribute_numbers(group, "_SPACING"));
@@ -148,7 +149,7 @@ bool find_geometry(const Reader& reader, hid_t group, Hdf5Description& out) {
 }  // namespace
 
 void find_geometry(hid_t hdf5, hid_t set, std::string_view file, Hdf5Description& description) {
-  const Reader reader(file);
+  const AttributeReader reader(file);
   for (const char* name : {"resolution", "offset", "element_size_um"}) {
     keep(description, name, reader.attribute_numbers(set, name));
   }

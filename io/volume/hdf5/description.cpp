@@ -9,7 +9,7 @@ namespace mw::io {
 namespace {
 
 /// Everything is numbers of 64 bits, and runs of bytes behind their length.
-class Writer {
+class DescriptionWriter {
  public:
   void number(std::uint64_t value) {
     out_.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -29,10 +29,10 @@ class Writer {
   std::string out_;
 };
 
-/// Reads what Writer wrote; what is not there reads as nothing, and sound() says so.
-class Reader {
+/// Reads what DescriptionWriter wrote; what is not there reads as nothing, and sound() says so.
+class DescriptionReader {
  public:
-  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+  explicit DescriptionReader(const std::string& bytes) : bytes_(bytes) {}
 
   [[nodiscard]] std::uint64_t number() {
     std::uint64_t value = 0;
@@ -73,7 +73,7 @@ class Reader {
   bool sound_ = true;
 };
 
-void write_filters(Writer& out, const std::vector<Hdf5Filter>& filters) {
+void write_filters(DescriptionWriter& out, const std::vector<Hdf5Filter>& filters) {
   out.number(filters.size());
   for (const Hdf5Filter& filter : filters) {
     out.number(filter.id);
@@ -81,7 +81,7 @@ void write_filters(Writer& out, const std::vector<Hdf5Filter>& filters) {
   }
 }
 
-std::vector<Hdf5Filter> read_filters(Reader& in) {
+std::vector<Hdf5Filter> read_filters(DescriptionReader& in) {
   std::vector<Hdf5Filter> filters;
   for (std::uint64_t left = in.number(); left > 0 && in.sound(); --left) {
     const auto id = static_cast<std::uint32_t>(in.number());
@@ -90,7 +90,8 @@ std::vector<Hdf5Filter> read_filters(Reader& in) {
   return filters;
 }
 
-void write_numbers(Writer& out, const std::map<std::string, std::vector<double>>& numbers) {
+void write_numbers(DescriptionWriter& out,
+                   const std::map<std::string, std::vector<double>>& numbers) {
   out.number(numbers.size());
   for (const auto& [name, values] : numbers) {
     out.string(name);
@@ -98,7 +99,7 @@ void write_numbers(Writer& out, const std::map<std::string, std::vector<double>>
   }
 }
 
-std::map<std::string, std::vector<double>> read_numbers(Reader& in) {
+std::map<std::string, std::vector<double>> read_numbers(DescriptionReader& in) {
   std::map<std::string, std::vector<double>> numbers;
   for (std::uint64_t left = in.number(); left > 0 && in.sound(); --left) {
     const std::string name = in.string();
@@ -110,7 +111,7 @@ std::map<std::string, std::vector<double>> read_numbers(Reader& in) {
 }  // namespace
 
 std::string pack(const Hdf5Description& description) {
-  Writer out;
+  DescriptionWriter out;
   out.string(description.path);
   out.array(description.shape);
   out.number(static_cast<std::uint64_t>(description.type));
@@ -129,7 +130,7 @@ std::string pack(const Hdf5Description& description) {
 }
 
 std::optional<Hdf5Description> unpack_description(const std::string& bytes) {
-  Reader in(bytes);
+  DescriptionReader in(bytes);
   Hdf5Description out;
   out.path = in.string();
   out.shape = in.array<std::uint64_t>();

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The bricks of voxels that labels are kept in.
+#pragma once
+
+#include <cstdint>
+
+#include "io/labels/brick_volume.h"
+#include "kernels/core/index.h"
+
+namespace mw::engine {
+
+/// Voxels along each edge of a brick.
+inline constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
+
+[[nodiscard]] inline bool is_empty(const Box3& box) {
+  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
+}
+
+}  // namespace mw::engine
