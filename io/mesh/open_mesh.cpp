@@ -8,11 +8,13 @@
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
 #include "io/mesh/abaqus/inp_writer.h"
+#include "io/mesh/exodus/exodus_writer.h"
 #include "io/mesh/febio/febio_writer.h"
 #include "io/mesh/gmsh/msh.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/medit/medit.h"
+#include "io/mesh/nastran/bdf_writer.h"
 #include "io/mesh/pieces/pvtu.h"
 #include "io/mesh/vtkhdf/vtkhdf.h"
 #include "io/mesh/vtu/vtu.h"
@@ -75,6 +77,9 @@ const std::array kFormats{
     MeshFormat{".mesh", [](const auto& path) { return read_medit(*open_bytes(path)); }, nullptr,
                &open_corners<MeditSink>},
     MeshFormat{".msh", &read_msh, nullptr, &open_msh<false>, {".msh.labels.csv"}, &open_msh<true>},
+    MeshFormat{".msh2", &read_msh, nullptr, &open_grouped<Msh2Writer>, {".msh2.labels.csv"}},
+    MeshFormat{".exo", nullptr, nullptr, &open_grouped<ExodusWriter>, {".exo.labels.csv"}},
+    MeshFormat{".bdf", nullptr, nullptr, &open_grouped<BdfWriter>, {".bdf.labels.csv"}},
     MeshFormat{".inp", nullptr, nullptr, &open_grouped<InpWriter>},
     MeshFormat{".xdmf",
                nullptr,

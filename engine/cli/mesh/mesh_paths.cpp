@@ -99,7 +99,7 @@ void require_workdir_apart(const MeshRequest& request) {
 
 /// What one of these has, a mesh of ours has near its beginning or its end: the record of its run,
 /// and words of the formats that have no place for it.
-constexpr std::array<std::string_view, 4> kMarks{"mwmesh", "$MeshFormat\n4.1", "\nTetrahedra of ",
+constexpr std::array<std::string_view, 4> kMarks{"mwmesh", "$MeshFormat\n", "\nTetrahedra of ",
                                                  "placeholders: one for each label"};
 
 std::string ends_of(const fs::path& path) {

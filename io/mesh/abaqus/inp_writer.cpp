@@ -4,7 +4,7 @@
 #include "io/mesh/abaqus/inp_writer.h"
 
 #include "io/file/errors.h"
-#include "io/file/scratch/external_sort.h"
+#include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/medit/medit.h"
 
 namespace mw::io {
@@ -47,18 +47,10 @@ void InpWriter::write(GroupedMesh& mesh) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_elements(mesh, mesh.label_tets()[rank], names.volume(rank));
   }
-  const std::vector<FacetGroup>& groups = mesh.facet_groups();
-  for (std::size_t g = 0; g < groups.size();) {
-    FacetGroup all = groups[g];
-    // Groups of a side, which have one name, are neighbours.
-    while (++g < groups.size() && all.side != Side::kInterface && groups[g].side == all.side) {
-      all.facets.end = groups[g].facets.end;
-    }
-    write_node_set(mesh, names.facets(all), all.facets);
-    write_surface(mesh, names.facets(all), all.facets, false);
-    if (all.side == Side::kInterface) {
-      write_surface(mesh, names.facets(all, true), all.facets, true);
-    }
+  for (const NamedFacets& set : named_facets(mesh, names)) {
+    write_node_set(mesh, set.name, set.group.facets);
+    write_surface(mesh, set.name, set.group.facets, false);
+    if (!set.other.empty()) write_surface(mesh, set.other, set.group.facets, true);
   }
   line(kInpEnds);
   file_.commit();
@@ -120,25 +112,17 @@ void InpWriter::write_surface(GroupedMesh& mesh, const std::string& name, RowRan
 }
 
 void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets) {
-  constexpr std::size_t kSortBytes = 8 << 20;
   constexpr std::size_t kMaxItems = 16;  // of a data line
-  ExternalSort<1> rows(folder_, kSortBytes);
-  for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
-    for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) rows.add({row});
-  }
   line("*NSET, NSET=", name);
   std::string items;
   std::size_t count = 0;
-  std::uint64_t last = mesh.node_count();
-  rows.each([&](const std::array<std::uint64_t, 1>& row) {
-    if (row[0] == last) return;
-    last = row[0];
+  for_each_facet_node(mesh, facets, folder_, [&](std::uint64_t row) {
     if (count++ == kMaxItems) {
       line(items);
       items.clear();
       count = 1;
     }
-    items += text(items.empty() ? "" : ", ", row[0] + 1);
+    items += text(items.empty() ? "" : ", ", row + 1);
   });
   line(items);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Gmsh's .msh files: 4.1 and 2.2 in, 4.1 out.
+// Gmsh's .msh files: 4.1 and 2.2 in, and out as .msh and .msh2.
 #pragma once
 
 #include <filesystem>
@@ -54,7 +54,6 @@ class MshWriter : public GroupedWriter {
 
   static Tag tag_of(const Contents& contents, std::size_t entity);
   void write_format();
-  void write_physical_names(const Contents& contents);
   void write_entities(const Contents& contents);
   void put_entity(const Contents& contents, std::size_t entity, std::int32_t physical);
   void write_nodes(Contents& contents);
@@ -66,6 +65,26 @@ class MshWriter : public GroupedWriter {
   MshEncoder out_;
   AtomicFile labels_;
   std::filesystem::path folder_;  ///< of temporary files
+};
+
+/// The same groups, names, numbers and table in version 2.2, as text, for programs that read no
+/// later one (GetFEM); Gmsh's own ending for it is .msh2.  Elements are triangles, then tets.
+class Msh2Writer : public GroupedWriter {
+ public:
+  explicit Msh2Writer(const std::filesystem::path& path)
+      : out_(path, true), labels_(label_table_path(path)) {}
+
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  void write_nodes(GroupedMesh& mesh);
+  void write_elements(GroupedMesh& mesh, const LabelNumbers& numbers);
+  /// physical, entity: numbers of the element's groups.  nodes: rows in Gmsh's order.
+  void write_element(std::uint64_t number, std::int32_t type, std::int64_t physical,
+                     std::int64_t entity, const NodeRows& nodes);
+
+  MshEncoder out_;
+  AtomicFile labels_;
 };
 
 }  // namespace mw::io

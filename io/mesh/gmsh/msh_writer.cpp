@@ -4,53 +4,13 @@
 #include "io/mesh/gmsh/msh.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/gmsh/msh_elements.h"
+#include "io/mesh/gmsh/msh_groups.h"
 
 namespace mw::io {
 namespace {
-
-constexpr std::int32_t kSurface = 2;
-constexpr std::int32_t kVolumeDimension = 3;
-/// Gmsh has the middle of edge 2 3 before that of 1 3.
-constexpr std::array<std::size_t, 10> kGmshOrder{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
-
-/// Surfaces have numbers above those of labels: many programs have one space of numbers for all
-/// dimensions.
-LabelNumbers numbers_of(const GroupedMesh& mesh) {
-  const auto surfaces = static_cast<std::int64_t>(kSides + mesh.facet_groups().size());
-  return LabelNumbers(mesh.table(), {.max = std::numeric_limits<std::int32_t>::max() - surfaces});
-}
-
-std::int32_t above(const LabelNumbers& labels, std::size_t number) {
-  return static_cast<std::int32_t>(labels.largest() + static_cast<std::int64_t>(number));
-}
-
-std::int32_t surface_tag(const LabelNumbers& labels, std::size_t group) {
-  return above(labels, group + 1);
-}
-
-/// Interfaces are the first groups.
-std::int32_t physical_surface(const LabelNumbers& labels, const FacetGroup& group,
-                              std::size_t index) {
-  const bool interface = group.side == Side::kInterface;
-  return above(labels, interface ? kSides + index : static_cast<std::size_t>(group.side));
-}
-
-/// Gmsh documents 127 bytes and knows no way to write a quote.
-std::string gmsh_name(std::string name, const std::string& plain) {
-  constexpr std::size_t kMaxBytes = 127;
-  if (name.size() > kMaxBytes) return plain;
-  std::replace(name.begin(), name.end(), '"', '\'');
-  return name;
-}
-
-std::string name_line(std::int32_t dimension, std::int64_t tag, const std::string& name) {
-  return text(dimension, " ", tag, " \"", name, "\"");
-}
 
 /// By label, the surfaces around it; negative where their normals point into it.
 std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh,
@@ -68,9 +28,9 @@ std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh,
 }  // namespace
 
 void MshWriter::write(GroupedMesh& mesh) {
-  Contents contents{mesh, numbers_of(mesh), NodeClasses(mesh, folder_)};
+  Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh, folder_)};
   write_format();
-  write_physical_names(contents);
+  write_physical_names(out_, mesh, contents.numbers);
   write_entities(contents);
   write_nodes(contents);
   write_elements(contents);
@@ -80,10 +40,10 @@ void MshWriter::write(GroupedMesh& mesh) {
 
 MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {
   const std::size_t groups = contents.mesh.facet_groups().size();
-  if (entity < groups) return {kSurface, surface_tag(contents.numbers, entity)};
-  if (contents.mesh.table().size() == 0) return {kVolumeDimension, 1};
+  if (entity < groups) return {kMshSurface, surface_tag(contents.numbers, entity)};
+  if (contents.mesh.table().size() == 0) return {kMshVolume, 1};
   const auto rank = static_cast<Label>(entity - groups);
-  return {kVolumeDimension, static_cast<std::int32_t>(contents.numbers[rank])};
+  return {kMshVolume, static_cast<std::int32_t>(contents.numbers[rank])};
 }
 
 void MshWriter::write_format() {
@@ -96,30 +56,6 @@ void MshWriter::write_format() {
   out_.put(std::int32_t{1});  // tells the byte order
   out_.end_row();
   out_.end_section("MeshFormat");
-}
-
-void MshWriter::write_physical_names(const Contents& contents) {
-  GroupedMesh& mesh = contents.mesh;
-  const GroupNames names(mesh);
-  std::vector<std::string> lines;
-  for (std::size_t g = 0; g < mesh.facet_groups().size(); ++g) {
-    const FacetGroup& group = mesh.facet_groups()[g];
-    const bool new_group =
-        g == 0 || group.side == Side::kInterface || group.side != mesh.facet_groups()[g - 1].side;
-    if (!new_group) continue;
-    const std::string plain = plain_facet_name(mesh.table(), group);
-    lines.push_back(name_line(kSurface, physical_surface(contents.numbers, group, g),
-                              gmsh_name(names.facets(group), plain)));
-  }
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    const std::string plain = plain_volume_name(mesh.table(), rank);
-    lines.push_back(
-        name_line(kVolumeDimension, contents.numbers[rank], gmsh_name(names.volume(rank), plain)));
-  }
-  out_.begin_section("PhysicalNames");
-  out_.add_line(text(lines.size()));
-  for (const std::string& line : lines) out_.add_line(line);
-  out_.add_line("$EndPhysicalNames");
 }
 
 void MshWriter::write_entities(const Contents& contents) {
@@ -234,7 +170,7 @@ void MshWriter::put_tets(GroupedMesh& mesh, RowRange tets) {
     out_.put(mesh.facet_count() + t + 1);
     const NodeRows nodes = mesh.tet_nodes(t);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      out_.put(nodes.begin()[kGmshOrder[i]] + 1);
+      out_.put(nodes.begin()[kMshTetOrder[i]] + 1);
     }
     out_.end_row();
   }

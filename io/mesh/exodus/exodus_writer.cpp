@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Names of dimensions, variables and attributes are those of the Exodus II manual (SAND92-2137).
+#include "io/mesh/exodus/exodus_writer.h"
+
+#include <limits>
+#include <numeric>
+
+#include "io/file/errors.h"
+#include "io/mesh/grouped/group_names.h"
+#include "kernels/core/error.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kNameBytes = 80;
+constexpr std::size_t kRowsAtOnce = 4096;
+
+/// The side of an element that lies opposite to a corner.
+int side_opposite(std::uint64_t corner) {
+  constexpr std::array<int, 4> kSides{2, 3, 1, 4};
+  return kSides[corner];
+}
+
+int number(std::uint64_t row) {
+  return static_cast<int>(row + 1);
+}
+
+std::vector<int> counted_from_one(std::size_t count) {
+  std::vector<int> out(count);
+  std::iota(out.begin(), out.end(), 1);
+  return out;
+}
+
+template <class Sets>
+std::vector<std::string> names_of(const Sets& sets) {
+  std::vector<std::string> out;
+  for (const auto& set : sets) out.push_back(set.name);
+  return out;
+}
+
+/// Calls visit(first, count) on a range in steps.
+template <class Visit>
+void in_steps(RowRange rows, Visit visit) {
+  for (std::uint64_t first = rows.begin; first < rows.end; first += kRowsAtOnce) {
+    visit(first, std::min<std::uint64_t>(kRowsAtOnce, rows.end - first));
+  }
+}
+
+}  // namespace
+
+void ExodusWriter::write(GroupedMesh& mesh) {
+  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count());
+  if (max > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
+    throw Error(ErrorKind::kUsage, text(name_, ": nodes and tets have numbers up to 2147483647, ",
+                                        max, " are needed; write .vtkhdf"));
+  }
+  const LabelNumbers numbers(mesh.table());
+  Plan plan = plan_of(mesh);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    plan.ids.push_back(static_cast<int>(numbers[rank]));
+  }
+  define(mesh, plan);
+  out_.begin_data();
+  write_list(block_list_, plan.blocks, plan.ids);
+  write_list(side_set_list_, names_of(plan.side_sets), counted_from_one(plan.side_sets.size()));
+  write_list(node_set_list_, names_of(plan.node_sets), counted_from_one(plan.node_sets.size()));
+  write_nodes(mesh, plan);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    write_block(mesh, mesh.label_tets()[rank], plan.connectivity[rank]);
+  }
+  for (const SideSet& set : plan.side_sets) write_side_set(mesh, set);
+  for (const NodeSet& set : plan.node_sets) write_node_set(mesh, set);
+  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  out_.commit(labels_);
+}
+
+ExodusWriter::Plan ExodusWriter::plan_of(GroupedMesh& mesh) const {
+  Plan plan;
+  const PlainNames names(mesh);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    plan.blocks.push_back(names.volume(rank));
+  }
+  for (const NamedFacets& set : named_facets(mesh, names)) {
+    const RowRange facets = set.group.facets;
+    plan.side_sets.push_back({.name = set.name, .facets = facets});
+    if (!set.other.empty()) {
+      plan.side_sets.push_back({.name = set.other, .facets = facets, .of_second = true});
+    }
+    std::uint64_t nodes = 0;
+    for_each_facet_node(mesh, facets, folder_, [&](std::uint64_t /*row*/) { ++nodes; });
+    plan.node_sets.push_back({.name = set.name, .facets = facets, .nodes = nodes});
+  }
+  return plan;
+}
+
+void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
+  constexpr float kVersion = 8.03F;
+  constexpr int kLargeModel = 1;
+  constexpr int kBytesOfDouble = 8;
+  const bool quadratic = mesh.element() == Element::kTet10;
+  out_.add_attribute(NetcdfOutput::kWholeFile, "api_version", kVersion);
+  out_.add_attribute(NetcdfOutput::kWholeFile, "version", kVersion);
+  out_.add_attribute(NetcdfOutput::kWholeFile, "floating_point_word_size", kBytesOfDouble);
+  out_.add_attribute(NetcdfOutput::kWholeFile, "file_size", kLargeModel);
+  out_.add_attribute(NetcdfOutput::kWholeFile, "maximum_name_length",
+                     static_cast<int>(kNameBytes));
+  out_.add_attribute(NetcdfOutput::kWholeFile, "title",
+                     text("mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
+  name_length_ = out_.add_dimension("len_name", kNameBytes + 1);
+  out_.add_dimension("num_dim", 3);
+  out_.add_dimension("time_step", 0);
+  if (mesh.node_count() > 0) {
+    const int nodes = out_.add_dimension("num_nodes", mesh.node_count());
+    plan.coordinates = {out_.add_doubles("coordx", {nodes}), out_.add_doubles("coordy", {nodes}),
+                        out_.add_doubles("coordz", {nodes})};
+  }
+  if (mesh.tet_count() > 0) out_.add_dimension("num_elem", mesh.tet_count());
+  block_list_ = define_list("num_el_blk", "eb_", plan.blocks.size());
+  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+    const int tets = out_.add_dimension(text("num_el_in_blk", b + 1), mesh.label_tets()[b].size());
+    const int nodes = out_.add_dimension(text("num_nod_per_el", b + 1), node_count(mesh.element()));
+    plan.connectivity.push_back(out_.add_integers(text("connect", b + 1), {tets, nodes}));
+    out_.add_attribute(plan.connectivity.back(), "elem_type", quadratic ? "TETRA10" : "TETRA");
+  }
+  side_set_list_ = define_list("num_side_sets", "ss_", plan.side_sets.size());
+  for (std::size_t s = 0; s < plan.side_sets.size(); ++s) {
+    SideSet& set = plan.side_sets[s];
+    const int sides = out_.add_dimension(text("num_side_ss", s + 1), set.facets.size());
+    set.elements = out_.add_integers(text("elem_ss", s + 1), {sides});
+    set.sides = out_.add_integers(text("side_ss", s + 1), {sides});
+  }
+  node_set_list_ = define_list("num_node_sets", "ns_", plan.node_sets.size());
+  for (std::size_t s = 0; s < plan.node_sets.size(); ++s) {
+    NodeSet& set = plan.node_sets[s];
+    const int nodes = out_.add_dimension(text("num_nod_ns", s + 1), set.nodes);
+    set.variable = out_.add_integers(text("node_ns", s + 1), {nodes});
+  }
+}
+
+ExodusWriter::ListVariables ExodusWriter::define_list(const std::string& dimension,
+                                                      const std::string& prefix,
+                                                      std::size_t members) {
+  if (members == 0) return {};
+  const int length = out_.add_dimension(dimension, members);
+  ListVariables list;
+  list.status = out_.add_integers(prefix + "status", {length});
+  list.ids = out_.add_integers(prefix + "prop1", {length});
+  out_.add_attribute(list.ids, "name", std::string("ID"));
+  list.names = out_.add_texts(prefix + "names", {length, name_length_});
+  return list;
+}
+
+void ExodusWriter::write_list(const ListVariables& list, const std::vector<std::string>& names,
+                              std::span<const int> ids) {
+  if (names.empty()) return;
+  out_.put(list.status, 0, std::vector<int>(names.size(), 1));
+  out_.put(list.ids, 0, ids);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    out_.put_text(list.names, i, names[i], kNameBytes);
+  }
+}
+
+void ExodusWriter::write_nodes(GroupedMesh& mesh, const Plan& plan) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    in_steps({0, mesh.node_count()}, [&](std::uint64_t first, std::uint64_t count) {
+      std::vector<double> values(count);
+      for (std::uint64_t i = 0; i < count; ++i) values[i] = mesh.node(first + i)[axis];
+      out_.put(plan.coordinates[axis], first, values);
+    });
+  }
+}
+
+void ExodusWriter::write_block(GroupedMesh& mesh, RowRange tets, int variable) {
+  const std::size_t columns = node_count(mesh.element());
+  in_steps(tets, [&](std::uint64_t first, std::uint64_t count) {
+    std::vector<int> values;
+    values.reserve(count * columns);
+    for (std::uint64_t t = first; t < first + count; ++t) {
+      for (const std::uint64_t row : mesh.tet_nodes(t)) values.push_back(number(row));
+    }
+    out_.put(variable, first - tets.begin, values, columns);
+  });
+}
+
+void ExodusWriter::write_side_set(GroupedMesh& mesh, const SideSet& set) {
+  in_steps(set.facets, [&](std::uint64_t first, std::uint64_t count) {
+    std::vector<int> elements, sides;
+    for (std::uint64_t f = first; f < first + count; ++f) {
+      const Facet facet = mesh.facet(f);
+      elements.push_back(number(set.of_second ? facet.second_tet : facet.tet));
+      sides.push_back(side_opposite(set.of_second ? facet.second_opposite : facet.opposite));
+    }
+    out_.put(set.elements, first - set.facets.begin, elements);
+    out_.put(set.sides, first - set.facets.begin, sides);
+  });
+}
+
+void ExodusWriter::write_node_set(GroupedMesh& mesh, const NodeSet& set) {
+  std::vector<int> nodes;
+  std::uint64_t written = 0;
+  const auto flush = [&] {
+    out_.put(set.variable, written, nodes);
+    written += nodes.size();
+    nodes.clear();
+  };
+  for_each_facet_node(mesh, set.facets, folder_, [&](std::uint64_t row) {
+    nodes.push_back(number(row));
+    if (nodes.size() == kRowsAtOnce) flush();
+  });
+  flush();
+}
+
+}  // namespace mw::io

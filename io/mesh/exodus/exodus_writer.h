@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a grouped mesh as Exodus II, which MOOSE, Sierra, MFEM and ParaView read.
+#pragma once
+
+#include "io/mesh/exodus/netcdf_output.h"
+#include "io/mesh/grouped/facet_nodes.h"
+#include "io/mesh/grouped/label_numbers.h"
+
+namespace mw::io {
+
+/// A block of TETRA or TETRA10 for each label, whose id is the label's number in the table beside
+/// the file (label_numbers.h) and whose name is PlainNames'.  Two side sets for each interface,
+/// FACE_1_2 of the tets of label 1 and FACE_2_1 of those of label 2; one for each side of the box
+/// (X_MIN to Z_MAX), and OUTER for what else bounds the mesh.  The nodes of each of these, of an
+/// interface once, are a node set of the same name.  Side and node sets have ids from 1 on.  The
+/// elements of a block have their faces numbered as Exodus II does: side 1 has the nodes 1 2 4,
+/// side 2 has 2 3 4, side 3 has 1 4 3, side 4 has 1 3 2. Memory: 9 MiB.  ERRORS: see NetcdfOutput;
+/// mw::Error(kUsage) above 2,147,483,647 nodes or tets.
+class ExodusWriter : public GroupedWriter {
+ public:
+  explicit ExodusWriter(const std::filesystem::path& path)
+      : folder_(path.parent_path()),
+        name_(path.string()),
+        out_(path),
+        labels_(label_table_path(path)) {}
+
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  /// One side set: facets, seen from one of their labels.
+  struct SideSet {
+    std::string name;
+    RowRange facets;
+    bool of_second = false;
+    int elements = 0;  ///< variables of the file
+    int sides = 0;
+  };
+  /// One node set.
+  struct NodeSet {
+    std::string name;
+    RowRange facets;
+    std::uint64_t nodes = 0;
+    int variable = 0;
+  };
+  /// What is written, with the variables that hold it.
+  struct Plan {
+    std::vector<std::string> blocks;  ///< names, by rank of label
+    std::vector<int> ids;
+    std::vector<SideSet> side_sets;
+    std::vector<NodeSet> node_sets;
+    std::array<int, 3> coordinates{};
+    std::vector<int> connectivity;  ///< by rank of label
+  };
+  /// The variables that hold status, id and name of each member of a list.
+  struct ListVariables {
+    int status = 0;
+    int ids = 0;
+    int names = 0;
+  };
+
+  [[nodiscard]] Plan plan_of(GroupedMesh& mesh) const;
+  void define(GroupedMesh& mesh, Plan& plan);
+  /// The dimension's length is the number of members, and `prefix` begins the variables' names.
+  ListVariables define_list(const std::string& dimension, const std::string& prefix,
+                            std::size_t members);
+  void write_list(const ListVariables& list, const std::vector<std::string>& names,
+                  std::span<const int> ids);
+  void write_nodes(GroupedMesh& mesh, const Plan& plan);
+  void write_block(GroupedMesh& mesh, RowRange tets, int variable);
+  void write_side_set(GroupedMesh& mesh, const SideSet& set);
+  void write_node_set(GroupedMesh& mesh, const NodeSet& set);
+
+  std::filesystem::path folder_;  ///< of temporary files
+  std::string name_;
+  NetcdfOutput out_;
+  AtomicFile labels_;
+  int name_length_ = 0;  ///< dimensions that several lists have
+  ListVariables block_list_;
+  ListVariables side_set_list_;
+  ListVariables node_set_list_;
+};
+
+}  // namespace mw::io

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/mesh/gmsh/msh_groups.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "io/file/errors.h"
+#include "io/mesh/grouped/group_names.h"
+
+namespace mw::io {
+namespace {
+
+std::int32_t above(const LabelNumbers& labels, std::size_t number) {
+  return static_cast<std::int32_t>(labels.largest() + static_cast<std::int64_t>(number));
+}
+
+/// Gmsh documents 127 bytes and knows no way to write a quote.
+std::string gmsh_name(std::string name, const std::string& plain) {
+  constexpr std::size_t kMaxBytes = 127;
+  if (name.size() > kMaxBytes) return plain;
+  std::replace(name.begin(), name.end(), '"', '\'');
+  return name;
+}
+
+std::string name_line(std::int32_t dimension, std::int64_t tag, const std::string& name) {
+  return text(dimension, " ", tag, " \"", name, "\"");
+}
+
+}  // namespace
+
+LabelNumbers msh_numbers(const GroupedMesh& mesh) {
+  const auto surfaces = static_cast<std::int64_t>(kSides + mesh.facet_groups().size());
+  return LabelNumbers(mesh.table(), {.max = std::numeric_limits<std::int32_t>::max() - surfaces});
+}
+
+std::int32_t surface_tag(const LabelNumbers& labels, std::size_t group) {
+  return above(labels, group + 1);
+}
+
+/// Interfaces are the first groups.
+std::int32_t physical_surface(const LabelNumbers& labels, const FacetGroup& group,
+                              std::size_t index) {
+  const bool interface = group.side == Side::kInterface;
+  return above(labels, interface ? kSides + index : static_cast<std::size_t>(group.side));
+}
+
+void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
+  const GroupNames names(mesh);
+  const std::vector<FacetGroup>& groups = mesh.facet_groups();
+  std::vector<std::string> lines;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const bool is_named_before =
+        g > 0 && groups[g].side != Side::kInterface && groups[g].side == groups[g - 1].side;
+    if (is_named_before) continue;
+    const std::string plain = plain_facet_name(mesh.table(), groups[g]);
+    lines.push_back(name_line(kMshSurface, physical_surface(labels, groups[g], g),
+                              gmsh_name(names.facets(groups[g]), plain)));
+  }
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    const std::string plain = plain_volume_name(mesh.table(), rank);
+    lines.push_back(name_line(kMshVolume, labels[rank], gmsh_name(names.volume(rank), plain)));
+  }
+  out.begin_section("PhysicalNames");
+  out.add_line(text(lines.size()));
+  for (const std::string& line : lines) out.add_line(line);
+  out.add_line("$EndPhysicalNames");
+}
+
+}  // namespace mw::io

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Numbers and names of the groups of a .msh file, whatever its version.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "io/mesh/gmsh/msh_encoder.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/grouped/label_numbers.h"
+
+namespace mw::io {
+
+/// Dimensions of groups.
+inline constexpr std::int32_t kMshSurface = 2;
+inline constexpr std::int32_t kMshVolume = 3;
+/// Where the nodes of a tet stand in the file: Gmsh has the middle of edge 2 3 before that of 1 3.
+inline constexpr std::array<std::size_t, 10> kMshTetOrder{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+
+/// The numbers of volumes.  Surfaces have numbers above them, because many programs have one space
+/// of numbers for all dimensions.  ERRORS: see LabelNumbers.
+[[nodiscard]] LabelNumbers msh_numbers(const GroupedMesh& mesh);
+
+/// The tag of the surface that is facet group number `group`.
+[[nodiscard]] std::int32_t surface_tag(const LabelNumbers& labels, std::size_t group);
+
+/// The physical surface that facet group number `index` belongs to.
+[[nodiscard]] std::int32_t physical_surface(const LabelNumbers& labels, const FacetGroup& group,
+                                            std::size_t index);
+
+/// Writes the section of the names of all physical surfaces and volumes (see MshWriter).
+void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels);
+
+}  // namespace mw::io

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/mesh/grouped/facet_nodes.h"
+
+namespace mw::io {
+
+std::vector<NamedFacets> named_facets(const GroupedMesh& mesh, const PlainNames& names) {
+  std::vector<NamedFacets> out;
+  for (const FacetGroup& group : mesh.facet_groups()) {
+    const bool is_interface = group.side == Side::kInterface;
+    // Groups of a side are neighbours.
+    if (!is_interface && !out.empty() && out.back().group.side == group.side) {
+      out.back().group.facets.end = group.facets.end;
+      continue;
+    }
+    out.push_back({group, names.facets(group), is_interface ? names.facets(group, true) : ""});
+  }
+  return out;
+}
+
+}  // namespace mw::io

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The nodes of facets, for formats that have sets of nodes.
+#pragma once
+
+#include "io/file/scratch/external_sort.h"
+#include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+
+namespace mw::io {
+
+/// Calls visit(row) once for each node of the facets, ascending.  Memory: 8 MiB; what is more goes
+/// to a temporary file in `folder`.  ERRORS: see ScratchFile.
+template <class Visit>
+void for_each_facet_node(GroupedMesh& mesh, RowRange facets, const std::filesystem::path& folder,
+                         Visit visit) {
+  constexpr std::size_t kSortBytes = 8 << 20;
+  ExternalSort<1> rows(folder, kSortBytes);
+  for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
+    for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) rows.add({row});
+  }
+  std::uint64_t last = mesh.node_count();
+  rows.each([&](const std::array<std::uint64_t, 1>& row) {
+    if (row[0] == last) return;
+    last = row[0];
+    visit(last);
+  });
+}
+
+/// A set of facets as programs with plain names know it: an interface, or a whole side of the box.
+struct NamedFacets {
+  FacetGroup group;   ///< with all facets of the side, whatever their label
+  std::string name;   ///< see PlainNames; of an interface on the side of its lower label
+  std::string other;  ///< of an interface on the side of its higher label; else empty
+};
+
+/// ENSURES: in the order of the facets, which all are in one set.
+[[nodiscard]] std::vector<NamedFacets> named_facets(const GroupedMesh& mesh,
+                                                    const PlainNames& names);
+
+}  // namespace mw::io

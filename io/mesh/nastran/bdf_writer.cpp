@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Cards are those of the MSC Nastran Quick Reference Guide.
+#include "io/mesh/nastran/bdf_writer.h"
+
+#include <array>
+#include <cstdio>
+
+#include "io/file/errors.h"
+#include "io/mesh/grouped/group_names.h"
+#include "kernels/core/error.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::int64_t kMaxNumber = 99'999'999;
+constexpr std::size_t kColumns = 72;      // of a line of the case control
+constexpr std::size_t kFieldColumns = 8;  // of a small field
+
+/// The text at the left of a field, which has room for it.
+std::string field(std::string text, std::size_t columns = kFieldColumns) {
+  text.resize(columns, ' ');
+  return text;
+}
+
+std::string number_field(std::uint64_t number, std::size_t columns = kFieldColumns) {
+  return field(std::to_string(number), columns);
+}
+
+/// A number in 16 columns.
+std::string real_field(double value) {
+  std::array<char, 32> out{};
+  std::snprintf(out.data(), out.size(), "%16.9E", value);
+  return out.data();
+}
+
+}  // namespace
+
+void BdfWriter::write(GroupedMesh& mesh) {
+  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count());
+  if (max > static_cast<std::uint64_t>(kMaxNumber)) {
+    throw Error(ErrorKind::kUsage, text(name_, ": Nastran has numbers up to ", kMaxNumber, ", ",
+                                        max, " are needed; write .exo or .vtkhdf"));
+  }
+  const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
+  const PlainNames names(mesh);
+  line(text("$ mwmesh: tetrahedra of ", mesh.table().size(), " labels; materials are placeholders."));
+  line("CEND");
+  const std::vector<NamedFacets> sets = named_facets(mesh, names);
+  for (std::size_t s = 0; s < sets.size(); ++s) write_set(mesh, s + 1, sets[s]);
+  line("BEGIN BULK");
+  write_nodes(mesh);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    write_part(mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
+  }
+  line("ENDDATA");
+  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  commit_together({labels_, file_});
+}
+
+void BdfWriter::write_set(GroupedMesh& mesh, std::size_t number, const NamedFacets& set) {
+  line(text("$ SET ", number, ": nodes of ", set.name));
+  std::string row = text("SET ", number, " = ");
+  bool is_first = true;
+  for_each_facet_node(mesh, set.group.facets, folder_, [&](std::uint64_t node) {
+    const std::string item = std::to_string(node + 1);
+    if (!is_first) row += ',';
+    if (row.size() + item.size() + 1 > kColumns) {
+      line(row);
+      row = "  ";
+    }
+    row += item;
+    is_first = false;
+  });
+  line(row);
+}
+
+void BdfWriter::write_nodes(GroupedMesh& mesh) {
+  for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
+    const Position p = mesh.node(row);
+    line(field("GRID*") + number_field(row + 1, 2 * kFieldColumns) + field("", 2 * kFieldColumns) +
+         real_field(p[0]) + real_field(p[1]));
+    line(field("*") + real_field(p[2]));
+  }
+}
+
+void BdfWriter::write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number,
+                           const std::string& name) {
+  constexpr std::size_t kNodesOfFirstLine = 6;
+  const std::string part = number_field(static_cast<std::uint64_t>(number));
+  line(text("$ PSOLID ", number, ": ", name));
+  line(field("PSOLID") + part + part);
+  line(field("MAT1") + part + field("1.0") + field("") + field("0.3"));
+  for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
+    std::string row = field("CTETRA") + number_field(t + 1) + part;
+    std::size_t nodes = 0;
+    for (const std::uint64_t node : mesh.tet_nodes(t)) {
+      if (nodes++ == kNodesOfFirstLine) {
+        line(row);
+        row = field("");
+      }
+      row += number_field(node + 1);
+    }
+    line(row);
+  }
+}
+
+void BdfWriter::line(std::string_view line) {
+  file_.append(line);
+  file_.append("\n");
+}
+
+}  // namespace mw::io

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a grouped mesh as Nastran bulk data.
+#pragma once
+
+#include "io/file/sink/atomic_file.h"
+#include "io/mesh/grouped/facet_nodes.h"
+#include "io/mesh/grouped/label_numbers.h"
+
+namespace mw::io {
+
+/// GRID in large fields (ten digits), CTETRA of 4 or 10 nodes, and for each label a PSOLID, whose
+/// number is the label's in the table beside the file (label_numbers.h), with a MAT1 of the same
+/// number as a placeholder.  Nodes and tets count from 1.  The nodes of each interface, of each
+/// side of the box, and of what else bounds the mesh, are a SET of the case control, from 1 on.
+/// Comments tell the names (PlainNames) of parts and sets: FACE_1_2 is where labels 1 and 2 meet.
+/// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes, tets or
+/// labels, which is what eight columns hold.
+class BdfWriter : public GroupedWriter {
+ public:
+  explicit BdfWriter(const std::filesystem::path& path)
+      : folder_(path.parent_path()),
+        name_(path.string()),
+        file_(path),
+        labels_(label_table_path(path)) {}
+
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  void write_set(GroupedMesh& mesh, std::size_t number, const NamedFacets& set);
+  void write_nodes(GroupedMesh& mesh);
+  void write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number, const std::string& name);
+  void line(std::string_view line);
+
+  std::filesystem::path folder_;
+  std::string name_;
+  AtomicFile file_;
+  AtomicFile labels_;
+};
+
+}  // namespace mw::io
