@@ -3,20 +3,12 @@
 // Temporary folders, bytes of all kinds and expected errors for the tests of io.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <zlib.h>
-
-#include <algorithm>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <vector>
 
 #include "io/volume/label_volume.h"
 #include "kernels/core/error.h"
 #include "tests/temp_folder.h"
+#include "tests/testing.h"
 
 namespace mw::io {
 

@@ -3,7 +3,6 @@
 // Meshes survive every format; their digest does not depend on it.
 #include <sys/resource.h>
 
-#include <cmath>
 #include <csignal>
 
 #include "io/mesh/digest.h"

@@ -3,9 +3,6 @@
 // Formats for solvers, and tets of ten nodes, hold the mesh that was written.
 #include <gmock/gmock.h>
 
-#include <map>
-#include <set>
-
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/read_back.h"
