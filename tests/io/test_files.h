@@ -6,9 +6,8 @@
 #include <zlib.h>
 
 #include "io/volume/label_volume.h"
-#include "kernels/core/error.h"
+#include "tests/expect_error.h"
 #include "tests/temp_folder.h"
-#include "tests/testing.h"
 
 namespace mw::io {
 
@@ -52,21 +51,6 @@ inline std::string number_bytes(std::uint64_t value, int size, bool big) {
   for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(value >> (8 * i)));
   if (big) std::reverse(bytes.begin(), bytes.end());
   return bytes;
-}
-
-/// Runs action and checks the kind of its mw::Error and that its message has every piece.
-template <class Action>
-void expect_error(ErrorKind kind, const std::vector<std::string>& pieces, Action action) {
-  try {
-    action();
-    ADD_FAILURE() << "no error; expected one about " << pieces[0];
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    for (const std::string& piece : pieces) {
-      EXPECT_NE(std::string(error.what()).find(piece), std::string::npos)
-          << error.what() << "\nlacks " << piece;
-    }
-  }
 }
 
 inline std::vector<RawLabel> read_all(const LabelVolume& volume) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Temporary files: what was written is read, no name is left, and errors name the folder.
 #include <fcntl.h>
+
 #include <chrono>
 
 #include "io/file/scratch/external_sort.h"
@@ -71,22 +72,11 @@ TEST(ScratchFile, ReadsBackWhatWasAppended) {
   EXPECT_EQ(dir.entries(), 0U);
 }
 
-template <typename Action>
-void expect_error(ErrorKind kind, const std::string& folder, Action action) {
-  try {
-    action();
-    ADD_FAILURE() << "no error";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), kind);
-    EXPECT_NE(std::string(e.what()).find(folder), std::string::npos) << e.what();
-  }
-}
-
 TEST(UnlinkedFile, NamesTheFolderThatIsNotThere) {
   const TempDir dir;
   const std::filesystem::path missing = dir.path() / "missing";
-  expect_error(ErrorKind::kUsage, missing.string(), [&] { const UnlinkedFile file(missing); });
-  expect_error(ErrorKind::kUsage, missing.string(), [&] { const ScratchFile file(missing); });
+  expect_error(ErrorKind::kUsage, {missing.string()}, [&] { const UnlinkedFile file(missing); });
+  expect_error(ErrorKind::kUsage, {missing.string()}, [&] { const ScratchFile file(missing); });
 }
 
 TEST(UnlinkedFile, SaysSoWhenThereIsLessThanWasAskedFor) {
@@ -94,7 +84,7 @@ TEST(UnlinkedFile, SaysSoWhenThereIsLessThanWasAskedFor) {
   const UnlinkedFile file(dir.path());
   std::vector<std::byte> bytes(10);
   file.write_at(0, bytes);
-  expect_error(ErrorKind::kResource, dir.path().string(), [&] { file.read_at(5, bytes); });
+  expect_error(ErrorKind::kResource, {dir.path().string()}, [&] { file.read_at(5, bytes); });
 }
 
 /// Puts TMPDIR back when it goes.
