@@ -72,13 +72,9 @@ TEST(LabelTable, RefusesALabelThatTheFirstReadingDidNotSee) {
         labels[place] = other;
         const MemoryVolume changed(kShape, VoxelType::kU64, labels);
         std::vector<Label> got(labels.size());
-        try {
+        expect_error(ErrorKind::kInput, {"changed while it was read"}, [&] {
           DenseVolume(changed, table).read({{0, 0, 0}, kShape}, got);
-          ADD_FAILURE() << other << " at " << place;
-        } catch (const Error& error) {
-          EXPECT_EQ(error.kind(), ErrorKind::kInput);
-          EXPECT_NE(std::string(error.what()).find("changed while it was read"), std::string::npos);
-        }
+        });
       }
     }
   }

@@ -51,20 +51,6 @@ TEST(MeshNames, ManyNamesAndLongOnes) {
   }
 }
 
-TEST(MeshNames, EveryPairOfFormatsCopiesThem) {
-  const TempDir dir;
-  std::mt19937 random(52);
-  const MeshData mesh = named_mesh(random, 20, true);
-  for (const char* from : kFiles) {
-    save(mesh, dir.path() / from);
-    for (const char* to : kFiles) {
-      const auto path = dir.path() / (std::string("copy_") + to);
-      copy_mesh(dir.path() / from, *open_mesh_sink(path));
-      expect_same_names(read_mesh(path).names, mesh.names);
-    }
-  }
-}
-
 TEST(MeshNames, DigestDoesNotDependOnThem) {
   std::mt19937 random(53);
   const MeshData mesh = named_mesh(random, 20, false);
@@ -94,19 +80,6 @@ TEST(MeshNames, AreAllThatIsAdded) {
   EXPECT_EQ(without(content_of(dir.path() / "named_m.mesh"), "# label", "\n"),
             content_of(dir.path() / "m.mesh"));
   EXPECT_EQ(content_of(dir.path() / "m.vtkhdf").find("FieldData"), std::string::npos);
-}
-
-TEST(MeshNames, SameBytesEveryTime) {
-  const TempDir dir;
-  std::mt19937 random(55);
-  const MeshData mesh = named_mesh(random, 300, false);
-  for (const char* file : kFiles) {
-    save(mesh, dir.path() / file);
-    const std::string first = content_of(dir.path() / file);
-    const std::string noise(100000, 'n');  // other content where the next one allocates
-    save(mesh, dir.path() / file);
-    EXPECT_TRUE(content_of(dir.path() / file) == first) << file << noise.size();
-  }
 }
 
 TEST(MeshNames, MeditCommentsOfOthersAreNoNames) {
@@ -223,24 +196,6 @@ TEST(MeshNames, VtkhdfNamesOfAnotherNumberAreRefused) {
   bytes[bytes.find(std::string("one\0sieben", 10)) + 3] = 'x';
   expect_error(ErrorKind::kInput, {path.string(), "2 numbers, 1 names"},
                [&] { static_cast<void>(read_mesh(dir.file("m.vtkhdf", bytes))); });
-}
-
-TEST(MeshNames, EveryTruncationIsRefused) {
-  const TempDir dir;
-  MeshData mesh = sample_mesh(2, false);
-  mesh.names = LabelNames({{1, "one", Colour{1, 2, 3, 4}}, {7, "sieben", {}}});
-  const std::map<std::string, std::size_t> tails{{"m.vtkhdf", 1}, {"m.vtu", 34}, {"m.mesh", 4}};
-  for (const auto& [file, tail] : tails) {
-    const auto path = dir.path() / file;
-    save(mesh, path);
-    // A .vtkhdf is read in a process of its own each time.
-    const std::size_t step = file == "m.vtkhdf" ? 29 : 1;
-    for (std::size_t size = std::filesystem::file_size(path) - tail + 1; size > 0;) {
-      size -= std::min(size, step);
-      std::filesystem::resize_file(path, size);
-      expect_error(ErrorKind::kInput, {path.string()}, [&] { static_cast<void>(read_mesh(path)); });
-    }
-  }
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ MeshData random_mesh(std::mt19937& random, std::size_t vertices, std::size_t tet
   const auto below = [&](std::size_t count) { return random() % count; };
   MeshData mesh;
   for (std::size_t i = 0; i < vertices; ++i) {
-    const auto coordinate = [&] { return (static_cast<double>(below(21)) - 10) / 4; };
+    const auto coordinate = [&] { return (static_cast<double>(below(21)) - 10) / 3; };
     const double x = coordinate(), y = coordinate(), z = coordinate();
     mesh.vertices.push_back({x, y, below(2) == 0 ? z : -z});
   }

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+
 #include <csignal>
 
 #include "io/file/sink/atomic_file.h"
