@@ -68,6 +68,19 @@ TEST(MeshFiles, SameBytesEveryTimeHoweverRowsArrive) {
   }
 }
 
+TEST(MeshFiles, CopyThroughEveryPairOfFormats) {
+  const TempDir dir;
+  const MeshData mesh = sample_mesh(3000, true);
+  for (const char* from : kNames) {
+    save(mesh, dir.path() / from);
+    for (const char* to : kNames) {
+      const auto path = dir.path() / (std::string("copy_") + to);
+      copy_mesh(dir.path() / from, *open_mesh_sink(path));
+      expect_same(read_mesh(path), mesh);
+    }
+  }
+}
+
 /// The limit on the size of files stands in for a full disk.
 TEST(MeshFiles, OutOfRoomIsAResourceErrorAndLeavesNothing) {
   const TempDir dir;

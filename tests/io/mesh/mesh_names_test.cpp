@@ -51,6 +51,20 @@ TEST(MeshNames, ManyNamesAndLongOnes) {
   }
 }
 
+TEST(MeshNames, EveryPairOfFormatsCopiesThem) {
+  const TempDir dir;
+  std::mt19937 random(52);
+  const MeshData mesh = named_mesh(random, 20, true);
+  for (const char* from : kFiles) {
+    save(mesh, dir.path() / from);
+    for (const char* to : kFiles) {
+      const auto path = dir.path() / (std::string("copy_") + to);
+      copy_mesh(dir.path() / from, *open_mesh_sink(path));
+      expect_same_names(read_mesh(path).names, mesh.names);
+    }
+  }
+}
+
 TEST(MeshNames, DigestDoesNotDependOnThem) {
   std::mt19937 random(53);
   const MeshData mesh = named_mesh(random, 20, false);
@@ -80,6 +94,19 @@ TEST(MeshNames, AreAllThatIsAdded) {
   EXPECT_EQ(without(content_of(dir.path() / "named_m.mesh"), "# label", "\n"),
             content_of(dir.path() / "m.mesh"));
   EXPECT_EQ(content_of(dir.path() / "m.vtkhdf").find("FieldData"), std::string::npos);
+}
+
+TEST(MeshNames, SameBytesEveryTime) {
+  const TempDir dir;
+  std::mt19937 random(55);
+  const MeshData mesh = named_mesh(random, 300, false);
+  for (const char* file : kFiles) {
+    save(mesh, dir.path() / file);
+    const std::string first = content_of(dir.path() / file);
+    const std::string noise(100000, 'n');  // other content where the next one allocates
+    save(mesh, dir.path() / file);
+    EXPECT_TRUE(content_of(dir.path() / file) == first) << file << noise.size();
+  }
 }
 
 TEST(MeshNames, MeditCommentsOfOthersAreNoNames) {
