@@ -3,13 +3,10 @@
 // A whole run in memory: small volume in, mesh out, for tests of the engine's promises.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "engine/run/run.h"
 #include "io/mesh/mesh_data.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::engine::test {
 
@@ -122,11 +119,16 @@ struct Trial {
   }
 };
 
-inline io::MeshData run_in_memory(const Trial& trial, const RunHooks& hooks = {}) {
+/// A run whose mesh goes to the sink.
+inline RunReport run_into(io::MeshSink& sink, const Trial& trial, const RunHooks& hooks = {}) {
   const MemoryVolume volume(trial.volume, trial.frame);
   const io::LabelTable table = io::collect_labels(volume);
+  return mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, hooks);
+}
+
+inline io::MeshData run_in_memory(const Trial& trial, const RunHooks& hooks = {}) {
   MemorySink sink;
-  const RunReport report = mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, hooks);
+  const RunReport report = run_into(sink, trial, hooks);
   EXPECT_EQ(report.vertices, sink.mesh().vertices.size());
   EXPECT_EQ(report.tets, sink.mesh().tets.size());
   return sink.mesh();

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smooth surfaces end to end: bodies whose shape is known.
 #include <Eigen/Geometry>
-#include <cmath>
-#include <map>
 #include <numbers>
 
 #include "kernels/audit/shape/shape.h"
@@ -14,11 +12,7 @@ namespace mw::engine {
 namespace {
 
 using audit::Position;
-using test::MemorySink;
-using test::MemoryVolume;
-using test::small_mesh;
-using test::SmallMesh;
-using test::SmallVolume;
+using namespace test;
 
 /// Voxels take the label at their centres.
 template <typename LabelAt>

@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Sizes end to end: limits on edges, gradation and inner vertices of whole runs, all promises kept.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-
 #include "engine/labels/voxel_lattice.h"
 #include "engine/store/journal/workdir.h"
 #include "kernels/audit/partition/validity.h"
@@ -13,21 +8,13 @@
 #include "kernels/audit/topology/betti.h"
 #include "kernels/core/index.h"
 #include "tests/engine/memory_run.h"
+#include "tests/expect_error.h"
 
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
-using audit::test::random_volume_of;
-using audit::test::VolumeKind;
-using test::expect_same;
-using test::MemoryVolume;
-using test::raw_label;
-using test::run_in_memory;
-using test::small_mesh;
-using test::SmallMesh;
-using test::SmallVolume;
-using test::Trial;
+using namespace audit::test;
+using namespace test;
 
 constexpr double kRounding = 1e-9;
 
@@ -248,13 +235,7 @@ TEST(Sizes, AreRefusedWhereTheyCannotBeKept) {
               .frame = {}};
   const auto expect_refused = [&](const std::vector<LabelSize>& labels, const char* piece) {
     trial.settings.sizes.rules.labels = labels;
-    try {
-      run_in_memory(trial);
-      FAIL() << piece;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-      EXPECT_NE(std::string(error.what()).find(piece), std::string::npos) << error.what();
-    }
+    expect_error(ErrorKind::kUsage, {piece}, [&] { run_in_memory(trial); });
   };
   const RawLabel known = raw_label(trial.volume.labels[0]);
   expect_refused({{known, 1.38}}, "1.39 can be kept");

@@ -3,19 +3,10 @@
 // Temporary folders, bytes of all kinds and expected errors for the tests of io.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <algorithm>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <vector>
-
 #include "io/volume/label_volume.h"
-#include "kernels/core/error.h"
+#include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 
 namespace mw::io {
@@ -60,21 +51,6 @@ inline std::string number_bytes(std::uint64_t value, int size, bool big) {
   for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(value >> (8 * i)));
   if (big) std::reverse(bytes.begin(), bytes.end());
   return bytes;
-}
-
-/// Runs action and checks the kind of its mw::Error and that its message has every piece.
-template <class Action>
-void expect_error(ErrorKind kind, const std::vector<std::string>& pieces, Action action) {
-  try {
-    action();
-    ADD_FAILURE() << "no error; expected one about " << pieces[0];
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    for (const std::string& piece : pieces) {
-      EXPECT_NE(std::string(error.what()).find(piece), std::string::npos)
-          << error.what() << "\nlacks " << piece;
-    }
-  }
 }
 
 inline std::vector<RawLabel> read_all(const LabelVolume& volume) {

@@ -4,7 +4,6 @@
 #include "tests/layers/citations.h"
 
 #include <regex>
-#include <sstream>
 
 namespace mw::layers {
 namespace {

@@ -3,8 +3,7 @@
 // What comments and documents say of other files: that it is there.
 #pragma once
 
-#include <string>
-#include <vector>
+#include "tests/testing.h"
 
 namespace mw::layers {
 

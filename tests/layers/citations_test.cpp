@@ -6,11 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
-#include <set>
 
 namespace mw::layers {
 namespace {

@@ -1,13 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The way data goes: no file includes what is above it or beside its trade.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-
 #include "tests/layers/rules.h"
 
 namespace mw::layers {

@@ -3,11 +3,8 @@
 // Which file may include what.
 #include "tests/layers/rules.h"
 
-#include <algorithm>
 #include <initializer_list>
 #include <regex>
-#include <sstream>
-#include <string_view>
 
 namespace mw::layers {
 namespace {

@@ -3,9 +3,7 @@
 // Which file may include what.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
+#include "tests/testing.h"
 
 namespace mw::layers {
 

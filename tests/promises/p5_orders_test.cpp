@@ -1,22 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Promise 5: the mesh does not depend on the order in which ready windows run.
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
-using audit::test::random_volume_of;
-using audit::test::VolumeKind;
-using test::expect_same;
-using test::random_trial;
-using test::run_in_memory;
-using test::Trial;
+using namespace audit::test;
+using namespace test;
 
 /// First ready, first run.  The span is in no order of age, so ages are kept here.
 class OldestFirst {

@@ -3,9 +3,6 @@
 // Promise 5: the mesh does not depend on how many processes share the run, nor on when their
 // messages arrive.  Processes are played by threads here; those of MPI are in tests/mpi.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <numeric>
 
 #include "engine/labels/prepared_labels.h"
 #include "engine/run/run.h"
@@ -16,18 +13,13 @@
 #include "tests/engine/memory_run.h"
 #include "tests/engine/store/work_folder.h"
 #include "tests/engine/team/crowd.h"
+#include "tests/expect_error.h"
 
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
-using audit::test::random_volume_of;
-using audit::test::VolumeKind;
-using test::expect_same;
-using test::for_ranks;
-using test::random_trial;
-using test::run_in_memory;
-using test::Trial;
+using namespace audit::test;
+using namespace test;
 
 Trial trial_of(std::mt19937& random, std::size_t i, Index3 shape) {
   const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
@@ -49,12 +41,10 @@ Shared run_shared(const Trial& trial, const ThreadExchangeOptions& options,
   Shared out;
   for_ranks(options, [&](Team& team) {
     TeamProcesses processes(team);
-    const test::MemoryVolume volume(trial.volume, trial.frame);
-    const io::LabelTable table = io::collect_labels(volume);
     test::MemorySink sink;
     RunHooks own = hooks;
     own.processes = &processes;
-    const RunReport report = mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, own);
+    const RunReport report = run_into(sink, trial, own);
     if (!team.is_first()) return;
     out = {sink.mesh(), report};
   });
@@ -104,16 +94,13 @@ RunReport write_shared(const Trial& trial, const ThreadExchangeOptions& options,
   RunReport out;
   for_ranks(options, [&](Team& team) {
     TeamProcesses processes(team);
-    const test::MemoryVolume volume(trial.volume, trial.frame);
-    const io::LabelTable table = io::collect_labels(volume);
     test::MemorySink unused;
     const auto mesh = io::open_shared_mesh(path);
     if (team.is_first()) mesh->create();
     RunHooks own = hooks;
     own.processes = &processes;
     own.together = mesh.get();
-    const RunReport report =
-        mesh_volume(io::DenseVolume(volume, table), trial.settings, unused, own);
+    const RunReport report = run_into(unused, trial, own);
     EXPECT_TRUE(report.written_together);
     if (team.is_first()) out = report;
   });
@@ -122,10 +109,8 @@ RunReport write_shared(const Trial& trial, const ThreadExchangeOptions& options,
 
 RunReport write_alone(const Trial& trial, const std::filesystem::path& path,
                       const RunHooks& hooks = {}) {
-  const test::MemoryVolume volume(trial.volume, trial.frame);
   const auto sink = io::open_mesh_sink(path);
-  return mesh_volume(io::DenseVolume(volume, io::collect_labels(volume)), trial.settings, *sink,
-                     hooks);
+  return run_into(*sink, trial, hooks);
 }
 
 void measure_all(OutputOptions& options) {
@@ -249,15 +234,12 @@ int ranks_told(const Trial& trial, int failing, FailingMesh::When when,
       .ranks = 3, .seed = 10, .max_delay = std::chrono::microseconds(500)};
   for_ranks(options, [&](Team& team) {
     TeamProcesses processes(team);
-    const test::MemoryVolume volume(trial.volume, trial.frame);
-    const io::LabelTable table = io::collect_labels(volume);
     test::MemorySink unused;
     FailingMesh mesh(io::open_shared_mesh(path),
                      team.rank() == failing ? std::optional(when) : std::nullopt);
     if (team.is_first()) mesh.create();
     try {
-      (void)mesh_volume(io::DenseVolume(volume, table), trial.settings, unused,
-                        {.processes = &processes, .together = &mesh});
+      (void)run_into(unused, trial, {.processes = &processes, .together = &mesh});
     } catch (const Error& error) {
       ++told;
       // To a rank that is told late the file may be gone already; rank 0, who speaks, knows why.
@@ -293,10 +275,8 @@ TEST(Promise5SameBytes, ProcessesShareTheWorkAndSendWhatIsPredicted) {
     const Trial trial = trial_of(random, i, {10, 24, 22});
     RunReport alone;
     {
-      const test::MemoryVolume volume(trial.volume, trial.frame);
       test::MemorySink sink;
-      alone =
-          mesh_volume(io::DenseVolume(volume, io::collect_labels(volume)), trial.settings, sink);
+      alone = run_into(sink, trial);
     }
     constexpr int kRanks = 4;
     const RunReport shared = run_shared(trial, {.ranks = kRanks}).report;
@@ -324,8 +304,6 @@ TEST(Promise5SameBytes, AFailedProcessEndsTheRun) {
     for_ranks({.ranks = 3, .seed = 9, .max_delay = std::chrono::microseconds(500)},
               [&](Team& team) {
                 TeamProcesses processes(team);
-                const test::MemoryVolume volume(trial.volume, trial.frame);
-                const io::LabelTable table = io::collect_labels(volume);
                 test::MemorySink sink;
                 RunHooks hooks{.threads = 2, .processes = &processes};
                 std::atomic<int> visits = 0;
@@ -335,7 +313,7 @@ TEST(Promise5SameBytes, AFailedProcessEndsTheRun) {
                   };
                 }
                 try {
-                  (void)mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, hooks);
+                  (void)run_into(sink, trial, hooks);
                   ADD_FAILURE() << "rank " << team.rank() << " thinks that all is well";
                 } catch (const Error& error) {
                   EXPECT_EQ(error.kind(), ErrorKind::kResource);
@@ -357,14 +335,9 @@ TEST(Promise5SameBytes, ProcessesThatWereToldOtherThingsRefuse) {
     test::MemorySink sink;
     MeshSettings settings = trial.settings;
     if (team.rank() == 2) settings.quality_floor += 0.01;
-    try {
+    expect_error(ErrorKind::kUsage, {"rank 2 has 'quality-floor"}, [&] {
       (void)mesh_volume(io::DenseVolume(volume, table), settings, sink, {.processes = &processes});
-      ADD_FAILURE() << "the settings differ";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-      EXPECT_NE(std::string(error.what()).find("rank 2 has 'quality-floor"), std::string::npos)
-          << error.what();
-    }
+    });
   });
 }
 

@@ -1,24 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Promise 5: the mesh does not depend on the number of threads, nor on how they are scheduled.
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "tests/engine/march/watched_march.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
-using audit::test::random_volume_of;
-using audit::test::VolumeKind;
-using test::expect_same;
-using test::random_trial;
-using test::RandomDelay;
-using test::run_in_memory;
-using test::Trial;
+using namespace audit::test;
+using namespace test;
 
 constexpr std::array<int, 4> kThreads{2, 3, 4, 8};
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Promise 6: the kernel's own figure of the program's memory stays under --memory, from reading
 // labels to the digest of the finished mesh.
-#include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/engine/cli/run_program.h"

@@ -3,28 +3,19 @@
 // Promise 8 end to end: the volumes that a run reports are exact.
 #include "kernels/audit/shape/volumes.h"
 
-#include <numeric>
-
 #include "kernels/core/lattice.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
-using audit::test::random_volume_of;
-using audit::test::VolumeKind;
-using test::MemorySink;
-using test::MemoryVolume;
-using test::random_trial;
-using test::Trial;
+using namespace audit::test;
+using namespace test;
 
 RunReport run(const Trial& trial, MemorySink& sink, int threads) {
-  const MemoryVolume volume(trial.volume, trial.frame);
-  const io::LabelTable table = io::collect_labels(volume);
   RunHooks hooks{.threads = threads};
   hooks.output.measure_shape = true;
-  return mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, hooks);
+  return run_into(sink, trial, hooks);
 }
 
 TEST(Promise8Volumes, OfARunAddUpToTheBoxAndAreThoseOfItsMesh) {

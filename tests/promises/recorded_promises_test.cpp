@@ -2,12 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A wrong mesh is not believed because its file says that little was promised of it: each key of
 // the record weakened, each of thirty damages.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numeric>
-
 #include "engine/job/mesh_job.h"
 #include "engine/job/verify_job.h"
 #include "io/mesh/mesh_data.h"
@@ -20,8 +14,7 @@ namespace {
 
 using io::MeshData;
 using io::Position;
-using test::MemoryVolume;
-using test::raw_label;
+using namespace test;
 
 constexpr double kEdge = 20;
 

@@ -3,8 +3,6 @@
 // Whole runs on small volumes, held against promises 1 to 3.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "kernels/audit/partition/validity.h"
 #include "kernels/audit/shape/quality.h"
 #include "kernels/audit/topology/betti.h"

@@ -5,15 +5,8 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <cstring>
-#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <random>
-#include <set>
 #include <thread>
 
 #include "engine/api/guarded.h"

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Where settings come from: defaults < config file < environment < flags.
-#include <algorithm>
 #include <cctype>
 
 #include "io/file/errors.h"

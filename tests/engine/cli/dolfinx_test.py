@@ -8,12 +8,10 @@ insulated: the temperature is linear in each layer, the flux the same in all.
 """
 import csv
 import itertools
-import os
 import sys
-import tempfile
 import unittest
 
-from program import run
+from program import enter_folder, run
 
 try:
     import dolfinx
@@ -78,19 +76,13 @@ def exact(x):
 class Dolfinx(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        os.chdir(cls.folder.name)
+        enter_folder(cls)
         write_grid("grid.mesh")
         run("convert", "grid.mesh", "tet4.xdmf")
         run("convert", "grid.mesh", "tet10.xdmf", "--element", "tet10")
         numpy.save("v.npy", layers())
         spacing = ",".join(map(str, SPACING))
         run("mesh", "v.npy", "-o", "meshed.xdmf", "--spacing", spacing)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.chdir("/")
-        cls.folder.cleanup()
 
     @staticmethod
     def read(stem):

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // One allocation that fails, whichever it is, is exit 4 or does no harm; never a crash.
-#include <algorithm>
-
 #include "tests/engine/cli/run_program.h"
 #include "tests/io/mesh/mesh_endings.h"
 #include "tests/sanitizers.h"

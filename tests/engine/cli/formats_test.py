@@ -10,12 +10,11 @@ import gzip
 import json
 import os
 import sys
-import tempfile
 import unittest
 import warnings
 import zlib
 
-from program import RESIDENT_MEMORY_IS_OURS, run
+from program import RESIDENT_MEMORY_IS_OURS, enter_folder, run
 
 try:
     import numpy
@@ -46,8 +45,7 @@ def triple(values):
 class Formats(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        os.chdir(cls.folder.name)
+        enter_folder(cls)
         random = numpy.random.default_rng(7)
         z, y, x = numpy.indices((21, 18, 26))
         labels = ((x - 9) ** 2 + (y - 8) ** 2 + (z - 10) ** 2 < 50).astype(numpy.uint16) * 3
@@ -57,10 +55,6 @@ class Formats(unittest.TestCase):
         numpy.save("array.npy", labels)
         run("mesh", "array.npy", *PLACE, "-o", "array.vtkhdf")
         cls.digest = run("digest", "array.vtkhdf")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def check(self, path, *arguments):
         run("mesh", path, *arguments, "-o", "out.vtkhdf")

@@ -1,11 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh info of a mesh against sums over the mesh and the voxels that are made here.
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "io/mesh/open_mesh.h"
 #include "io/volume/open_volume.h"

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Names of labels as a user sees them: given beside the volume, in meshes and in reports.
-#include <map>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "tests/engine/cli/run_program.h"
 

@@ -11,10 +11,9 @@ import resource
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from program import RESIDENT_MEMORY_IS_OURS, run, start
+from program import RESIDENT_MEMORY_IS_OURS, enter_folder, run, start
 
 try:
     import numpy
@@ -64,8 +63,7 @@ class Page(html.parser.HTMLParser):
 class RunPage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        os.chdir(cls.folder.name)
+        enter_folder(cls)
         run("synth", "voronoi", "--shape", "24,20,16", "--labels", "12", "--seed", "1", "-o", "v.npy")
         with open("names.csv", "w", encoding="utf-8") as file:
             file.write('id,name,r,g,b\n1,"%s",1,2,3\n' % EVIL.replace('"', '""'))
@@ -77,11 +75,6 @@ class RunPage(unittest.TestCase):
         cls.page = Page("v.html")
         with open("v.json", encoding="utf-8") as file:
             cls.report = json.load(file)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.chdir("/")
-        cls.folder.cleanup()
 
     def test_asks_no_network(self):
         self.assertIn("v.html", self.out)

@@ -5,11 +5,10 @@
 import os
 import struct
 import sys
-import tempfile
 import unittest
 import zlib
 
-from program import run, start
+from program import enter_folder, run, start
 
 try:
     import numpy
@@ -75,9 +74,7 @@ def count(image, colour):
 
 class Picture(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        os.chdir(folder.name)
+        enter_folder(self)
 
     def halves(self):
         """h.vtu: a cube of two labels, 1 where x is small."""

@@ -3,12 +3,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """VTK reads a mesh in pieces, whole or a share of them, and finds out which vertices are shared."""
 import json
-import os
 import sys
-import tempfile
 import unittest
 
-from program import run
+from program import enter_folder, run
 
 try:
     from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
@@ -32,9 +30,7 @@ def tets_of(grid, ids=None):
 
 class Pieces(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        os.chdir(folder.name)
+        enter_folder(self)
         run("synth", "voronoi", "--shape", "24,20,16", "--labels", "9", "--seed", "1", "-o", "v.npy")
         run("mesh", "v.npy", "-o", "whole.vtu")
         run("convert", "whole.vtu", "parts.pvtu", "--pieces", str(PIECES))

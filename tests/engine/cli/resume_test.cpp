@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // --memory, --workdir and --resume as a user meets them.
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/engine/cli/run_program.h"

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // From volume to verified mesh and on, as a user goes.
-#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <string>
 
 #include "tests/engine/cli/run_program.h"
 

@@ -3,16 +3,10 @@
 // Runs the built program as a user does: arguments, environment, exit code, output.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <set>
-#include <string>
-
 #include "tests/temp_folder.h"
+#include "tests/testing.h"
 
 namespace mw::cli {
 

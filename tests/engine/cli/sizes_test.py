@@ -5,10 +5,9 @@
 import json
 import os
 import sys
-import tempfile
 import unittest
 
-from program import run, start
+from program import enter_folder, run, start
 
 try:
     import meshio
@@ -46,9 +45,7 @@ class Mesh:
 
 class Sizes(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        os.chdir(folder.name)
+        enter_folder(self)
         run("synth", "voronoi", "--shape", "28,28,14", "--labels", "9", "--seed", "4", "-o", "v.npy")
         self.labels = sorted(np.unique(np.load("v.npy")).tolist())
 

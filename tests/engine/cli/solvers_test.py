@@ -4,15 +4,13 @@
 """Meshes for solvers, and tets of ten nodes, read by meshio, VTK and Python's XML."""
 import csv
 import json
-import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 from xml.etree import ElementTree
 
-from program import PROGRAM, run
+from program import PROGRAM, enter_folder, run
 
 try:
     import meshio
@@ -47,8 +45,7 @@ def numbers(path):
 class Solvers(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        os.chdir(cls.folder.name)
+        enter_folder(cls)
         run("synth", "voronoi", "--shape", "16,14,12", "--labels", 8, "--seed", 1, "-o", "v.npy")
         with open("names.csv", "w", encoding="utf-8") as file:
             file.write('id,name\n1,"a <b> & ""c"""\n2,same\n3,other\n4,Größe\n')
@@ -62,11 +59,6 @@ class Solvers(unittest.TestCase):
         cls.points, cls.tets = mesh.points, mesh.cells[0].data
         cls.labels = mesh.cell_data["label"][0]
         cls.rows = canonical(cls.points, cls.tets, cls.labels)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.chdir("/")
-        cls.folder.cleanup()
 
     def convert(self, name, *options, source="m.vtu"):
         run("convert", source, name, *options)

@@ -1,10 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Bad usage and bad input: exit codes, messages, nothing left behind.
-#include <algorithm>
-#include <sstream>
-#include <vector>
-
 #include "tests/engine/cli/run_program.h"
 
 namespace mw::cli {

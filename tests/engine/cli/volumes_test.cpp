@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Promise 8 as a user sees it: volumes and shape in the run's report, in verify and in info.
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/engine/cli/run_program.h"

@@ -4,12 +4,10 @@
 """VTK sees the names of labels in our files, and we see them in files that VTK has written."""
 import csv
 import json
-import os
 import sys
-import tempfile
 import unittest
 
-from program import run
+from program import enter_folder, run
 
 try:
     from vtkmodules.vtkCommonCore import vtkStringArray
@@ -54,9 +52,7 @@ def names_in(grid):
 
 class VtkNames(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        os.chdir(folder.name)
+        enter_folder(self)
         run("synth", "voronoi", "--shape", "12,12,12", "--labels", "12", "--seed", "1", "-o", "v.npy")
         with open("names.csv", "w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
@@ -90,13 +86,6 @@ class VtkNames(unittest.TestCase):
                 self.assertEqual(grid.GetNumberOfCells(), self.info(path)["tets"])
                 self.assertEqual(names_in(grid), self.expected)
                 self.assertEqual(self.names_by_info(path), self.expected)
-
-    def test_vtk_reads_ours_without_names(self):
-        for path, reader in (("v.vtu", vtkXMLUnstructuredGridReader()), ("v.vtkhdf", vtkHDFReader())):
-            run("mesh", "v.npy", "-o", path)
-            grid = grid_of(reader, path)
-            self.assertEqual(grid.GetNumberOfCells(), self.info(path)["tets"])
-            self.assertIsNone(grid.GetFieldData().GetAbstractArray("label_name"))
 
     def test_we_read_vtks(self):
         self.mesh("v.vtu")

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs with constrained ODT: the promises, for any number of threads and whatever befalls the
 // workers.
-#include <gtest/gtest.h>
-
-#include <fstream>
-
 #include "kernels/audit/partition/validity.h"
 #include "kernels/audit/shape/quality.h"
 #include "kernels/audit/topology/betti.h"
@@ -16,17 +12,9 @@
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
-using audit::test::random_volume_of;
-using audit::test::VolumeKind;
+using namespace audit::test;
 using codt::test::has_worker;
-using test::expect_same;
-using test::MemorySink;
-using test::MemoryVolume;
-using test::random_trial;
-using test::small_mesh;
-using test::SmallMesh;
-using test::Trial;
+using namespace test;
 
 #define NEEDS_WORKER() \
   if (!has_worker()) GTEST_SKIP() << "built without TetGen"
@@ -38,11 +26,8 @@ struct Outcome {
 
 Outcome run(const Trial& trial, int threads = 1,
             const codt::PoolOptions& workers = {.program = MW_CODT_WORKER}) {
-  const MemoryVolume volume(trial.volume, trial.frame);
-  const io::LabelTable table = io::collect_labels(volume);
   MemorySink sink;
-  RunReport report = mesh_volume(io::DenseVolume(volume, table), trial.settings, sink,
-                                 {.threads = threads, .workers = workers});
+  RunReport report = run_into(sink, trial, {.threads = threads, .workers = workers});
   return {sink.mesh(), std::move(report)};
 }
 

@@ -5,12 +5,10 @@
 #include "engine/codt/find_worker.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <string>
-
 #include "kernels/core/error.h"
+#include "tests/testing.h"
 
 namespace mw::engine::codt {
 namespace {

@@ -3,8 +3,6 @@
 // Requests for workers: windows of small volumes of every kind.
 #pragma once
 
-#include <cstdlib>
-
 #include "engine/codt/worker_pool.h"
 #include "kernels/odt/window_plc.h"
 #include "kernels/simplify/simplify.h"

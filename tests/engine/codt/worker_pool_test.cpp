@@ -3,7 +3,6 @@
 // Many workers answer as one; dead, hanging and lying ones cost a window its CODT and no more.
 #include "engine/codt/worker_pool.h"
 
-#include <gtest/gtest.h>
 #include <signal.h>
 
 #include <condition_variable>
@@ -12,16 +11,13 @@
 #include "kernels/core/error.h"
 #include "kernels/odt/replacement.h"
 #include "tests/engine/codt/random_plcs.h"
+#include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 
 namespace mw::engine::codt {
 namespace {
 
-using test::Answer;
-using test::answer_of;
-using test::below;
-using test::has_worker;
-using test::random_plc;
+using namespace test;
 
 #define NEEDS_WORKER() \
   if (!has_worker()) GTEST_SKIP() << "built without TetGen"
@@ -179,13 +175,8 @@ TEST(WorkerPool, GivesUpOnWorkersThatClaimTooMuch) {
 TEST(WorkerPool, RefusesProgramsThatCannotStart) {
   const mw::test::TempFolder folder;
   const auto expect_usage = [&](const std::filesystem::path& program) {
-    try {
-      const WorkerPool pool({.program = program});
-      FAIL() << "started " << program;
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::kUsage);
-      EXPECT_NE(std::string(e.what()).find(program.string()), std::string::npos);
-    }
+    expect_error(ErrorKind::kUsage, {program.string()},
+                 [&] { const WorkerPool pool({.program = program}); });
   };
   expect_usage(folder.path() / "missing");
   std::ofstream(folder.path() / "text") << "no program";

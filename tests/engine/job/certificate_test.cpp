@@ -4,7 +4,6 @@
 #include "engine/job/certificate.h"
 
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "kernels/core/error.h"
 #include "tests/engine/cli/run_program.h"

@@ -3,8 +3,6 @@
 // Labels that change under a run end it with one error, whenever they do.
 #include "engine/job/mesh_job.h"
 
-#include <atomic>
-
 #include "kernels/core/error.h"
 #include "tests/engine/memory_run.h"
 #include "tests/temp_folder.h"
@@ -12,8 +10,7 @@
 namespace mw::engine {
 namespace {
 
-using test::MemorySink;
-using test::MemoryVolume;
+using namespace test;
 
 /// The labels of one volume until so many voxels have been read, then those of another.
 class ChangingVolume : public MemoryVolume {

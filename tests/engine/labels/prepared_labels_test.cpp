@@ -3,11 +3,6 @@
 // The labels that windows work from, against the same made directly from the whole volume.
 #include "engine/labels/prepared_labels.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
 #include "kernels/start/carrier_faces.h"
 #include "tests/engine/labels/counted_volume.h"
 #include "tests/engine/memory_run.h"
@@ -17,8 +12,7 @@
 namespace mw::engine {
 namespace {
 
-using mw::test::below;
-using mw::test::labels_in;
+using namespace mw::test;
 using test::SmallVolume;
 
 /// Labels by rank, so that they are the dense ones.

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiles cover a volume once, along bricks, and its chunks where they can; labels found by threads.
 #include "engine/labels/reading_tiles.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
-
+#include "engine/labels/label_counts.h"
+#include "engine/labels/label_regions.h"
 #include "engine/labels/label_scan.h"
+#include "engine/labels/prepared_labels.h"
 #include "io/labels/brick_volume.h"
 #include "kernels/core/index.h"
 #include "tests/engine/labels/counted_volume.h"
@@ -15,6 +13,8 @@
 
 namespace mw::engine {
 namespace {
+
+using audit::test::below;
 
 constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 
@@ -105,6 +105,64 @@ TEST(LabelScan, FindsTheLabelsThatOneThreadFinds) {
       for (Label l = 0; l < one.size(); ++l) ASSERT_EQ(many.raw(l), one.raw(l));
     }
     EXPECT_EQ(volume.voxels(), 3 * memory.info().shape.product());
+  }
+}
+
+// Contacts of labels against a plain loop over the array.
+
+TEST(LabelContacts, AreThoseOfAPlainLoop) {
+  std::mt19937 random(3);
+  for (std::int64_t seed = 0; seed < 12; ++seed) {
+    // The last one has several tiles along y and z.
+    test::SmallVolume small{seed == 11 ? Index3{700, 30, 40} : Index3{7 + seed % 3, 5, 1 + seed}};
+    small.labels.resize(static_cast<std::size_t>(small.shape.product()));
+    for (Label& label : small.labels) label = static_cast<Label>(random() % 5);
+    const test::MemoryVolume volume(small, {});
+    const Box3 all{{0, 0, 0}, small.shape};
+    std::map<std::pair<RawLabel, RawLabel>, std::array<std::uint64_t, 3>> expected;
+    const std::array<Index3, 3> steps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const auto at = [&](Index3 v) {
+      return test::raw_label(small.labels[static_cast<std::size_t>(all.offset(v))]);
+    };
+    for_each_index(small.shape, [&](Index3 v) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!all.contains(v + steps[k])) continue;
+        const std::pair<RawLabel, RawLabel> pair = std::minmax({at(v), at(v + steps[k])});
+        if (pair.first != pair.second) ++expected[pair][k];
+      }
+    });
+    auto next = expected.begin();
+    for (const LabelContact& contact : label_contacts(volume)) {
+      ASSERT_NE(next, expected.end());
+      EXPECT_EQ(std::pair(contact.first, contact.second), next->first);
+      EXPECT_EQ(contact.faces, next->second);
+      ++next;
+    }
+    EXPECT_EQ(next, expected.end());
+  }
+}
+
+// What parts count adds up to what the whole counts.
+
+TEST(LabelCounts, OfPartsAddUpToThoseOfTheWhole) {
+  std::mt19937 random(61);
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const Index3 shape{1 + below(random, 80), 1 + below(random, 60), 1 + below(random, 90)};
+    const auto kind = static_cast<audit::test::VolumeKind>(i % audit::test::kVolumeKinds);
+    const auto small = audit::test::random_volume_of(random, kind, shape, 1 + below(random, 5));
+    const test::MemoryVolume memory(small, {});
+    const io::LabelTable table = io::collect_labels(memory);
+    const io::DenseVolume volume(memory, table);
+    const PreparedLabels whole(volume, {.start = StartMesh::kDense});
+    const int parts = 1 + static_cast<int>(below(random, 6));
+    LabelCounts sum(shape, table.size());
+    for (int part = 0; part < parts; ++part) {
+      const LabelCounts more = counts_of_part(volume, 1 + part % 3, {part, parts});
+      sum.faces.add(0, more.faces.counts());
+      for (std::size_t l = 0; l < table.size(); ++l) sum.voxels[l] += more.voxels[l];
+    }
+    EXPECT_EQ(sum.voxels, whole.counts().voxels);
+    EXPECT_TRUE(std::ranges::equal(sum.faces.counts(), whole.counts().faces.counts()));
   }
 }
 

@@ -3,10 +3,8 @@
 // Grids by their number of windows, and relations among windows, for tests of the march.
 #pragma once
 
-#include <cstdlib>
-#include <vector>
-
 #include "engine/march/window_order.h"
+#include "tests/testing.h"
 
 namespace mw::engine::test {
 

@@ -3,19 +3,12 @@
 // The march with one and with many threads: order, concurrency, admission.
 #include "engine/march/march.h"
 
-#include <atomic>
-
 #include "tests/engine/march/watched_march.h"
 
 namespace mw::engine {
 namespace {
 
-using test::for_orders_and_threads;
-using test::grid_of;
-using test::kOrders;
-using test::Meeting;
-using test::RandomDelay;
-using test::Watch;
+using namespace test;
 
 TEST(March, VisitsEveryWindowOnceAfterItsPredecessors) {
   for_orders_and_threads([](const WindowOrder& order, int threads) {

@@ -3,14 +3,9 @@
 // Marches watched from outside: delays, meetings, and what must hold when a visit begins.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <random>
-#include <set>
 #include <thread>
 
 #include "tests/engine/march/grids.h"

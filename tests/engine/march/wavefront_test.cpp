@@ -3,12 +3,7 @@
 // Readiness by brute force, the longest path first, and memory that does not grow.
 #include "engine/march/wavefront.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <deque>
-#include <map>
-#include <random>
 
 #include "tests/engine/march/grids.h"
 #include "tests/oracle/small_volumes.h"
@@ -17,10 +12,7 @@ namespace mw::engine {
 namespace {
 
 using audit::test::below;
-using test::by_edges;
-using test::grid_of;
-using test::kOrders;
-using test::Relation;
+using namespace test;
 
 enum class State { kWaiting, kRunning, kFinished };
 

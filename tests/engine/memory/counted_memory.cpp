@@ -5,8 +5,6 @@
 
 #include <malloc.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <new>
 
 namespace {

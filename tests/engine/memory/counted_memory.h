@@ -3,7 +3,7 @@
 // What this program has allocated, and at most so far.
 #pragma once
 
-#include <cstdint>
+#include "tests/testing.h"
 
 namespace mw::test {
 

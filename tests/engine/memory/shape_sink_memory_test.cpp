@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Promise 6 of `info`: what measures a mesh that streams by does not grow with it.
-#include <gtest/gtest.h>
-
 #include "engine/cli/info/shape_sink.h"
 #include "io/file/scratch/scratch_file.h"
 #include "tests/engine/memory/counted_memory.h"

@@ -15,14 +15,9 @@
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
-using audit::test::random_volume_of;
-using audit::test::VolumeKind;
-using mw::test::allocated_bytes;
-using mw::test::peak_allocated_bytes;
-using mw::test::start_peak;
-using test::MemoryVolume;
-using test::Trial;
+using namespace audit::test;
+using namespace mw::test;
+using namespace test;
 
 constexpr std::array<StartMesh, 3> kStarts{StartMesh::kCoarse, StartMesh::kOctree,
                                            StartMesh::kDense};

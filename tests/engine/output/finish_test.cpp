@@ -3,51 +3,17 @@
 // Final blocks to one mesh: what a list of everything in memory would give, without one.
 #include "engine/output/finish.h"
 
-#include <map>
-
 #include "engine/output/interface_shape.h"
-#include "engine/store/run_store.h"
-#include "engine/window/window_visitor.h"
 #include "io/mesh/digest.h"
 #include "kernels/audit/shape/volumes.h"
-#include "tests/engine/memory_run.h"
+#include "tests/engine/output/marched_blocks.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::engine {
 namespace {
 
-using audit::test::below;
-using audit::test::random_volume_of;
-using audit::test::VolumeKind;
-using test::MemorySink;
-using test::MemoryVolume;
-using test::random_trial;
-using test::Trial;
-
-/// The blocks after one march.
-class MarchedBlocks : public FinalBlocks {
- public:
-  MarchedBlocks(const Trial& trial, const io::DenseVolume& volume)
-      : layout_({WindowGrid(trial.volume.shape, trial.settings.window)}, trial.settings.order),
-        store_(layout_, budget_, nullptr) {
-    const PreparedLabels labels(volume, trial.settings);
-    const Metric metric(trial.frame.spacing);
-    BlockStore& blocks = store_.march(0);
-    const WindowVisitor visitor(labels, metric, trial.settings, grid(), blocks);
-    march(WindowOrder(grid(), trial.settings.order), [&](Index3 window) {
-      EXPECT_TRUE(blocks.admit(window, 1 << 20));
-      visitor.visit(window);
-    });
-  }
-
-  [[nodiscard]] BlockMesh load(Index3 block) override { return store_.march(0).load(block); }
-  [[nodiscard]] const WindowGrid& grid() const { return layout_.grid(0); }
-
- private:
-  RunLayout layout_;
-  MemoryBudget budget_;
-  RunStore store_;
-};
+using namespace audit::test;
+using namespace test;
 
 /// All vertices ascending by id, all tets with wanted labels: the whole mesh in memory at once.
 io::MeshData list_of_everything(FinalBlocks& blocks, const WindowGrid& grid,

@@ -3,11 +3,9 @@
 // Vertices as blocks reference them, without a mesh.
 #pragma once
 
-#include <algorithm>
-#include <map>
-
 #include "engine/output/vertex_rows.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::engine::test {
 

@@ -3,20 +3,14 @@
 // The library's face: settings refused, progress told, report and labels right.
 #include "engine/run/run.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <set>
-
 #include "tests/engine/memory_run.h"
+#include "tests/expect_error.h"
 
 namespace mw::engine {
 namespace {
 
 using audit::test::volume_from;
-using test::raw_label;
-using test::run_in_memory;
-using test::Trial;
+using namespace test;
 
 Trial small_trial() {
   return {.volume = volume_from({9, 6, 5}, 3, [](auto x, auto y, auto) { return (x / 3 + y) % 3; }),
@@ -25,13 +19,7 @@ Trial small_trial() {
 }
 
 void expect_refused(const MeshSettings& settings, const std::string& name) {
-  try {
-    check(settings);
-    ADD_FAILURE() << "accepted a bad " << name;
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::kUsage);
-    EXPECT_NE(std::string(e.what()).find(name), std::string::npos) << e.what();
-  }
+  expect_error(ErrorKind::kUsage, {name}, [&] { check(settings); });
 }
 
 TEST(MeshSettings, RefusesWhatIsNotAllowedByName) {
@@ -51,10 +39,8 @@ TEST(MeshSettings, RefusesWhatIsNotAllowedByName) {
 TEST(MeshVolume, ChecksItsSettings) {
   Trial trial = small_trial();
   trial.settings.window = 7;
-  const test::MemoryVolume volume(trial.volume, trial.frame);
-  const io::LabelTable table = io::collect_labels(volume);
   test::MemorySink sink;
-  EXPECT_THROW(mesh_volume(io::DenseVolume(volume, table), trial.settings, sink), Error);
+  EXPECT_THROW(run_into(sink, trial), Error);
 }
 
 TEST(MeshVolume, TellsProgressAfterEveryWindow) {

@@ -3,11 +3,8 @@
 // Texts for each entry of the table of settings.
 #pragma once
 
-#include <map>
-#include <string>
-#include <vector>
-
 #include "engine/settings/setting_table.h"
+#include "tests/testing.h"
 
 namespace mw::engine::test {
 

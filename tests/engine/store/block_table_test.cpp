@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // What leaves memory first, and what of the file may be used again when.
 #include "engine/store/table/block_table.h"
-
-#include <gtest/gtest.h>
-
+#include "engine/store/codec/block_codec.h"
+#include "engine/store/table/extent_allocator.h"
 #include "kernels/core/error.h"
 #include "tests/engine/store/fake_run.h"
+#include "tests/engine/store/random_blocks.h"
 #include "tests/engine/store/volatile_files.h"
+#include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::engine {
 namespace {
 
-using test::fake_layout;
-using test::random_block;
-using test::VolatileFiles;
+using namespace test;
+using namespace mw::test;
 
 class BlockTableTest : public testing::Test {
  protected:
@@ -150,6 +150,181 @@ TEST_F(BlockTableTest, StaysAsItIsWithoutRoomForAPage) {
   has_room = true;
   table.put(3, block(3));
   EXPECT_FALSE(table.at(3).empty());
+}
+
+// Extents never share a sector, and what is released comes back whole.
+
+constexpr std::uint64_t kSector = ExtentAllocator::kSectorBytes;
+constexpr std::uint64_t kSectors = 256;
+
+/// The same by a list of sectors.
+class Sectors {
+ public:
+  /// False when one of them is not as it was.
+  bool set(const Extent& e, bool taken) {
+    if (e.offset % kSector != 0 || e.offset + e.size > kSectors * kSector) return false;
+    for (std::uint64_t s = e.offset / kSector; s * kSector < e.offset + e.size; ++s) {
+      if (taken_[s] == taken) return false;
+      taken_[s] = taken;
+    }
+    return true;
+  }
+  [[nodiscard]] std::uint64_t longest_free() const {
+    std::uint64_t longest = 0, run = 0;
+    for (bool taken : taken_) {
+      run = taken ? 0 : run + 1;
+      longest = std::max(longest, run);
+    }
+    return longest * kSector;
+  }
+
+ private:
+  std::vector<bool> taken_ = std::vector<bool>(kSectors, false);
+};
+
+TEST(ExtentAllocator, AgreesWithAListOfSectors) {
+  std::mt19937 random(311);
+  for (int trial = 0; trial < 20; ++trial) {
+    ExtentAllocator allocator;
+    allocator.grow(kSectors * kSector / 2);
+    allocator.grow(kSectors * kSector);
+    Sectors sectors;
+    std::vector<Extent> held;
+    for (int i = 0; i < 2000; ++i) {
+      if (held.empty() || random() % 2 == 0) {
+        const std::uint64_t size = 1 + random() % (12 * kSector);
+        const auto extent = allocator.allocate(size);
+        ASSERT_EQ(extent.has_value(), size <= sectors.longest_free());
+        if (!extent) continue;
+        ASSERT_EQ(extent->size, size);
+        ASSERT_TRUE(sectors.set(*extent, true));
+        held.push_back(*extent);
+      } else {
+        std::swap(held[random() % held.size()], held.back());
+        allocator.release(held.back());
+        ASSERT_TRUE(sectors.set(held.back(), false));
+        held.pop_back();
+      }
+    }
+    for (const Extent& e : held) allocator.release(e);
+    EXPECT_EQ(allocator.free_bytes(), kSectors * kSector);
+    EXPECT_TRUE(allocator.allocate(kSectors * kSector));
+  }
+}
+
+TEST(ExtentAllocator, TakesGivenExtentsOnce) {
+  ExtentAllocator allocator;
+  allocator.grow(16 * kSector);
+  EXPECT_TRUE(allocator.take({4 * kSector, 3 * kSector - 5}));
+  EXPECT_FALSE(allocator.take({6 * kSector, kSector}));
+  EXPECT_FALSE(allocator.take({3 * kSector, 2 * kSector}));
+  EXPECT_FALSE(allocator.take({15 * kSector, 2 * kSector}));
+  EXPECT_FALSE(allocator.take({99 * kSector, 1}));
+  EXPECT_TRUE(allocator.take({7 * kSector, kSector}));
+  EXPECT_EQ(allocator.free_bytes(), 12 * kSector);
+}
+
+// Blocks come back from bytes bit by bit, and damaged bytes are refused.
+
+constexpr BlockKey kKey{1, {3, 4, 5}};
+
+/// What the bytes decode to; nothing when they are refused, which must name block and reason.
+std::optional<BlockMesh> decode_or_refuse(const std::vector<std::byte>& bytes) {
+  try {
+    return decode_block(kKey, bytes);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::kInput);
+    EXPECT_NE(std::string(e.what()).find("block (3, 4, 5) of march 2: corrupt: "),
+              std::string::npos)
+        << e.what();
+    return std::nullopt;
+  }
+}
+
+std::vector<BlockMesh> start_blocks(std::mt19937& random) {
+  std::vector<BlockMesh> out;
+  for (int i = 0; i < 6; ++i) {
+    const auto volume = random_volume_of(random, static_cast<VolumeKind>(i), {8, 8, 8}, 4);
+    out.push_back(mw::test::dense_block(volume, {{0, 0, 0}, {4, 8, 8}},
+                                        {.with_samples = i % 2 == 0, .weights = {}}));
+  }
+  return out;
+}
+
+TEST(BlockCodec, GivesBackEveryBit) {
+  std::mt19937 random(301);
+  std::vector<BlockMesh> blocks = start_blocks(random);
+  blocks.push_back({});
+  for (std::size_t size = 4; size < 200; ++size) blocks.push_back(random_block(random, size));
+  for (const BlockMesh& block : blocks) {
+    const std::vector<std::byte> bytes = encode_block(kKey, block);
+    const BlockMesh back = decode_block(kKey, bytes);
+    ASSERT_TRUE(same_bits(block, back));
+    ASSERT_EQ(encode_block(kKey, back), bytes);
+  }
+}
+
+TEST(BlockCodec, IsCompact) {
+  std::mt19937 random(302);
+  for (const BlockMesh& block : start_blocks(random)) {
+    EXPECT_LT(4 * encode_block(kKey, block).size(), memory_bytes(block));
+  }
+}
+
+TEST(BlockCodec, RefusesTheBytesOfAnotherBlock) {
+  std::mt19937 random(303);
+  const BlockMesh block = random_block(random, 50);
+  for (const BlockKey& other : {BlockKey{0, {3, 4, 5}}, BlockKey{1, {3, 5, 4}}}) {
+    EXPECT_FALSE(decode_or_refuse(encode_block(other, block)));
+  }
+}
+
+TEST(BlockCodec, RefusesEveryTruncation) {
+  std::mt19937 random(304);
+  const std::vector<std::byte> bytes = encode_block(kKey, random_block(random, 40));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(decode_or_refuse({bytes.begin(), bytes.begin() + static_cast<long>(size)}));
+  }
+  std::vector<std::byte> longer = bytes;
+  longer.push_back(std::byte{0});
+  EXPECT_FALSE(decode_or_refuse(longer));
+}
+
+TEST(BlockCodec, RefusesEveryChangedByte) {
+  std::mt19937 random(305);
+  std::vector<std::byte> bytes = encode_block(kKey, random_block(random, 40));
+  for (std::byte& byte : bytes) {
+    const std::byte kept = byte;
+    byte ^= static_cast<std::byte>(1 + random() % 255);
+    EXPECT_FALSE(decode_or_refuse(bytes));
+    byte = kept;
+  }
+}
+
+/// With the checksum made right, damage is either refused or another canonical mesh, which has an
+/// encoding of its own; it never crashes (run it under sanitizers) and never asks for much memory.
+TEST(BlockCodec, SurvivesDamageUnderAGoodChecksum) {
+  std::mt19937 random(306);
+  int refused = 0, accepted = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::vector<std::byte> bytes = encode_block(kKey, random_block(random, 12));
+    for (std::size_t k = 1 + random() % 3; k > 0; --k) {
+      const std::size_t at = 16 + random() % (bytes.size() - 16);
+      if (random() % 4 != 0) {
+        bytes[at] = static_cast<std::byte>(random());
+      } else {
+        bytes.erase(bytes.begin() + static_cast<long>(at), bytes.end());
+        bytes.resize(17 + random() % 300, static_cast<std::byte>(random()));
+      }
+    }
+    repair_head(bytes);
+    const std::optional<BlockMesh> mesh = decode_or_refuse(bytes);
+    ++(mesh ? accepted : refused);
+    if (!mesh) continue;
+    ASSERT_TRUE(same_bits(decode_block(kKey, encode_block(kKey, *mesh)), *mesh));
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(accepted, 1000);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Windows that share no block take and commit at the same time.
 #include <condition_variable>
-#include <set>
 #include <thread>
 
 #include "engine/store/journal/workdir.h"
@@ -13,10 +12,7 @@
 namespace mw::engine {
 namespace {
 
-using test::fake_layout;
-using test::fake_work;
-using test::final_bytes;
-using test::reference_run;
+using namespace test;
 
 /// Threads that take any window whose predecessors are done, and memory permitting do it.
 class Workers {

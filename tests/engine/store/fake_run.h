@@ -3,10 +3,6 @@
 // A run whose windows write arbitrary blocks, each a function of what it took.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <map>
-
 #include "engine/march/march.h"
 #include "engine/store/run_store.h"
 #include "kernels/mesh/block_mesh.h"

@@ -3,12 +3,10 @@
 // Canonical blocks of arbitrary content, for tests of codec and store.
 #pragma once
 
-#include <algorithm>
-#include <random>
-
 #include "engine/store/codec/block_codec.h"
 #include "io/codec/checksums.h"
 #include "io/file/byte_order.h"
+#include "tests/testing.h"
 
 namespace mw::engine::test {
 

@@ -3,23 +3,15 @@
 // The store gives what was committed under every budget, and goes on after every kind of end.
 #include "engine/store/run_store.h"
 
-#include <gtest/gtest.h>
-
 #include "kernels/core/error.h"
 #include "tests/engine/store/fake_run.h"
 #include "tests/engine/store/volatile_files.h"
+#include "tests/expect_error.h"
 
 namespace mw::engine {
 namespace {
 
-using test::expect_closed;
-using test::fake_layout;
-using test::fake_run;
-using test::fake_work;
-using test::final_bytes;
-using test::FinalBytes;
-using test::reference_run;
-using test::VolatileFiles;
+using namespace test;
 
 constexpr std::uint64_t kTightBytes = 60'000;  ///< a window's blocks, twice, and a few more
 
@@ -89,13 +81,8 @@ TEST(RunStore, SaysTheLeastBudgetThatWorks) {
   const std::uint64_t left = budget.limit() - budget.used(Purpose::kIndex);
   EXPECT_TRUE(store.try_reserve(Purpose::kWindows, left)) << "all blocks can be spilled";
   EXPECT_FALSE(store.try_reserve(Purpose::kWindows, left + 1));
-  try {
-    (void)store.reserve(Purpose::kWindows, 5 << 20);
-    ADD_FAILURE() << "more than there is";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::kResource);
-    EXPECT_NE(std::string(e.what()).find("--memory 6MiB"), std::string::npos) << e.what();
-  }
+  expect_error(ErrorKind::kResource, {"--memory 6MiB"},
+               [&] { (void)store.reserve(Purpose::kWindows, 5 << 20); });
 }
 
 /// A window in flight keeps others out; alone, what it cannot have is an error.
@@ -135,13 +122,8 @@ TEST(RunStore, RefusesBytesThatChangedOnDisk) {
   (void)store.reserve(Purpose::kWindows, kTightBytes);  // everything goes to disk
   EXPECT_NO_THROW((void)final_bytes(layout, store));
   for (std::byte& byte : files.content("blocks")) byte ^= std::byte{1};
-  try {
-    (void)final_bytes(layout, store);
-    ADD_FAILURE() << "read it";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::kInput);
-    EXPECT_NE(std::string(e.what()).find("block (0, 0, 0) of march 2: corrupt"), std::string::npos);
-  }
+  expect_error(ErrorKind::kInput, {"block (0, 0, 0) of march 2: corrupt"},
+               [&] { (void)final_bytes(layout, store); });
 }
 
 /// One run, ended after any number of windows and gone on with any number of times.

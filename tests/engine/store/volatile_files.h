@@ -3,14 +3,9 @@
 // Work files in memory whose power can be cut and whose disk can fail.
 #pragma once
 
-#include <algorithm>
-#include <map>
-#include <random>
-#include <utility>
-#include <vector>
-
 #include "engine/store/journal/work_file.h"
 #include "kernels/core/error.h"
+#include "tests/testing.h"
 
 namespace mw::engine::test {
 

@@ -3,9 +3,8 @@
 // A place on disk for one test.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "tests/temp_folder.h"
+#include "tests/testing.h"
 
 namespace mw::engine::test {
 

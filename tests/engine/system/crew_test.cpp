@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // A crew's helpers take part in what is run, also after a pause.
-#include "engine/system/crew.h"
-
-#include <gtest/gtest.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <atomic>
 #include <chrono>
-#include <set>
 #include <stdexcept>
 #include <thread>
+
+#include "engine/system/crew.h"
+#include "engine/system/memory.h"
+#include "tests/temp_folder.h"
+#include "tests/testing.h"
 
 namespace mw::engine {
 namespace {
@@ -73,6 +72,59 @@ TEST(Crew, TwoOfThemDoNotMindEachOther) {
   Crew inner(2);
   outer.run([&] { EXPECT_TRUE(all_meet(inner)); });
   EXPECT_TRUE(all_meet(outer));
+}
+
+// The budget when none is given.
+
+constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
+
+TEST(MachineMemory, TakesTheLeastLimitOfNestedGroups) {
+  const test::TempFolder folder;
+  const auto limit = [&](const std::string& group, const std::string& text) {
+    std::filesystem::create_directories(folder.path() / group);
+    std::ofstream(folder.path() / group / "memory.max") << text;
+  };
+  const auto found = [&](const std::string& groups) {
+    std::istringstream in(groups);
+    return cgroup_limit(folder.path(), in);
+  };
+  EXPECT_EQ(found("0::/user/job\n"), kNone);
+  limit("user", "5000\n");
+  limit("user/job", "max\n");
+  EXPECT_EQ(found("0::/user/job\n"), 5000U);
+  limit("user/job", "3000\n");
+  EXPECT_EQ(found("1:name=systemd:/x\n0::/user/job\n"), 3000U);
+  EXPECT_EQ(found("0::/user\n"), 5000U);
+  EXPECT_EQ(found("0::/\n"), kNone);
+  std::filesystem::create_directories(folder.path() / "memory" / "a");
+  std::ofstream(folder.path() / "memory" / "a" / "memory.limit_in_bytes") << "2000\n";
+  EXPECT_EQ(found("4:memory:/a/b\n0::/user\n"), 2000U);
+}
+
+TEST(MachineMemory, IsAtMostHalfOfTheMachine) {
+  std::ifstream meminfo("/proc/meminfo");
+  std::string name;
+  std::uint64_t kib = 0;
+  meminfo >> name >> kib;
+  ASSERT_EQ(name, "MemTotal:");
+  EXPECT_LE(default_memory_budget(), kib * 512);
+  EXPECT_GT(default_memory_budget(), 0U);
+}
+
+// Amounts in files of /proc.
+
+TEST(ProcFile, TellsTheAmountOfALine) {
+  const std::string text =
+      "MemTotal: 9000 kB\nMemFree: 10 kB\nMemFreeMore: 5 kB\nLast:    700 kB\n";
+  const auto bytes = [&](std::string_view name) {
+    std::istringstream file(text);
+    return proc_bytes(file, name);
+  };
+  EXPECT_EQ(bytes("MemTotal"), 9000U * 1024);
+  EXPECT_EQ(bytes("MemFreeMore"), 5U * 1024);
+  EXPECT_EQ(bytes("Last"), 700U * 1024);
+  EXPECT_EQ(bytes("Mem"), std::nullopt);
+  EXPECT_EQ(bytes("MemAvailable"), std::nullopt);
 }
 
 }  // namespace

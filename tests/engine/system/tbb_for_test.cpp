@@ -3,11 +3,9 @@
 // The loop over oneTBB: every index once, and kernels give the same bytes through it.
 #include "engine/system/tbb_for.h"
 
-#include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <atomic>
 #include <stdexcept>
 
 #include "kernels/simplify/simplify.h"

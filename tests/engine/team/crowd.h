@@ -3,11 +3,11 @@
 // Ranks as threads.
 #pragma once
 
-#include <functional>
 #include <thread>
 
 #include "engine/team/team.h"
 #include "tests/engine/team/thread_exchange.h"
+#include "tests/testing.h"
 
 namespace mw::engine::test {
 

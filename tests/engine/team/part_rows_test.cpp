@@ -3,21 +3,13 @@
 // Rows that several processes find out together are those of VertexRows, which knows all blocks.
 #include "engine/team/output/part_rows.h"
 
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <numeric>
-#include <set>
-
 #include "tests/engine/output/scattered.h"
 
 namespace mw::engine {
 namespace {
 
 using audit::test::below;
-using test::random_shape;
-using test::scatter_vertices;
-using test::Scattered;
+using namespace test;
 
 /// Lines dealt out at random, or in runs, as bricks of rows are.
 std::vector<std::uint32_t> random_owners(std::mt19937& random, Index3 blocks, std::uint32_t ranks) {

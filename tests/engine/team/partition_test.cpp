@@ -1,21 +1,18 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/team/blocks/partition.h"
-
-#include <gtest/gtest.h>
-
-#include <numeric>
-#include <random>
-#include <set>
-
+#include "engine/team/blocks/block_route.h"
+#include "engine/team/blocks/incoming_rooms.h"
+#include "engine/team/output/line_share.h"
 #include "tests/engine/march/grids.h"
+#include "tests/engine/store/fake_run.h"
 #include "tests/oracle/small_volumes.h"
 
 namespace mw::engine {
 namespace {
 
 using audit::test::below;
-using test::grid_of;
+using namespace test;
 
 RunLayout layout_of(Index3 windows, Order order) {
   const WindowGrid first = grid_of(windows);
@@ -111,6 +108,201 @@ TEST(Partition, IsWhatItsOwnersSay) {
   const Partition told(layout, counted.owners());
   for_each_index(layout.grid(0).windows(), [&](Index3 w) {
     EXPECT_EQ(told.rank_of({0, w}), counted.rank_of({0, w}));
+  });
+}
+
+// Final blocks stay where they were visited last.
+
+TEST(LineOwners, HaveVisitedAllBlocksOfTheirLinesLast) {
+  std::mt19937 random(521);
+  std::size_t shared = 0;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const auto edge = [&] { return std::int64_t{1 + below(random, 40)}; };
+    const auto x = edge(), y = edge(), z = edge();
+    std::vector<WindowGrid> grids;
+    for (std::uint32_t march = 0; march <= i % 3; ++march) {
+      grids.emplace_back(Index3{x, y, z}, 4 << march);
+    }
+    const Order order = i % 2 == 0 ? Order::kRaster : Order::kColour;
+    const RunLayout layout(grids, order);
+    const Partition partition(layout, order, 1 + static_cast<int>(below(random, 9)));
+    const std::vector<std::uint32_t> owners = line_owners(layout, partition);
+    const std::uint32_t last = layout.marches() - 1;
+    const Index3 blocks = layout.grid(last).blocks();
+    ASSERT_EQ(owners.size(), static_cast<std::size_t>(blocks.y * blocks.z));
+    const BlockRoute route(layout);
+    for_each_index(blocks, [&](Index3 b) {
+      const auto owner = owners[static_cast<std::size_t>(b.z * blocks.y + b.y)];
+      EXPECT_EQ(partition.rank_of(route.last_version({last, b}).from), static_cast<int>(owner));
+      shared += owner != owners[0];
+    });
+  }
+  EXPECT_GT(shared, 1000U);
+}
+
+// Budget of blocks that are on their way here.
+
+/// Whether the next user of a version is here, asked by nobody in these tests.
+class Nobody : public BlockRouter {
+ public:
+  [[nodiscard]] bool stays(const BlockVersion& /*version*/) const override { return true; }
+  void send(const BlockVersion& /*version*/, BlockPin /*block*/) override {}
+  void committed(std::span<const BlockVersion> /*versions*/) override {}
+  [[nodiscard]] bool is_carrying() const override { return false; }
+};
+
+struct Receiver {
+  explicit Receiver(std::uint64_t limit)
+      : budget(limit), store(layout, budget, nullptr, {}, &router) {}
+
+  [[nodiscard]] std::uint64_t used() const { return budget.used(Purpose::kBlocks); }
+
+  RunLayout layout = fake_layout();
+  MemoryBudget budget;
+  Nobody router;
+  RunStore store;
+};
+
+constexpr std::uint64_t kPlenty = std::uint64_t{1} << 24U;
+
+TEST(IncomingRooms, ABlockIsCountedOnceFromBeforeItsBytesAreThere) {
+  Receiver here(kPlenty);
+  const auto rooms = IncomingRooms::of(here.store);
+  const std::vector<std::byte> bytes = encode_block({}, {});
+  auto ticket = rooms->take(bytes.size());
+  ASSERT_NE(ticket, nullptr);
+  const std::uint64_t cost = RunStore::cost_of(bytes.size());
+  EXPECT_EQ(here.used(), cost);
+  EXPECT_FALSE(rooms->is_empty());
+  const BlockVersion version{{0, {0, 0, 0}}, {0, {0, 0, 0}}};
+  here.store.receive(version, bytes, 0, rooms->claim(ticket));
+  EXPECT_EQ(here.used(), cost);
+  EXPECT_EQ(here.budget.peak(Purpose::kBlocks), cost);
+  EXPECT_FALSE(rooms->is_empty()) << "until the ticket is gone";
+  ticket.reset();
+  EXPECT_TRUE(rooms->is_empty());
+  EXPECT_EQ(here.used(), cost);
+}
+
+TEST(IncomingRooms, ThereMayBeNoRoom) {
+  Receiver here(1 << 20);
+  const auto rooms = IncomingRooms::of(here.store);
+  EXPECT_EQ(rooms->take(2 << 20), nullptr);
+  EXPECT_TRUE(rooms->is_empty());
+  EXPECT_EQ(rooms->claim(nullptr).bytes(), 0U);
+}
+
+/// A message that MPI has begun to receive is there after the run has failed.
+TEST(IncomingRooms, ATicketMayOutliveTheRun) {
+  std::shared_ptr<void> ticket;
+  std::shared_ptr<IncomingRooms> rooms;
+  {
+    Receiver here(kPlenty);
+    rooms = IncomingRooms::of(here.store);
+    ticket = rooms->take(1000);
+    EXPECT_GT(here.used(), 1000U);
+    rooms->close();
+    EXPECT_EQ(here.used(), 0U);
+  }
+  EXPECT_EQ(rooms->take(1000), nullptr);
+  EXPECT_EQ(rooms->claim(ticket).bytes(), 0U);
+  rooms.reset();
+  ticket.reset();
+}
+
+// The flow of blocks against the order of windows, and both of its directions against each other.
+
+/// Every number of windows up to 4 along each axis, in both orders, with 1 to 3 marches.
+template <typename Check>
+void for_layouts(Check check) {
+  for_each_index(Index3{4, 4, 4}, [&](Index3 i) {
+    const Index3 windows = i + Index3{1, 1, 1};
+    for (Order order : kOrders) {
+      std::vector<WindowGrid> grids{grid_of(windows)};
+      const Index3 voxels = grids[0].volume();
+      for (int window = 8; grids.size() < 3; window *= 2) grids.emplace_back(voxels, window);
+      SCOPED_TRACE(::testing::Message() << windows.x << " " << windows.y << " " << windows.z
+                                        << (order == Order::kRaster ? " raster" : " colour"));
+      check(RunLayout(grids, order));
+    }
+  });
+}
+
+template <typename Check>
+void for_windows(const RunLayout& layout, Check check) {
+  for (std::uint32_t march = 0; march < layout.marches(); ++march) {
+    for_each_index(layout.grid(march).windows(), [&](Index3 w) { check(WindowKey{march, w}); });
+  }
+}
+
+TEST(BlockRoute, InputsOfAMarchOrderItsWindowsAsItsEdgesDo) {
+  for_layouts([](const RunLayout& layout) {
+    const BlockRoute route(layout);
+    const WindowOrder order = layout.order(0);
+    Relation flow(order.size(), std::vector<bool>(order.size(), false));
+    for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
+      for (const BlockVersion& v : route.inputs({0, order.window(rank)})) {
+        flow[rank][order.rank(v.from.window)] = true;
+      }
+    }
+    EXPECT_EQ(transitive_closure(flow), transitive_closure(by_edges(order)));
+  });
+}
+
+/// Plays the run in sequence: what is the latest version of each block is found by looking.
+TEST(BlockRoute, InputsAreTheLatestVersions) {
+  for_layouts([](const RunLayout& layout) {
+    const BlockRoute route(layout);
+    std::map<std::uint64_t, WindowKey> latest;  // by slot
+    for (std::uint32_t march = 0; march < layout.marches(); ++march) {
+      const WindowOrder order = layout.order(march);
+      for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
+        const WindowKey key{march, order.window(rank)};
+        std::vector<BlockVersion> expected;
+        for (Index3 index : layout.grid(march).blocks_of(key.window)) {
+          const BlockKey block{march, index};
+          const auto own = latest.find(layout.slot(block));
+          if (own != latest.end()) {
+            expected.push_back({block, own->second});
+          } else if (march > 0) {
+            for (const BlockKey& part : layout.parts(block)) {
+              expected.push_back({part, latest.at(layout.slot(part))});
+            }
+          }
+          latest[layout.slot(block)] = key;
+        }
+        EXPECT_EQ(route.inputs(key), expected);
+      }
+    }
+    for_each_index(layout.grid(layout.marches() - 1).blocks(), [&](Index3 index) {
+      const BlockKey block{layout.marches() - 1, index};
+      EXPECT_EQ(route.last_version(block), (BlockVersion{block, latest.at(layout.slot(block))}));
+    });
+  });
+}
+
+TEST(BlockRoute, EveryVersionHasOneNextUserWhoseInputItIs) {
+  for_layouts([](const RunLayout& layout) {
+    const BlockRoute route(layout);
+    std::size_t used = 0, taken = 0, output = 0;
+    for_windows(layout, [&](const WindowKey& key) {
+      taken += route.inputs(key).size();
+      for (Index3 index : layout.grid(key.march).blocks_of(key.window)) {
+        const BlockVersion version{{key.march, index}, key};
+        const auto next = route.next_user(version);
+        if (!next) {
+          EXPECT_EQ(route.last_version(version.block), version);
+          ++output;
+          continue;
+        }
+        ++used;
+        const std::vector<BlockVersion> inputs = route.inputs(*next);
+        EXPECT_EQ(std::count(inputs.begin(), inputs.end(), version), 1);
+      }
+    });
+    EXPECT_EQ(used, taken);
+    EXPECT_EQ(static_cast<std::int64_t>(output),
+              layout.grid(layout.marches() - 1).blocks().product());
   });
 }
 

@@ -3,11 +3,6 @@
 // Teams of threads: what all say, parcels, and failures, whatever overtakes what.
 #include "engine/team/team.h"
 
-#include <gtest/gtest.h>
-
-#include <atomic>
-#include <numeric>
-#include <set>
 #include <thread>
 
 #include "engine/team/shared_lists.h"

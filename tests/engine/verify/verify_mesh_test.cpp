@@ -13,12 +13,7 @@ namespace {
 
 using audit::AuditOptions;
 using audit::AuditReport;
-using audit::test::below;
-using audit::test::five_tet_mesh;
-using audit::test::random_volume_of;
-using audit::test::SmallMesh;
-using audit::test::SmallVolume;
-using audit::test::VolumeKind;
+using namespace audit::test;
 using test::MemoryVolume;
 
 /// A volume and a mesh that need not be good.

@@ -2,22 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sec 4.1: blocks tile the volume, windows cover them, and predecessors order all that touch.
 #include "engine/window/window_grid.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <random>
-#include <set>
-
+#include "engine/window/inner_quality.h"
 #include "tests/engine/march/grids.h"
 
 namespace mw::engine {
 namespace {
 
-using test::grid_of;
-using test::Relation;
-using test::transitive_closure;
+using namespace test;
 
 bool are_neighbours(Index3 a, Index3 b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
@@ -153,6 +144,38 @@ TEST(Sec42Owner, IsTheBlockOfTheBarycentreOrTheNearestOfTheWindow) {
   }
   EXPECT_GT(inside, 1000);
   EXPECT_GT(outside, 1000);
+}
+
+constexpr std::int64_t kBrick = 16;
+
+/// Bricks in a row, with faces in the first.
+BoundaryFaces row_of(std::int64_t bricks, std::uint16_t faces) {
+  BoundaryFaces out({bricks * kBrick, kBrick, kBrick});
+  out.add(0, {&faces, 1});
+  return out;
+}
+
+TEST(InnerQuality, OneLabelIsSparse) {
+  EXPECT_EQ(inner_quality_for(row_of(1, 0)), kSparseInnerQuality);
+}
+
+TEST(InnerQuality, FacesEverywhereAreDense) {
+  EXPECT_EQ(inner_quality_for(row_of(1, 1)), kInnerQuality);
+}
+
+TEST(InnerQuality, EmptyBricksDecide) {
+  EXPECT_EQ(inner_quality_for(row_of(11, 159)), kSparseInnerQuality);
+  EXPECT_EQ(inner_quality_for(row_of(11, 160)), kInnerQuality);
+}
+
+/// Bricks that the volume cuts short count as well.
+TEST(InnerQuality, PartsOfBricksAreBricks) {
+  BoundaryFaces faces({2 * kBrick + 1, 1, 1});
+  const std::uint16_t few = 31, many = 32;
+  faces.add(2, {&few, 1});
+  EXPECT_EQ(inner_quality_for(faces), kSparseInnerQuality);
+  faces.add(2, {&many, 1});
+  EXPECT_EQ(inner_quality_for(faces), kInnerQuality);
 }
 
 }  // namespace

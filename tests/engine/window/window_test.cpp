@@ -4,8 +4,6 @@
 #include "engine/window/window.h"
 #include "kernels/mesh/block_mesh.h"
 
-#include <gtest/gtest.h>
-
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
 #include "tests/kernels/mesh/dense_mesh.h"
@@ -13,13 +11,7 @@
 namespace mw::engine {
 namespace {
 
-using mw::test::add_global;
-using mw::test::below;
-using mw::test::dense_block;
-using mw::test::GlobalTets;
-using mw::test::random_volume_of;
-using mw::test::SmallVolume;
-using mw::test::VolumeKind;
+using namespace mw::test;
 
 /// The start content of a window's blocks.
 std::vector<BlockMesh> start_blocks(const SmallVolume& volume, const WindowGrid& grid,

@@ -3,10 +3,6 @@
 // Chunked volumes and their cache, over chunks in memory of every layout.
 #include "io/chunks/chunked_volume.h"
 
-#include <array>
-#include <atomic>
-#include <map>
-#include <numeric>
 #include <thread>
 
 #include "io/file/errors.h"

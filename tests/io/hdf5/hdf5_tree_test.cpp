@@ -3,8 +3,6 @@
 // Files that are written without the HDF5 library, read by it.
 #include "io/hdf5/hdf5_tree.h"
 
-#include <random>
-
 #include "io/hdf5/hdf5_file.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
 #include "tests/io/test_files.h"

@@ -3,12 +3,10 @@
 // JSON values, held against the library.
 #include "io/json/json.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "kernels/core/error.h"
+#include "tests/testing.h"
 
 namespace mw::io {
 namespace {

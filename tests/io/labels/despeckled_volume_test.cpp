@@ -3,9 +3,6 @@
 // Specks against a literal reading of the rule: components by flooding, round by round.
 #include "io/labels/despeckled_volume.h"
 
-#include <algorithm>
-#include <map>
-
 #include "tests/io/labels/memory_volume.h"
 #include "tests/io/test_files.h"
 

@@ -2,38 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Raw labels to dense ones and back, at the ends of 64 bits and below zero.
 #include "io/labels/label_table.h"
-
-#include <set>
-
+#include "io/labels/prepared_input.h"
 #include "io/volume/open_volume.h"
 #include "kernels/core/error.h"
+#include "tests/io/labels/memory_volume.h"
 #include "tests/io/volume/sample_files.h"
 
 namespace mw::io {
 namespace {
 
-/// A volume in memory.
-class MemoryVolume : public LabelVolume {
- public:
-  MemoryVolume(Index3 shape, VoxelType type, std::vector<RawLabel> labels)
-      : info_{.shape = shape, .type = type, .format = "memory"}, labels_(std::move(labels)) {}
-  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
-  void read(const Box3& box, std::span<RawLabel> out) const override {
-    const Box3 all{{0, 0, 0}, info_.shape};
-    for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
-      for (std::int64_t y = box.lo.y; y < box.hi.y; ++y) {
-        for (std::int64_t x = box.lo.x; x < box.hi.x; ++x) {
-          out[static_cast<std::size_t>(box.offset({x, y, z}))] =
-              labels_[static_cast<std::size_t>(all.offset({x, y, z}))];
-        }
-      }
-    }
-  }
-
- private:
-  VolumeInfo info_;
-  std::vector<RawLabel> labels_;
-};
+using audit::test::below;
 
 constexpr auto kMinusOne = static_cast<RawLabel>(-1);
 
@@ -94,13 +72,9 @@ TEST(LabelTable, RefusesALabelThatTheFirstReadingDidNotSee) {
         labels[place] = other;
         const MemoryVolume changed(kShape, VoxelType::kU64, labels);
         std::vector<Label> got(labels.size());
-        try {
+        expect_error(ErrorKind::kInput, {"changed while it was read"}, [&] {
           DenseVolume(changed, table).read({{0, 0, 0}, kShape}, got);
-          ADD_FAILURE() << other << " at " << place;
-        } catch (const Error& error) {
-          EXPECT_EQ(error.kind(), ErrorKind::kInput);
-          EXPECT_NE(std::string(error.what()).find("changed while it was read"), std::string::npos);
-        }
+        });
       }
     }
   }
@@ -113,6 +87,68 @@ TEST(LabelTable, CollectsFromAFortranOrderFile) {
       "f.npy", npy_file("<u4", true, "(70, 60, 50)", voxel_bytes(labels, VoxelType::kU32, false)));
   const std::set<RawLabel> expected(labels.begin(), labels.end());
   EXPECT_EQ(collect_labels(*open_volume(path)).size(), expected.size());
+}
+
+// Merging labels, and the order of the steps.
+
+const std::vector<RawLabel> kRaw{0, 5, RawLabel{1} << 50U, 6};
+constexpr RawLabel kMinusTwo = ~RawLabel{1};
+
+TEST(MergedVolume, ChangesEveryLabelAtOnce) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 500 && !testing::Test::HasFailure(); ++i) {
+    const auto small = audit::test::random_volume_of(
+        random, static_cast<audit::test::VolumeKind>(i % 8), {7, 6, 5}, 4);
+    const MemoryVolume volume = volume_of(small, VoxelType::kU64, kRaw);
+    std::map<RawLabel, RawLabel> becomes;
+    std::vector<MergeRule> rules;
+    for (const RawLabel label : kRaw) {
+      const auto& all = volume.labels();
+      if (below(random, 3) == 0 || std::find(all.begin(), all.end(), label) == all.end()) continue;
+      const RawLabel to = below(random, 2) == 0 ? kRaw[below(random, 4)] : 1000 + below(random, 2);
+      becomes[label] = to;
+      rules.push_back({{label}, to});
+    }
+    std::vector<RawLabel> wanted = volume.labels();
+    for (RawLabel& label : wanted) label = becomes.contains(label) ? becomes[label] : label;
+    const MergedVolume merged(volume, rules);
+    EXPECT_EQ(read_all(merged), wanted);
+    expect_box(merged, wanted, random);
+  }
+}
+
+TEST(MergedVolume, RefusesWhatCannotBe) {
+  const MemoryVolume plain({2, 2, 1}, VoxelType::kU8, {0, 5, 6, 5});
+  const MemoryVolume with_signs({2, 1, 1}, VoxelType::kI16, {kMinusTwo, 5});
+  const auto expect_refused = [](const MemoryVolume& volume, const std::vector<MergeRule>& rules,
+                                 const std::string& piece) {
+    expect_error(ErrorKind::kUsage, {"--merge", piece}, [&] { MergedVolume(volume, rules); });
+  };
+  expect_refused(plain, {{{5, 9}, 1}}, "no label 9");
+  expect_refused(with_signs, {{{kMinusTwo - 1}, 1}}, "no label -3");
+  expect_refused(plain, {{{5}, 1}, {{6, 5}, 2}}, "label 5 is to be merged twice");
+  expect_refused(with_signs, {{{kMinusTwo, kMinusTwo}, 1}}, "label -2 is to be merged twice");
+  expect_refused(plain, {{{5}, kMinusTwo, true}}, "-2: labels of the volume are not negative");
+  expect_refused(with_signs, {{{5}, kMinusTwo, false}}, "18446744073709551614: labels");
+  EXPECT_EQ(read_all(MergedVolume(with_signs, {{{5}, kMinusTwo, true}})),
+            (std::vector<RawLabel>{kMinusTwo, kMinusTwo}));
+  EXPECT_EQ(read_all(MergedVolume(plain, {{{5}, 6}, {{6}, 5}})),
+            (std::vector<RawLabel>{0, 6, 5, 6}));
+}
+
+/// Two labels of which neither is too small once they are one.
+TEST(PreparedInput, MergesBeforeItDropsSpecks) {
+  const MemoryVolume volume({6, 1, 1}, VoxelType::kU8, {1, 1, 1, 2, 3, 3});
+  const InputSteps steps{.merge = {{{2, 3}, 4}}, .specks = SpeckRule{3, false}};
+  const PreparedInput input(volume, steps);
+  EXPECT_EQ(read_all(input.volume()), (std::vector<RawLabel>{1, 1, 1, 4, 4, 4}));
+  ASSERT_TRUE(input.specks().has_value());
+  EXPECT_EQ(input.specks()->components, 0U);
+  const PreparedInput apart(volume, {.merge = {}, .specks = SpeckRule{3, false}});
+  EXPECT_EQ(read_all(apart.volume()), (std::vector<RawLabel>{1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(apart.specks()->rounds, 2);
+  EXPECT_EQ(&PreparedInput(volume, {}).volume(), &volume);
+  EXPECT_FALSE(PreparedInput(volume, {}).specks().has_value());
 }
 
 }  // namespace

@@ -3,14 +3,10 @@
 // A volume in memory, for tests of what wraps volumes.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <vector>
-
 #include "io/volume/label_volume.h"
 #include "kernels/core/index.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::io {
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every format that is read to every one that is written: the same content, by its digest, with
 // names and labels.
-#include <algorithm>
-
 #include "io/file/errors.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"

@@ -3,9 +3,8 @@
 // Small solid meshes of several labels: a grid of cubes, six tets each.
 #pragma once
 
-#include <random>
-
 #include "io/mesh/mesh_data.h"
+#include "tests/testing.h"
 
 namespace mw::io {
 

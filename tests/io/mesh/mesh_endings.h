@@ -3,10 +3,8 @@
 // Every format that meshes are written in, for tests that hold for all of them.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "io/mesh/open_mesh.h"
+#include "tests/testing.h"
 
 namespace mw::io {
 

@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Names of labels survive every mesh format; without names nothing changes; damage is told.
-#include <algorithm>
-#include <map>
-
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/sample_mesh.h"
@@ -226,24 +223,6 @@ TEST(MeshNames, VtkhdfNamesOfAnotherNumberAreRefused) {
   bytes[bytes.find(std::string("one\0sieben", 10)) + 3] = 'x';
   expect_error(ErrorKind::kInput, {path.string(), "2 numbers, 1 names"},
                [&] { static_cast<void>(read_mesh(dir.file("m.vtkhdf", bytes))); });
-}
-
-TEST(MeshNames, EveryTruncationIsRefused) {
-  const TempDir dir;
-  MeshData mesh = sample_mesh(2, false);
-  mesh.names = LabelNames({{1, "one", Colour{1, 2, 3, 4}}, {7, "sieben", {}}});
-  const std::map<std::string, std::size_t> tails{{"m.vtkhdf", 1}, {"m.vtu", 34}, {"m.mesh", 4}};
-  for (const auto& [file, tail] : tails) {
-    const auto path = dir.path() / file;
-    save(mesh, path);
-    // A .vtkhdf is read in a process of its own each time.
-    const std::size_t step = file == "m.vtkhdf" ? 29 : 1;
-    for (std::size_t size = std::filesystem::file_size(path) - tail + 1; size > 0;) {
-      size -= std::min(size, step);
-      std::filesystem::resize_file(path, size);
-      expect_error(ErrorKind::kInput, {path.string()}, [&] { static_cast<void>(read_mesh(path)); });
-    }
-  }
 }
 
 }  // namespace

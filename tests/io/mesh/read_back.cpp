@@ -3,17 +3,14 @@
 // Reads what the writers of solvers' formats wrote.
 #include "tests/io/mesh/read_back.h"
 
-#include <gtest/gtest.h>
 #include <hdf5.h>
 
-#include <algorithm>
 #include <iomanip>
-#include <map>
 #include <pugixml.hpp>
-#include <sstream>
 
 #include "io/mesh/grouped/label_numbers.h"
 #include "tests/temp_folder.h"
+#include "tests/testing.h"
 
 namespace mw::io {
 namespace {

@@ -6,9 +6,6 @@
 #include <sys/resource.h>
 
 #include <csignal>
-#include <memory>
-#include <numeric>
-#include <random>
 
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/sample_mesh.h"

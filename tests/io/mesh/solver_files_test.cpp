@@ -1,10 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Formats for solvers, and tets of ten nodes, hold the mesh that was written.
+// Formats for solvers and for views, of four nodes and of ten, hold the mesh that was written.
 #include <gmock/gmock.h>
-
-#include <map>
-#include <set>
 
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
@@ -92,8 +89,9 @@ TEST_P(SolverFiles, LeaveNothingWhenTheyAreNotFinished) {
   EXPECT_EQ(dir_.entries(), 0U);
 }
 
+/// All with both kinds of tets, but for Medit, which has four nodes.
 std::vector<Case> cases() {
-  std::vector<Case> out;
+  std::vector<Case> out{{".mesh", Element::kTet4, false}, {".mesh", Element::kTet4, true}};
   for (const char* extension : {".vtkhdf", ".vtu", ".xdmf", ".feb", ".inp"}) {
     for (const Element element : {Element::kTet4, Element::kTet10}) {
       for (const bool labels_signed : {false, true}) {

@@ -3,12 +3,8 @@
 // Names of all kinds for the tests of what carries them.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "io/names/label_names.h"
+#include "tests/testing.h"
 
 namespace mw::io {
 

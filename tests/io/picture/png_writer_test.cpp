@@ -5,8 +5,6 @@
 
 #include <png.h>
 
-#include <random>
-
 #include "tests/io/test_files.h"
 
 namespace mw::io {

@@ -3,8 +3,6 @@
 // Files of surfaces: the same bytes each time, whole or not there, in memory that does not grow.
 #include <gmock/gmock.h>
 
-#include <limits>
-
 #include "io/file/sink/atomic_file.h"
 #include "io/surface/open_surface.h"
 #include "tests/io/surface/collected_surface.h"

@@ -4,10 +4,6 @@
 // triangles, and manifolds if asked for.
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <map>
-#include <set>
-
 #include "tests/io/surface/collected_surface.h"
 
 namespace mw::io {

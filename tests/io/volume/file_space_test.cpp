@@ -3,10 +3,6 @@
 // Where volumes lie: affines of files against voxel centres worked out by hand.
 #include "io/volume/file_space.h"
 
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/sample_files.h"
 

@@ -4,9 +4,6 @@
 // error that names the file.
 #pragma once
 
-#include <functional>
-#include <random>
-
 #include "io/file/errors.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/test_files.h"

@@ -4,25 +4,15 @@
 // it.
 #include "kernels/audit/audit.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <random>
-
 #include "kernels/core/error.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/oracle/whole_audit.h"
+#include "tests/testing.h"
 
 namespace mw::audit {
 namespace {
 
-using test::audit;
-using test::five_tet_mesh;
-using test::random_volume;
-using test::SmallMesh;
-using test::SmallVolume;
-using test::volume_from;
+using namespace test;
 
 const Check& check(const AuditReport& report, const std::string& name) {
   const auto found = std::find_if(report.checks.begin(), report.checks.end(),

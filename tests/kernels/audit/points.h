@@ -3,8 +3,7 @@
 // Points in voxels, for tests that measure by themselves.
 #pragma once
 
-#include <array>
-#include <cmath>
+#include "tests/testing.h"
 
 namespace mw::audit::test {
 

@@ -3,15 +3,8 @@
 // Samples by triangle against std::map, and where samples lie.
 #include "kernels/distance/carried_samples.h"
 
-#include <gtest/gtest.h>
-
-#include <map>
-#include <random>
-#include <set>
-#include <utility>
-#include <vector>
-
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::test {
 namespace {

@@ -3,8 +3,6 @@
 // Samples after many changes: none lost, all near, on triangles that look their way.
 #include "kernels/distance/distance_guard.h"
 
-#include <gtest/gtest.h>
-
 #include "kernels/core/index.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/topology/link_condition.h"

@@ -3,10 +3,9 @@
 // Random positions for tests of distances.
 #pragma once
 
-#include <random>
-
 #include "kernels/core/metric.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::test {
 

@@ -3,8 +3,6 @@
 // New inner vertices change shapes inside labels and nothing else, and stay.
 #include "kernels/inner/inner_vertices.h"
 
-#include <gtest/gtest.h>
-
 #include "kernels/optimise/optimise.h"
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/simplify/simplify.h"

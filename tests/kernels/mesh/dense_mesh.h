@@ -3,17 +3,13 @@
 // Meshes for kernel tests: start meshes of small volumes, disturbed, and seen by the oracle.
 #pragma once
 
-#include <algorithm>
-#include <map>
-#include <optional>
-#include <set>
-
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/start/graded_start.h"
 #include "tests/kernels/start/cells/level_maps.h"
 #include "tests/oracle/cell_complex.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::test {
 

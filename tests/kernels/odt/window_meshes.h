@@ -3,8 +3,6 @@
 // Windows for tests of constrained ODT, other triangulations of them, and a judge by brute force.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "kernels/odt/window_plc.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/simplify/simplify.h"

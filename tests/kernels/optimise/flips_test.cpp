@@ -3,8 +3,6 @@
 // Flips: same region, same labels seen from outside, better shapes, and an end to them.
 #include "kernels/optimise/flips.h"
 
-#include <gtest/gtest.h>
-
 #include "kernels/optimise/optimise.h"
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/simplify/simplify.h"

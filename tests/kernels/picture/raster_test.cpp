@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rasteriser against brute force.
 #include "kernels/picture/raster.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
+#include "tests/testing.h"
 
 namespace mw::picture {
 namespace {

@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Eq (1) and (2): quadrics against explicit sums of squared distances.
 #include "kernels/quadric/quadric.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
-#include <vector>
+#include "tests/testing.h"
 
 namespace mw::test {
 namespace {

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radius ratio and Eq (3) against other formulas for the same, and known tets.
 #include "kernels/quality/quality.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
+#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/star_batch.h"
+#include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::test {
 namespace {
@@ -151,6 +150,162 @@ TEST(Sec54Quality, InvertedAndFlatTetsReachNoRatio) {
   }
   const TetEdges flat{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)};
   EXPECT_FALSE(reaches_ratio(flat, 0.0));
+}
+
+// Stars at once against tet by tet, and derivatives against differences.
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// A vertex of a disturbed mesh, and a position for it that may invert tets.
+struct Trial {
+  const TetMesh& mesh;
+  Metric metric;
+  LocalVertex vertex = 0;
+  Vec3 offset;
+
+  /// The tet over a link triangle, seen from the position.
+  [[nodiscard]] TetEdges edges(const LinkTriangle& t) const {
+    const Point v = mesh.position(vertex);
+    const auto corner = [&](LocalVertex w) -> Vec3 {
+      return metric.vector(v, mesh.position(w)) - offset;
+    };
+    return {corner(t.a), corner(t.b), corner(t.c)};
+  }
+};
+
+template <typename Visit>
+void each_trial(unsigned seed, Visit visit) {
+  std::mt19937 random(seed);
+  for (int i = 0; i < 40 && !::testing::Test::HasFailure(); ++i) {
+    TetMesh mesh = dense_mesh(random_volume(random));
+    disturb(mesh, random);
+    const Metric metric = i % 2 == 0 ? Metric() : Metric({1.0, 2.0, 4.5});
+    for (int k = 0; k < 60; ++k) {
+      const LocalVertex v = below(random, mesh.vertex_count());
+      const double reach = k % 3 == 0 ? 0.0 : 0.1 * k / 6.0;
+      Vec3 offset;
+      for (double& x : offset) x = reach * (static_cast<double>(below(random, 2001)) / 1000 - 1);
+      visit(Trial{mesh, metric, v, offset}, random);
+    }
+  }
+}
+
+double energy(double ratio) {
+  return ratio > 0.0 ? 1.0 / ratio : kInfinite;
+}
+
+TEST(StarBatch, SumsEnergiesOfAllTets) {
+  int inverted = 0, sound = 0;
+  each_trial(611, [&](const Trial& trial, std::mt19937&) {
+    StarBatch star;
+    star.collect(trial.mesh, trial.metric, trial.vertex);
+    double sum = 0.0, worst = 1.0;
+    for (const LinkTriangle& t : trial.mesh.star(trial.vertex)) {
+      if (t.label == kExterior) continue;
+      const double ratio = std::max(radius_ratio(trial.edges(t)), 0.0);
+      sum += energy(ratio);
+      worst = std::min(worst, ratio);
+    }
+    const StarShape shape = star.shape_at(trial.offset);
+    EXPECT_NEAR(shape.worst, worst, 1e-12);
+    if (worst == 0.0) {
+      ++inverted;
+      EXPECT_EQ(shape.energy, kInfinite);
+      EXPECT_EQ(star.energy_at(trial.offset, 0.01, kInfinite), kInfinite);
+      return;
+    }
+    ++sound;
+    EXPECT_NEAR(shape.energy, sum, 1e-9 * sum);
+    EXPECT_NEAR(star.energy_at(trial.offset, 0.9 * worst, kInfinite), sum, 1e-9 * sum);
+    EXPECT_EQ(star.energy_at(trial.offset, 1.1 * worst, kInfinite), kInfinite);
+    for (const double share : {0.01, 0.5, 0.99, 1.01}) {
+      const double enough = share * sum, told = star.energy_at(trial.offset, 0.9 * worst, enough);
+      EXPECT_EQ(told > enough, share < 1.0);
+      EXPECT_LE(told, sum * (1.0 + 1e-9));
+    }
+  });
+  EXPECT_GT(inverted, 100);
+  EXPECT_GT(sound, 500);
+}
+
+/// Each call to one that was just collected, because a star is gathered no further than needed.
+TEST(StarBatch, JudgesLikeEachTetByItself) {
+  std::map<StarVerdict, int> seen;
+  each_trial(612, [&](const Trial& trial, std::mt19937& random) {
+    const auto entries = trial.mesh.star(trial.vertex);
+    const LocalVertex without =
+        entries[below(random, static_cast<std::uint32_t>(entries.size()))].b;
+    const double floor = 0.1 + 0.1 * below(random, 5);
+    bool good = true, positive = true, near_floor = false;
+    for (const LinkTriangle& t : entries) {
+      if (t.label == kExterior || t.has(without)) continue;
+      const double ratio = radius_ratio(trial.edges(t));
+      good = good && ratio >= floor;
+      positive = positive && ratio > 0.0;
+      near_floor = near_floor || std::abs(ratio - floor) < 1e-9 || std::abs(ratio) < 1e-9;
+    }
+    if (near_floor) return;
+    StarBatch fresh, gathered;
+    fresh.collect(trial.mesh, trial.metric, trial.vertex);
+    gathered.collect(trial.mesh, trial.metric, trial.vertex);
+    (void)gathered.shape_at(Vec3::Zero());
+    const StarVerdict verdict = fresh.judge_at(trial.offset, without, floor);
+    EXPECT_EQ(verdict == StarVerdict::kGood, good);
+    EXPECT_FALSE(positive && verdict == StarVerdict::kInverted);
+    EXPECT_EQ(gathered.judge_at(trial.offset, without, floor), verdict);
+    EXPECT_EQ(fresh.judge_at(trial.offset, without, floor), verdict);
+    // Whatever it was asked before, and however much of it is gathered.
+    (void)fresh.judge_at(Vec3::Zero(), without, 0.01 * below(random, 100));
+    (void)fresh.judge_at(-trial.offset, without, floor);
+    EXPECT_EQ(fresh.judge_at(trial.offset, without, floor) == StarVerdict::kGood, good);
+    ++seen[verdict];
+  });
+  EXPECT_GT(seen[StarVerdict::kGood], 100);
+  EXPECT_GT(seen[StarVerdict::kInverted], 50);
+  EXPECT_GT(seen[StarVerdict::kLowQuality], 100);
+}
+
+/// The sum of s^3 / v^2, and none when a tet is nearly flat or inverted.
+std::optional<double> term_sum(const Trial& trial, const Vec3& step) {
+  Trial at = trial;
+  at.offset += step;
+  double sum = 0.0;
+  for (const LinkTriangle& t : trial.mesh.star(trial.vertex)) {
+    if (t.label == kExterior) continue;
+    const TetEdges e = at.edges(t);
+    const double s = e.a.squaredNorm() + e.b.squaredNorm() + e.c.squaredNorm() +
+                     (e.b - e.a).squaredNorm() + (e.c - e.b).squaredNorm() +
+                     (e.a - e.c).squaredNorm();
+    const double v = e.a.dot(e.b.cross(e.c));
+    if (v * v < 3e-5 * s * s * s || v <= 0.0) return std::nullopt;
+    sum += s * s * s / (v * v);
+  }
+  return sum;
+}
+
+TEST(StarBatch, DerivesTheNewtonEnergy) {
+  int compared = 0;
+  each_trial(613, [&](const Trial& trial, std::mt19937&) {
+    constexpr double kStep = 1e-4;
+    const auto value = term_sum(trial, Vec3::Zero());
+    if (!value) return;
+    StarBatch star;
+    star.collect(trial.mesh, trial.metric, trial.vertex);
+    const StarTerms terms = star.terms_at(trial.offset);
+    EXPECT_NEAR(terms.value, *value, 1e-9 * *value);
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 step = kStep * Vec3::Unit(i);
+      const auto low = term_sum(trial, -step), high = term_sum(trial, step);
+      if (!low || !high) return;
+      EXPECT_NEAR(terms.gradient[i], (*high - *low) / (2 * kStep),
+                  1e-4 * (*value + terms.gradient.norm()));
+      const double second = (*high - 2 * *value + *low) / (kStep * kStep);
+      EXPECT_NEAR(terms.hessian(i, i), second, 1e-2 * second);
+    }
+    EXPECT_TRUE(terms.hessian.isApprox(terms.hessian.transpose()));
+    ++compared;
+  });
+  EXPECT_GT(compared, 100);
 }
 
 }  // namespace

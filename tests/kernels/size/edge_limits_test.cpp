@@ -3,10 +3,6 @@
 // EdgeLimits against all edges of all tets, one by one.
 #include "kernels/size/edge_limits.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::test {

@@ -3,21 +3,14 @@
 // Limits on edges against their definition, cube by cube.
 #include "kernels/size/size_field.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <set>
-
 #include "kernels/core/index.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::test {
 namespace {
 
-using audit::test::below;
-using audit::test::SmallVolume;
-using audit::test::volume_from;
+using namespace audit::test;
 
 /// A volume with few voxels of labels above 0, and limits on some of them.
 struct Case {

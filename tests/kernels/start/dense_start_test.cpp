@@ -3,8 +3,6 @@
 // Sec 5.1: the five-tet start mesh, alone and between neighbouring blocks.
 #include "kernels/start/graded_start.h"
 
-#include <gtest/gtest.h>
-
 #include "kernels/quality/quality.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 

@@ -3,8 +3,6 @@
 // The graded start mesh: conforming, exact, of the voxels' topology, the same from every block.
 #include "kernels/start/graded_start.h"
 
-#include <gtest/gtest.h>
-
 #include "kernels/distance/point_triangle.h"
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/start/carrier_faces.h"

@@ -1,16 +1,20 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Curvature of balls and of planes, and where there is none to be told.
-#include "kernels/surface/surface_star.h"
-
-#include <gtest/gtest.h>
+#include <numbers>
 
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
+#include "kernels/surface/bend.h"
+#include "kernels/surface/surface_star.h"
+#include "kernels/surface/volume_debts.h"
 #include "tests/kernels/surface/interface_triangles.h"
+#include "tests/oracle/small_volumes.h"
 
 namespace mw::test {
 namespace {
+
+using audit::test::below;
 
 /// A ball of radius 6 around the middle of 16^3 voxels.
 SmallVolume ball(Label inside) {
@@ -115,6 +119,80 @@ TEST(CurvatureField, IsUnknownAtJunctionsOnTheBoxAndAtFixedVertices) {
   }
   EXPECT_GT(known, 100);
   EXPECT_GT(unknown, 1000);
+}
+
+// What bends cost.
+
+double energy_of_degrees(double degrees) {
+  return bend_energy(std::cos(degrees * std::numbers::pi / 180.0));
+}
+
+TEST(Bend, CostsNothingWhenItIsFlatOrFree) {
+  EXPECT_EQ(energy_of_degrees(0.0), 0.0);
+  EXPECT_EQ(energy_of_degrees(14.0), 0.0);
+  EXPECT_GT(energy_of_degrees(14.2), 0.0);
+  EXPECT_NEAR(bend_energy(1.0 - kFreeBend), 0.0, 1e-30);
+}
+
+TEST(Bend, CostsMoreTheSharperItIs) {
+  for (int degrees = 15; degrees < 180; ++degrees) {
+    EXPECT_LT(energy_of_degrees(degrees), energy_of_degrees(degrees + 1)) << degrees;
+  }
+  EXPECT_NEAR(energy_of_degrees(180.0), 4.0, 0.2);
+}
+
+/// No step and no kink where it begins to cost.
+TEST(Bend, StartsGently) {
+  EXPECT_LT(bend_energy(1.0 - kFreeBend - 1e-4), 2e-8);
+}
+
+/// From products of normals of any length, about the bound of what is free too.
+TEST(Bend, NeedsNoUnitNormals) {
+  for (const double squares : {1e-12, 1.0, 7e9}) {
+    for (int i = 0; i <= 20000; ++i) {
+      const double cosine = -1.0 + 1e-4 * i;
+      EXPECT_NEAR(bend_energy(cosine * std::sqrt(squares), squares), bend_energy(cosine), 1e-13);
+    }
+  }
+  EXPECT_EQ(bend_energy(0.0, 0.0), 0.0);
+}
+
+TEST(Bend, CosineIsThatOfDirections) {
+  const Vec3 m(0.0, 0.0, 3.0), n(0.0, 5.0, 5.0);
+  EXPECT_NEAR(cosine_between(m, n), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(cosine_between(m, -2.0 * m), -1.0, 1e-15);
+  EXPECT_EQ(cosine_between(m, Vec3::Zero()), 1.0);
+  EXPECT_NEAR(std::acos(kSharpCosine) * 180.0 / std::numbers::pi, 60.0, 1e-9);
+}
+
+// Debts of vertices against a map.
+
+/// A visit replaces all that the vertex owed, pairs that are gone included.
+TEST(VolumeDebts, AreThoseOfTheLastVisit) {
+  std::mt19937 random(1111);
+  VolumeDebts debts;
+  std::map<std::tuple<LocalVertex, Label, Label>, double> expected;
+  for (int i = 0; i < 300; ++i) {
+    const LocalVertex visited = below(random, 5);
+    std::vector<VolumeDebt> owed;
+    for (Label low = 0; low < 3; ++low) {
+      for (Label high = low + 1; high < 4; ++high) {
+        expected.erase({visited, low, high});
+        if (below(random, 2) == 0) continue;
+        owed.push_back({low, high, 1.0 + i});
+        expected[{visited, low, high}] = 1.0 + i;
+      }
+    }
+    debts.set(visited, owed);
+    for (LocalVertex v = 0; v < 6; ++v) {
+      for (Label low = 0; low < 3; ++low) {
+        for (Label high = low + 1; high < 4; ++high) {
+          const auto found = expected.find({v, low, high});
+          ASSERT_EQ(debts.of(v, low, high), found == expected.end() ? 0.0 : found->second);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

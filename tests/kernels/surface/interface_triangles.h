@@ -3,11 +3,6 @@
 // Interfaces by maps of all tets, and meshes with samples, for tests of surfaces and distances.
 #pragma once
 
-#include <array>
-#include <map>
-#include <set>
-#include <vector>
-
 #include <Eigen/Geometry>
 
 #include "kernels/distance/distance_guard.h"

@@ -3,8 +3,6 @@
 // The energy of interfaces: derivatives by differences, and where it is least.
 #include "kernels/surface/surface_energy.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Eigenvalues>
 
 #include "kernels/simplify/simplify.h"

@@ -3,10 +3,6 @@
 // Interface triangles at a vertex and their edges, against maps of the whole mesh.
 #include "kernels/surface/surface_star.h"
 
-#include <gtest/gtest.h>
-
-#include <tuple>
-
 #include "kernels/simplify/simplify.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/kernels/surface/interface_triangles.h"

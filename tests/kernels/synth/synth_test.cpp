@@ -3,12 +3,8 @@
 // A synthetic volume is the same whatever slabs it is made in, and has the labels asked for.
 #include "kernels/synth/synth.h"
 
-#include <gtest/gtest.h>
-
-#include <set>
-#include <vector>
-
 #include "kernels/core/error.h"
+#include "tests/testing.h"
 
 namespace mw {
 namespace {

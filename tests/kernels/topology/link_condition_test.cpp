@@ -3,10 +3,6 @@
 // Promise 1 at its root: no contraction that the collapse test accepts changes a Betti number.
 #include "kernels/topology/link_condition.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "kernels/simplify/simplify.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 

@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Temporary files: what was written is read, no name is left, and errors name the folder.
-#include "io/file/scratch/scratch_file.h"
-
 #include <fcntl.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <optional>
-#include <random>
 
+#include "io/file/scratch/external_sort.h"
+#include "io/file/scratch/scratch_file.h"
 #include "tests/io/test_files.h"
 
 namespace mw::io {
@@ -76,22 +72,11 @@ TEST(ScratchFile, ReadsBackWhatWasAppended) {
   EXPECT_EQ(dir.entries(), 0U);
 }
 
-template <typename Action>
-void expect_error(ErrorKind kind, const std::string& folder, Action action) {
-  try {
-    action();
-    ADD_FAILURE() << "no error";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), kind);
-    EXPECT_NE(std::string(e.what()).find(folder), std::string::npos) << e.what();
-  }
-}
-
 TEST(UnlinkedFile, NamesTheFolderThatIsNotThere) {
   const TempDir dir;
   const std::filesystem::path missing = dir.path() / "missing";
-  expect_error(ErrorKind::kUsage, missing.string(), [&] { const UnlinkedFile file(missing); });
-  expect_error(ErrorKind::kUsage, missing.string(), [&] { const ScratchFile file(missing); });
+  expect_error(ErrorKind::kUsage, {missing.string()}, [&] { const UnlinkedFile file(missing); });
+  expect_error(ErrorKind::kUsage, {missing.string()}, [&] { const ScratchFile file(missing); });
 }
 
 TEST(UnlinkedFile, SaysSoWhenThereIsLessThanWasAskedFor) {
@@ -99,7 +84,7 @@ TEST(UnlinkedFile, SaysSoWhenThereIsLessThanWasAskedFor) {
   const UnlinkedFile file(dir.path());
   std::vector<std::byte> bytes(10);
   file.write_at(0, bytes);
-  expect_error(ErrorKind::kResource, dir.path().string(), [&] { file.read_at(5, bytes); });
+  expect_error(ErrorKind::kResource, {dir.path().string()}, [&] { file.read_at(5, bytes); });
 }
 
 /// Puts TMPDIR back when it goes.
@@ -130,6 +115,47 @@ TEST(ScratchFolder, IsWhatTmpdirNames) {
   EXPECT_EQ(scratch_folder(), "/tmp");
   ::unsetenv("TMPDIR");
   EXPECT_EQ(scratch_folder(), "/tmp");
+}
+
+// Sorting with little memory gives what sorting with much does.
+
+TEST(ExternalSort, IsStdSortForEveryBudget) {
+  const TempDir dir;
+  std::mt19937_64 random(341);
+  for (const std::size_t count : {0U, 1U, 2U, 3U, 100U, 4096U, 20000U}) {
+    std::vector<std::array<std::uint64_t, 2>> records;
+    for (std::size_t i = 0; i < count; ++i) records.push_back({random() % (count + 1), random()});
+    for (const std::size_t memory : {0U, 100U, 3000U, 65536U, 1U << 24}) {
+      ExternalSort<2> sort(dir.path(), memory);
+      for (const auto& record : records) sort.add(record);
+      std::vector<std::array<std::uint64_t, 2>> sorted;
+      sort.each([&](const auto& record) { sorted.push_back(record); });
+      auto expected = records;
+      std::sort(expected.begin(), expected.end());
+      EXPECT_TRUE(sorted == expected) << count << " records, " << memory << " bytes";
+    }
+  }
+}
+
+TEST(ScratchFile, GivesBackWhatWasAppendedAndLeavesNoName) {
+  const TempDir dir;
+  ScratchFile file(dir.path());
+  std::string all;
+  for (std::size_t i = 0; i < 300; ++i) {
+    const std::string piece(i * 17 % 5000 + (i == 200 ? 1U << 20 : 0U),
+                            static_cast<char>('a' + i % 26));
+    file.append(piece);
+    all += piece;
+    std::string last(std::min<std::size_t>(all.size(), 9000), '\0');
+    file.read_at(all.size() - last.size(), std::as_writable_bytes(std::span(last)));
+    EXPECT_TRUE(all.ends_with(last));
+  }
+  EXPECT_EQ(file.size(), all.size());
+  std::string whole(all.size(), '\0');
+  file.read_at(0, std::as_writable_bytes(std::span(whole)));
+  EXPECT_TRUE(whole == all);
+  EXPECT_EQ(dir.entries(), 0U);
+  expect_error(ErrorKind::kUsage, {"nowhere"}, [&] { ScratchFile gone(dir.path() / "nowhere"); });
 }
 
 }  // namespace

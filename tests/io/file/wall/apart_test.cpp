@@ -5,7 +5,6 @@
 
 #include <signal.h>
 
-#include <array>
 #include <new>
 #include <stdexcept>
 

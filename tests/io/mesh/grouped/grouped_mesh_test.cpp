@@ -3,12 +3,7 @@
 // Groups of a mesh against sets and maps.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <map>
-#include <random>
-#include <set>
 
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/grouped_sink.h"

@@ -3,8 +3,6 @@
 // Segments of multi-resolution meshes, decoded by Draco.
 #include <draco/compression/decode.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/file/byte_order.h"

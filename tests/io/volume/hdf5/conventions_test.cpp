@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Which data set of an HDF5 file is read, its axes, and where it lies.
-#include <limits>
-
 #include "io/volume/hdf5/description.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/hdf5/hdf5_files.h"

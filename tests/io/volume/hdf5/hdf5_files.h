@@ -3,9 +3,6 @@
 // Small HDF5 files of all kinds, written by the HDF5 library.
 #pragma once
 
-#include <functional>
-#include <optional>
-
 #include "io/hdf5/hdf5_file.h"
 #include "tests/io/test_files.h"
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // MetaImage files, hand-made by the field table of MetaIO's documentation.
-#include <cmath>
-
 #include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {

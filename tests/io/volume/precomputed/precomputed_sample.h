@@ -3,10 +3,6 @@
 // A writer of precomputed volumes, after the format's description and by no code of the reader.
 #pragma once
 
-#include <map>
-#include <optional>
-#include <set>
-
 #include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {

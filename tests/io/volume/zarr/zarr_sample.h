@@ -4,7 +4,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "io/codec/checksums.h"
 #include "tests/io/codec/packers.h"

@@ -1,13 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // What distances are made of: points and triangles, nearest items, pieces.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "kernels/audit/distance/mesh.h"
 #include "kernels/audit/distance/trees.h"
 #include "tests/kernels/audit/points.h"
@@ -16,10 +9,7 @@
 namespace mw::audit {
 namespace {
 
-using test::along;
-using test::below;
-using test::distance;
-using test::Point;
+using namespace test;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 

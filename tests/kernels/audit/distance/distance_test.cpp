@@ -3,14 +3,6 @@
 // P4: both directions against every sample times every face and triangle, and known answers.
 #include "kernels/audit/distance/distance.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <random>
-
 #include "kernels/audit/audit.h"
 #include "kernels/audit/distance/input.h"
 #include "kernels/audit/distance/mesh.h"
@@ -22,19 +14,7 @@
 namespace mw::audit {
 namespace {
 
-using test::along;
-using test::audit;
-using test::below;
-using test::distance;
-using test::five_tet_mesh;
-using test::kVolumeKinds;
-using test::Point;
-using test::random_volume;
-using test::random_volume_of;
-using test::SmallMesh;
-using test::SmallVolume;
-using test::volume_from;
-using test::VolumeKind;
+using namespace test;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 

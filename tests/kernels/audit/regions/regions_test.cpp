@@ -3,13 +3,10 @@
 // Betti numbers from a label's own tets against those that see the whole box.
 #include "kernels/audit/regions/regions.h"
 
-#include <gtest/gtest.h>
-
-#include <map>
-
 #include "tests/kernels/audit/topology/mesh_parts_by_owner.h"
 #include "tests/kernels/audit/topology/random_labels.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::audit {
 
@@ -17,11 +14,7 @@ void PrintTo(const RegionBetti& betti, std::ostream* out);  // in betti_test.cpp
 
 namespace {
 
-using test::below;
-using test::five_tet_mesh;
-using test::random_volume;
-using test::SmallMesh;
-using test::SmallVolume;
+using namespace test;
 
 std::vector<RegionBetti> without_exterior(std::vector<RegionBetti> rows) {
   rows.pop_back();

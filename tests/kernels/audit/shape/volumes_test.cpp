@@ -3,28 +3,17 @@
 // Promise 8: volumes of labels, exact on the lattice, and the check that judges them.
 #include "kernels/audit/shape/volumes.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "kernels/audit/audit.h"
 #include "kernels/core/index.h"
 #include "kernels/core/lattice.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/oracle/whole_audit.h"
+#include "tests/testing.h"
 
 namespace mw::audit {
 namespace {
 
-using test::audit;
-using test::below;
-using test::five_tet_mesh;
-using test::random_volume;
-using test::SmallMesh;
-using test::SmallVolume;
-using test::volume_from;
+using namespace test;
 
 /// Spacings and origins that are no binary fractions.
 const Frame kFrame{{0.3, 0.7, 1.1}, {1e3, -7.7, 0.1}};

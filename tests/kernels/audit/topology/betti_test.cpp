@@ -3,12 +3,11 @@
 // P1: Betti numbers of volumes and meshes against ranks of boundary matrices.
 #include "kernels/audit/topology/betti.h"
 
-#include <gtest/gtest.h>
-
 #include "kernels/core/error.h"
 #include "tests/kernels/audit/topology/random_labels.h"
 #include "tests/oracle/cell_complex.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
 
 namespace mw::audit {
 
@@ -22,14 +21,7 @@ void PrintTo(const RegionBetti& betti, std::ostream* out) {
 
 namespace {
 
-using test::below;
-using test::betti_of;
-using test::complex_of;
-using test::five_tet_mesh;
-using test::random_volume;
-using test::SmallMesh;
-using test::SmallVolume;
-using test::volume_from;
+using namespace test;
 
 constexpr RegionBetti kBall{{1, 0, 0}, {1, 0, 0}};
 constexpr RegionBetti kNothing{{0, 0, 0}, {0, 0, 0}};

@@ -1,24 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Audits of meshes from which labels were left out: sound ones pass, broken ones do not.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "kernels/audit/audit.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/oracle/whole_audit.h"
+#include "tests/testing.h"
 
 namespace mw::audit {
 namespace {
 
-using test::audit;
-using test::below;
-using test::five_tet_mesh;
-using test::random_volume;
-using test::SmallMesh;
-using test::SmallVolume;
-using test::volume_from;
+using namespace test;
 
 using Names = std::vector<std::string>;
 

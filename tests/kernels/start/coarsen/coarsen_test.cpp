@@ -3,11 +3,6 @@
 // Label coarsening: what it keeps, what it guards, and that it does something.
 #include "kernels/start/coarsen/coarsen.h"
 
-#include <gtest/gtest.h>
-
-#include <map>
-#include <tuple>
-
 #include "kernels/audit/topology/betti.h"
 #include "kernels/start/carrier_faces.h"
 #include "tests/kernels/start/coarsen/coarse_volume.h"

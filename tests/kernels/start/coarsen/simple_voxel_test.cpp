@@ -3,12 +3,7 @@
 // Flips that the test allows, made in whole small volumes: no Betti number changes.
 #include "kernels/start/coarsen/simple_voxel.h"
 
-#include <gtest/gtest.h>
-#include <array>
 #include <bit>
-#include <map>
-#include <optional>
-#include <set>
 
 #include "tests/kernels/mesh/dense_mesh.h"
 #include "tests/oracle/cell_complex.h"

@@ -1,19 +1,57 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Meshes in pieces come back as one; indices and pieces that are damaged or of others do not.
-#include "io/mesh/pieces/pvtu.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
+// Meshes in pieces: which tets a piece has, what comes back, and where pieces are not written.
 #include "io/mesh/open_mesh.h"
-#include "kernels/core/error.h"
+#include "io/mesh/pieces/pvtu.h"
+#include "tests/expect_error.h"
 #include "tests/io/mesh/grid_mesh.h"
 #include "tests/temp_folder.h"
 
 namespace mw::io {
 namespace {
+
+/// Each tet once, pieces of one size give or take a tet, and the same again.
+TEST(MeshParts, ShareOutAllTetsEvenly) {
+  std::mt19937 random(411);
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    const auto edge = [&] { return std::uint64_t{1 + random() % 6}; };
+    const MeshData mesh = grid_mesh({edge(), edge(), edge()}, 412 + static_cast<unsigned>(i));
+    const std::uint64_t tets = mesh.tets.size();
+    const std::uint64_t pieces = 1 + random() % std::min<std::uint64_t>(tets, 40);
+    const auto parts = mesh_parts(mesh, pieces);
+    ASSERT_EQ(parts.size(), pieces);
+    std::set<std::uint64_t> all;
+    for (const auto& part : parts) {
+      EXPECT_TRUE(part.size() == tets / pieces || part.size() == (tets + pieces - 1) / pieces);
+      EXPECT_TRUE(std::is_sorted(part.begin(), part.end()));
+      all.insert(part.begin(), part.end());
+    }
+    EXPECT_EQ(all.size(), tets);
+    EXPECT_EQ(*all.rbegin(), tets - 1);
+    EXPECT_EQ(mesh_parts(mesh, pieces), parts);
+  }
+  const MeshData cube = grid_mesh({1, 1, 1}, 413);
+  EXPECT_EQ(mesh_parts(cube, cube.tets.size()).size(), cube.tets.size());
+}
+
+/// Eight pieces of a cube are its octants.
+TEST(MeshParts, AreCompact) {
+  const MeshData mesh = grid_mesh({8, 8, 8}, 414);
+  for (const auto& part : mesh_parts(mesh, 8)) {
+    Position lo = mesh.vertices[mesh.tets[part.front()][0]], hi = lo;
+    for (const std::uint64_t t : part) {
+      for (const std::uint64_t v : mesh.tets[t]) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          lo[k] = std::min(lo[k], mesh.vertices[v][k]);
+          hi[k] = std::max(hi[k], mesh.vertices[v][k]);
+        }
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(hi[k] - lo[k], 4);
+  }
+}
+
+// Meshes in pieces come back as one; indices and pieces that are damaged or of others do not.
 
 namespace fs = std::filesystem;
 
@@ -45,13 +83,7 @@ class PvtuReaderTest : public testing::Test {
     put(file, text.replace(at, from.size(), to));
   }
   void expect_refused(const fs::path& path, const std::string& what) {
-    try {
-      static_cast<void>(read_mesh(path));
-      ADD_FAILURE() << "read in spite of " << what;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kInput);
-      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
-    }
+    expect_error(ErrorKind::kInput, {what}, [&] { static_cast<void>(read_mesh(path)); });
   }
   test::TempFolder folder_;
 };
@@ -60,8 +92,10 @@ TEST_F(PvtuReaderTest, PiecesComeBackAsTheMesh) {
   for (const std::uint64_t pieces : {1U, 2U, 3U, 16U}) {
     MeshData mesh = grid_mesh({4, 3, 2}, 431);
     mesh.labels_signed = pieces == 3;
+    if (pieces == 3) mesh.labels.back() = static_cast<RawLabel>(-7);
     mesh.names = LabelNames({{mesh.labels.front(), "first", {}}});
-    const fs::path path = write(mesh, pieces);
+    const fs::path path = folder_.path() / ("a & b " + std::to_string(pieces) + ".pvtu");
+    write_mesh(mesh, *open_mesh_pieces(path, pieces));
     EXPECT_TRUE(is_mesh_path(path));
     const MeshData back = read_mesh(path);
     EXPECT_EQ(back.vertices, mesh.vertices);
@@ -121,6 +155,32 @@ TEST_F(PvtuReaderTest, TruncatedIndicesEndInErrors) {
 
 TEST_F(PvtuReaderTest, IsNotWrittenWithoutAskingForPieces) {
   EXPECT_THROW(static_cast<void>(open_mesh_sink(folder_.path() / "m.pvtu")), Error);
+}
+
+class PvtuSinkTest : public testing::Test {
+ protected:
+  void write(const MeshData& mesh, const char* name, std::uint64_t pieces) {
+    write_mesh(mesh, *open_mesh_pieces(folder_.path() / name, pieces));
+  }
+  test::TempFolder folder_;
+};
+
+TEST_F(PvtuSinkTest, LeavesNothingWhereItCannotBe) {
+  const MeshData mesh = grid_mesh({1, 1, 1}, 422);
+  EXPECT_THROW(write(mesh, "m.pvtu", mesh.tets.size() + 1), Error);
+  EXPECT_THROW(write(mesh, "m.vtu", 2), Error);
+  EXPECT_THROW(write(mesh, "m.pvtu", 0), Error);
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
+}
+
+/// What is in the folder may be of another mesh.
+TEST_F(PvtuSinkTest, TakesNoFolderOfOthers) {
+  const MeshData mesh = grid_mesh({2, 1, 1}, 423);
+  fs::create_directory(folder_.path() / "m");
+  std::ofstream(folder_.path() / "m" / "note") << "kept";
+  EXPECT_THROW(write(mesh, "m.pvtu", 2), Error);
+  EXPECT_FALSE(fs::exists(folder_.path() / "m.pvtu"));
+  EXPECT_TRUE(fs::exists(folder_.path() / "m" / "note"));
 }
 
 }  // namespace
