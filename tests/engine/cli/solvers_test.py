@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 """Meshes for solvers, and tets of ten nodes, read by meshio, VTK and Python's XML."""
+import collections
 import csv
 import json
 import pathlib
@@ -16,6 +17,7 @@ try:
     import meshio
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOExodus import vtkExodusIIReader
     from vtkmodules.vtkIOHDF import vtkHDFReader
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 except ImportError as missing:
@@ -149,6 +151,76 @@ class Solvers(unittest.TestCase):
             for one, other, row in zip(tets[:, a], tets[:, b], tets[:, 4 + i]):
                 self.assertEqual(by_edge.setdefault(frozenset((one, other)), row), row)
         self.assertEqual(len(set(by_edge.values())), len(by_edge))
+
+    def test_exodus_in_meshio_and_vtk(self):
+        for options in ((), ("--element", "tet10")):
+            run("convert", "named.mesh", "m.exo", *options)
+            mesh = meshio.read("m.exo")
+            kind = "tetra10" if options else "tetra"
+            self.assertEqual({block.type for block in mesh.cells}, {kind})
+            ids = numbers("m.exo.labels.csv")
+            labels = [ids[n] for n in sorted(ids)]
+            tets = [(block.data, label) for block, label in zip(mesh.cells, labels)]
+            rows = []
+            for data, label in tets:
+                self.assertGreater(volumes(mesh.points, data).min(), 0)
+                rows += canonical(mesh.points, data, [label] * len(data))
+            wanted = meshio.read("m.vtu")
+            self.assertEqual(
+                sorted(rows),
+                canonical(wanted.points, wanted.cells[0].data, wanted.cell_data["label"][0]))
+            self.check_side_sets("m.exo")
+
+    def check_side_sets(self, path):
+        """VTK makes the triangles of sides itself; those of FACE_a_b and FACE_b_a are the same."""
+        reader = vtkExodusIIReader()
+        reader.SetFileName(path)
+        reader.UpdateInformation()
+        names = [reader.GetSideSetArrayName(i) for i in range(reader.GetNumberOfSideSetArrays())]
+        for name in names:
+            reader.SetSideSetArrayStatus(name, 1)
+        reader.Update()
+        sets = reader.GetOutput().GetBlock(4)
+        found = {}
+        for i, name in enumerate(names):
+            block = sets.GetBlock(i)
+            points = vtk_to_numpy(block.GetPoints().GetData())
+            cells = []
+            for c in range(block.GetNumberOfCells()):
+                ids = block.GetCell(c).GetPointIds()
+                cells.append([ids.GetId(k) for k in range(3)])
+            corners = points[numpy.array(cells)]
+            normal = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            faces = sorted(tuple(sorted(map(tuple, face.tolist()))) for face in corners)
+            found[name] = faces, normal.sum(axis=0) / 2
+        pairs = [name for name in found if name.startswith("FACE_")]
+        self.assertGreaterEqual(len(pairs), 4)
+        for first, second in zip(pairs[::2], pairs[1::2]):
+            self.assertEqual(found[first][0], found[second][0])
+            numpy.testing.assert_allclose(found[first][1], -found[second][1], atol=1e-9)
+        low, high = found["X_MIN"][1], found["X_MAX"][1]
+        self.assertLess(low[0], 0)
+        numpy.testing.assert_allclose(low, -high, atol=1e-9)
+
+    def test_gmsh_2_in_meshio(self):
+        run("convert", "named.mesh", "m.msh2", "--element", "tet10")
+        mesh = meshio.read("m.msh2", file_format="gmsh")
+        self.assertEqual({block.type for block in mesh.cells}, {"triangle6", "tetra10"})
+        self.assertEqual(run("digest", "m.msh2"), self.digest)
+
+    def test_nastran_in_meshio(self):
+        run("convert", "named.mesh", "m.bdf", "--element", "tet10")
+        mesh = meshio.read("m.bdf")
+        wanted = meshio.read("m.vtu")
+        (block,) = mesh.cells
+        self.assertEqual(block.type, "tetra10")
+        self.assertEqual(len(block.data), len(wanted.cells[0].data))
+        middles = (mesh.points[block.data[:, [0, 1, 2, 0, 1, 2]]]
+                   + mesh.points[block.data[:, [1, 2, 0, 3, 3, 3]]]) / 2
+        numpy.testing.assert_allclose(mesh.points[block.data[:, 4:]], middles, atol=1e-7)
+        ids = numbers("m.bdf.labels.csv")
+        sizes = collections.Counter(ids[n] for n in mesh.cell_data["nastran:ref"][0])
+        self.assertEqual(sizes, collections.Counter(wanted.cell_data["label"][0].tolist()))
 
     def test_ten_nodes_in_vtk(self):
         for name, reader in (

@@ -138,8 +138,8 @@ TEST_F(UsageTest, ReplacesNothingButItsOwnMeshes) {
   EXPECT_EQ(read("v.vtu"), "Dear Sir,");
   expect_done("mesh v.npy -o v.vtu --force");
   write("empty.vtu", "");
-  for (const char* name :
-       {"empty.vtu", "v.vtu", "v.vtkhdf", "v.mesh", "v.msh", "v.inp", "v.xdmf", "v.feb"}) {
+  for (const char* name : {"empty.vtu", "v.vtu", "v.vtkhdf", "v.mesh", "v.msh", "v.msh2", "v.inp",
+                           "v.xdmf", "v.feb", "v.exo", "v.bdf"}) {
     expect_done(std::string("mesh v.npy -o ") + name);
     expect_done(std::string("mesh v.npy -o ") + name);
   }

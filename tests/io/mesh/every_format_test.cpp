@@ -80,13 +80,13 @@ TEST(EveryFormat, OfTenNodesIsTheSameMesh) {
 /// Solvers' formats are written only, which is said with those that are read.
 TEST(EveryFormat, SolversAreNotRead) {
   const TempDir dir;
-  for (const std::string ending : {".inp", ".feb", ".xdmf"}) {
+  for (const std::string ending : {".inp", ".feb", ".xdmf", ".exo", ".bdf"}) {
     const auto path = dir.path() / ("a" + ending);
     write_mesh(solid(false), *open_mesh_sink(path));
     EXPECT_TRUE(is_mesh_path(path));
     expect_error(ErrorKind::kUsage,
                  {path.string(), ending + " is written here, but not read",
-                  ".vtkhdf, .vtu, .mesh, .msh, .pvtu"},
+                  ".vtkhdf, .vtu, .mesh, .msh, .msh2, .pvtu"},
                  [&] { static_cast<void>(read_mesh(path)); });
   }
   expect_error(ErrorKind::kUsage, {"a.node", "no mesh format"},

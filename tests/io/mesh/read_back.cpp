@@ -4,6 +4,7 @@
 #include "tests/io/mesh/read_back.h"
 
 #include <hdf5.h>
+#include <netcdf.h>
 
 #include <iomanip>
 #include <pugixml.hpp>
@@ -177,6 +178,115 @@ MeshData read_xdmf(const std::filesystem::path& path) {
   return mesh;
 }
 
+/// An Exodus II file, by the netCDF library.
+class ExodusFile {
+ public:
+  explicit ExodusFile(const std::filesystem::path& path) {
+    EXPECT_EQ(nc_open(path.c_str(), NC_NOWRITE, &file_), NC_NOERR);
+  }
+  ExodusFile(const ExodusFile&) = delete;
+  ExodusFile& operator=(const ExodusFile&) = delete;
+  ~ExodusFile() { nc_close(file_); }
+
+  /// 0 where there is no such dimension.
+  [[nodiscard]] std::size_t length(const std::string& dimension) const {
+    int id = 0;
+    std::size_t out = 0;
+    if (nc_inq_dimid(file_, dimension.c_str(), &id) == NC_NOERR) nc_inq_dimlen(file_, id, &out);
+    return out;
+  }
+  [[nodiscard]] std::vector<int> integers(const std::string& name, std::size_t count) const {
+    std::vector<int> out(count);
+    if (count > 0) EXPECT_EQ(nc_get_var_int(file_, id_of(name), out.data()), NC_NOERR) << name;
+    return out;
+  }
+  [[nodiscard]] std::vector<double> reals(const std::string& name, std::size_t count) const {
+    std::vector<double> out(count);
+    if (count > 0) EXPECT_EQ(nc_get_var_double(file_, id_of(name), out.data()), NC_NOERR) << name;
+    return out;
+  }
+
+ private:
+  [[nodiscard]] int id_of(const std::string& name) const {
+    int id = -1;
+    EXPECT_EQ(nc_inq_varid(file_, name.c_str(), &id), NC_NOERR) << name;
+    return id;
+  }
+
+  int file_ = -1;
+};
+
+MeshData read_exo(const std::filesystem::path& path) {
+  const ExodusFile file(path);
+  const LabelMap table = read_label_table(path).value();
+  MeshData mesh;
+  mesh.vertices.resize(file.length("num_nodes"));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto values = file.reals(std::string("coord") + "xyz"[k], mesh.vertices.size());
+    for (std::size_t row = 0; row < values.size(); ++row) mesh.vertices[row][k] = values[row];
+  }
+  const std::size_t blocks = file.length("num_el_blk");
+  const std::vector<int> ids = file.integers("eb_prop1", blocks);
+  std::vector<Nodes> tets;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::string number = std::to_string(b + 1);
+    const std::size_t width = file.length("num_nod_per_el" + number);
+    const std::size_t count = file.length("num_el_in_blk" + number);
+    const std::vector<int> nodes = file.integers("connect" + number, count * width);
+    for (std::size_t t = 0; t < count; ++t) {
+      Nodes tet;
+      for (std::size_t i = 0; i < width; ++i) {
+        tet.push_back(static_cast<std::uint64_t>(nodes[t * width + i]) - 1);
+      }
+      add_tet(mesh, tet, table.labels.at(ids[b]));
+      tets.push_back(std::move(tet));
+    }
+  }
+  EXPECT_EQ(mesh.tets.size(), file.length("num_elem"));
+  drop_middles(mesh, tets);
+  mesh.labels_signed = table.labels_signed;
+  mesh.names = table.names;
+  return mesh;
+}
+
+/// Fields of 8 columns, or 16 in the lines of a card that has an asterisk.
+std::string field_of(const std::string& line, std::size_t first, std::size_t columns) {
+  return line.substr(first, columns);
+}
+
+MeshData read_bdf(const std::filesystem::path& path) {
+  std::istringstream lines(test::content_of(path));
+  const LabelMap table = read_label_table(path).value();
+  MeshData mesh;
+  std::vector<Nodes> tets;
+  std::vector<std::int64_t> parts;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("GRID*")) {
+      std::string more;
+      std::getline(lines, more);
+      EXPECT_EQ(std::stoull(field_of(line, 8, 16)), mesh.vertices.size() + 1);
+      mesh.vertices.push_back({std::stod(field_of(line, 40, 16)), std::stod(field_of(line, 56, 16)),
+                               std::stod(field_of(more, 8, 16))});
+    } else if (line.starts_with("CTETRA")) {
+      parts.push_back(std::stoll(field_of(line, 16, 8)));
+      tets.emplace_back();
+      for (std::size_t at = 24; at + 8 <= line.size(); at += 8) {
+        tets.back().push_back(std::stoull(field_of(line, at, 8)) - 1);
+      }
+    } else if (line.starts_with("        ")) {
+      for (std::size_t at = 8; at + 8 <= line.size(); at += 8) {
+        tets.back().push_back(std::stoull(field_of(line, at, 8)) - 1);
+      }
+    }
+  }
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    add_tet(mesh, tets[t], table.labels.at(parts[t]));
+  }
+  mesh.labels_signed = table.labels_signed;
+  mesh.names = table.names;
+  return mesh;
+}
+
 }  // namespace
 
 template <class T>
@@ -206,6 +316,8 @@ template std::vector<std::int64_t> hdf5_numbers(const std::filesystem::path&, co
 MeshData read_back(const std::filesystem::path& path) {
   if (path.extension() == ".inp") return read_inp(path);
   if (path.extension() == ".feb") return read_feb(path);
+  if (path.extension() == ".exo") return read_exo(path);
+  if (path.extension() == ".bdf") return read_bdf(path);
   if (path.extension() == ".xdmf") return read_xdmf(path);
   return read_mesh(path);
 }

@@ -92,7 +92,7 @@ TEST_P(SolverFiles, LeaveNothingWhenTheyAreNotFinished) {
 /// All with both kinds of tets, but for Medit, which has four nodes.
 std::vector<Case> cases() {
   std::vector<Case> out{{".mesh", Element::kTet4, false}, {".mesh", Element::kTet4, true}};
-  for (const char* extension : {".vtkhdf", ".vtu", ".xdmf", ".feb", ".inp"}) {
+  for (const char* extension : {".vtkhdf", ".vtu", ".xdmf", ".feb", ".inp", ".exo", ".msh2"}) {
     for (const Element element : {Element::kTet4, Element::kTet10}) {
       for (const bool labels_signed : {false, true}) {
         out.push_back({extension, element, labels_signed});
@@ -112,6 +112,38 @@ TEST(SolverFilesTetTen, HaveNoPlaceInMedit) {
 
 TEST(InpWriter, OutOfRoomIsAResourceErrorAndLeavesNothing) {
   expect_full_disk("m.inp", Encoding::kUsual);
+}
+
+TEST(ExodusWriter, OutOfRoomIsAResourceErrorAndLeavesNothing) {
+  expect_full_disk("m.exo", Encoding::kUsual);
+}
+
+/// Rounds to ten digits.
+double ten_digits(double value) {
+  std::array<char, 32> out{};
+  std::snprintf(out.data(), out.size(), "%.9e", value);
+  return std::stod(out.data());
+}
+
+/// Nastran's real fields have ten digits, so that all else is as it was.
+TEST(BdfWriter, HoldsTheMeshToTenDigits) {
+  const TempDir dir;
+  for (const Element element : {Element::kTet4, Element::kTet10}) {
+    MeshData mesh = random_mesh(3, false);
+    save(mesh, dir.path() / "m.bdf", element);
+    MeshData back = read_back(dir.path() / "m.bdf");
+    back.vertices.resize(mesh.vertices.size());  // middles of edges come behind
+    for (Position& p : mesh.vertices) {
+      for (double& x : p) x = ten_digits(x);
+    }
+    EXPECT_EQ(mesh_digest(back), mesh_digest(mesh));
+    std::istringstream lines(content_of(dir.path() / "m.bdf"));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 72U) << line;
+  }
+}
+
+TEST(BdfWriter, OutOfRoomIsAResourceErrorAndLeavesNothing) {
+  expect_full_disk("m.bdf", Encoding::kUsual);
 }
 
 /// Lines of Abaqus hold 256 characters and 16 items.
