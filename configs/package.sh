@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-# Builds the Debian packages into build/packages; tests/packages.sh tries them.  Needs what
-# configs/setup.sh installs, dpkg-dev and file.
+# Builds the Debian packages and a wheel into build/packages; tests/packages.sh and tests/wheel.sh try
+# them.  Needs what configs/setup.sh installs, and the tools below.
 #   mwmesh  libmwmesh0.1  libmwmesh-dev  python3-mwmesh  mwmesh-codt (AGPL: linked with TetGen)
 #   mwmesh-mpi, where MPI is found
+# The wheel has its libraries inside (bundle_wheel.py).
 # DEBFULLNAME and DEBEMAIL say who made them.
 set -euo pipefail
 
@@ -13,9 +14,9 @@ tree="$root/build/packaging"
 out="$root/build/packages"
 cd "$root"
 
-for tool in dpkg-shlibdeps file; do
+for tool in dpkg-shlibdeps file patchelf pip3; do
   command -v "$tool" >/dev/null || {
-    echo "package: needs $tool: apt-get install dpkg-dev file" >&2
+    echo "package: needs $tool: apt-get install dpkg-dev file patchelf python3-pip python3-wheel" >&2
     exit 2
   }
 done
@@ -34,4 +35,9 @@ rm -rf "$out"
   exit 1
 }
 rm -rf "$out/_CPack_Packages"
+plain="$root/build/wheel/plain"
+rm -rf "$plain"
+/usr/bin/python3 -m pip wheel --quiet --no-build-isolation --no-deps --wheel-dir "$plain" \
+  "$root/engine/python"
+/usr/bin/python3 "$root/configs/bundle_wheel.py" "$plain"/mwmesh-*.whl "$out" >/dev/null
 ls "$out"
