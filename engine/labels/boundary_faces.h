@@ -29,7 +29,7 @@ class BoundaryFaces {
   /// Adds those of the bricks from number `first` on, which were counted elsewhere.
   void add(std::size_t first, std::span<const std::uint16_t> counts);
 
-  /// As if those of each brick were spread evenly over it.
+  /// Returns the number of faces in a box, as if those of each brick were spread evenly over it.
   [[nodiscard]] double in(const Box3& box) const;
 
  private:

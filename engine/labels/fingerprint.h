@@ -21,7 +21,7 @@ class FingerprintVolume : public io::VolumeView {
   /// That of a box alone, which is read for it and not added.
   [[nodiscard]] std::uint64_t of(const Box3& box) const;
 
-  /// Of what was read; add() takes that of what others have read.
+  /// The sum over what was read here; add() takes the sum over what others have read.
   [[nodiscard]] std::uint64_t sum() const { return sum_; }
   void add(std::uint64_t sum) { sum_ += sum; }
 

@@ -27,8 +27,8 @@ struct LabelCounts {
   std::vector<std::uint64_t> voxels;  ///< by dense label
 };
 
-/// Counts one part of the volume's reading tiles, on so many threads, which change nothing; of all
-/// parts together it is what PreparedLabels counts of the whole.
+/// Counts one part of the volume's reading tiles; the number of threads does not change the result.
+/// The sum over all parts is what PreparedLabels counts in the whole volume.
 /// Memory: 4 MiB a thread, 2 bytes a brick of the volume and 8 a label.
 [[nodiscard]] LabelCounts counts_of_part(const io::DenseVolume& volume, int threads,
                                          const SequencePart& part);

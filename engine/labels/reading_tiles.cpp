@@ -12,7 +12,7 @@ namespace mw::engine {
 namespace {
 
 constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
-/// Of volumes without chunks: long rows, 2 MiB of labels.
+/// The tile of volumes without chunks: long rows, 2 MiB of labels.
 constexpr Index3 kPlainTile{1024, kBrick, kBrick};
 
 std::int64_t whole_bricks(std::int64_t voxels) {

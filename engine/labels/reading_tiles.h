@@ -14,7 +14,7 @@
 
 namespace mw::engine {
 
-/// One of `count` parts that a sequence is cut into, as large as the others but for one thing.
+/// One of `count` parts that a sequence is cut into; their sizes differ by at most one.
 struct SequencePart {
   int index = 0;
   int count = 1;

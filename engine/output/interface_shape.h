@@ -36,7 +36,7 @@ class InterfaceShape {
   /// REQUIRES: each block once, in a fixed order, whole: what is not written is left out here.
   void add(const BlockMesh& block);
 
-  /// Of the blocks so far.
+  /// Returns the shape of the interfaces of the blocks so far.
   [[nodiscard]] audit::ShapeReport report() const { return meter_.report(); }
   /// Bytes remembered now, and at most so far.
   [[nodiscard]] std::uint64_t remembered() const {

@@ -50,7 +50,7 @@ void for_each_volume(const FinishedRun& run,
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, io::Json settings,
                        const AppendText& append);
 
-/// The same into a file, which gets its name.
+/// Writes that report into a file, which then gets its name.
 void write_run_report(io::AtomicFile& file, const FinishedRun& run,
                       const std::filesystem::path& mesh, io::Json settings);
 

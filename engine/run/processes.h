@@ -48,11 +48,11 @@ class RunPart {
  public:
   virtual ~RunPart() = default;
 
-  /// Null: there is no work folder.
+  /// Null when there is no work folder.
   [[nodiscard]] virtual WorkFiles* work_files() = 0;
-  /// Of temporary files; empty: there is none.
+  /// Returns the folder of temporary files; empty when there is none.
   [[nodiscard]] virtual std::filesystem::path work_folder() const = 0;
-  /// Null: all blocks stay here.
+  /// Null when all blocks stay here.
   [[nodiscard]] virtual BlockRouter* router() = 0;
   /// Blocks come into the store from now on, until the result is destroyed.
   [[nodiscard]] virtual std::shared_ptr<void> attach(RunStore& store) = 0;

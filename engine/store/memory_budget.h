@@ -21,7 +21,7 @@ enum class Purpose {
   kOutput,   ///< what the writing of the mesh needs
 };
 inline constexpr std::size_t kPurposes = 6;
-/// Of the purposes, in their order: how reports call them.
+/// The names of the purposes in reports, in the order of Purpose.
 inline constexpr std::array<const char*, kPurposes> kPurposeNames{"program", "labels",  "index",
                                                                   "blocks",  "windows", "output"};
 

@@ -20,8 +20,8 @@ namespace mw::engine {
 
 /// When finished windows become durable: a group at a time.  The result does not depend on it.
 struct GroupCommit {
-  std::uint64_t windows = 1 << 12;        ///< at most so many in a group, whose record is in memory
-  std::chrono::milliseconds age{10'000};  ///< at most so long after the group before
+  std::uint64_t windows = 1 << 12;        ///< most windows of a group; its record is in memory
+  std::chrono::milliseconds age{10'000};  ///< the longest time after the group before
 };
 
 /// Where blocks go whose next user is not here.
@@ -76,7 +76,7 @@ class RunStore {
   /// The same.  ERRORS: mw::Error(kResource) with the least that works.
   [[nodiscard]] MemoryBudget::Reservation reserve(Purpose purpose, std::uint64_t bytes);
 
-  /// What a block of so many encoded bytes takes of the budget.
+  /// Returns what a block of this encoded size takes of the budget.
   [[nodiscard]] static std::uint64_t cost_of(std::uint64_t encoded_bytes);
   /// Takes in a version that was left elsewhere: `bytes` as its pin had them.
   /// room: what was reserved for it, cost_of(bytes) of blocks, or nothing.

@@ -12,13 +12,13 @@
 
 namespace mw::engine {
 
-/// What a message is about, for whoever made it; its bytes follow.  The first number is its kind:
-/// those from 1 to kMaxKind are told to TakeRoom.
+/// Four numbers in front of a message's bytes.  The first is its kind: TakeRoom is told of kinds
+/// from 1 to kMaxKind.  What the others mean is the sender's choice.
 using MessageHead = std::array<std::uint64_t, 4>;
 
 inline constexpr std::uint64_t kMaxKind = 255;
 
-/// Shared with whoever waits until they are sent.
+/// Bytes that are shared with the thread that waits until they are sent.
 using SharedBytes = std::shared_ptr<const std::vector<std::byte>>;
 
 /// A message that came in.

@@ -19,7 +19,7 @@
 
 namespace mw::engine {
 
-/// Sorts messages: parcels go to whoever listens, the rest is its own.
+/// Sorts messages: parcels go to the listener, the others are for the team itself.
 /// Thread safety: send(), signal(), fail() and failure() from any thread; the others from one.
 class Team {
  public:

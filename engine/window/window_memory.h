@@ -47,7 +47,7 @@ struct WindowNeeds {
 
 /// What PreparedLabels holds of a volume of this shape; sized: with limits on edges.
 [[nodiscard]] std::uint64_t prepared_label_bytes(Index3 shape, bool sized = false);
-/// The same of a share.
+/// What PreparedLabels holds when it prepares only these bricks of the volume.
 [[nodiscard]] std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape,
                                                  bool sized = false);
 /// What it takes beside that while it is made.

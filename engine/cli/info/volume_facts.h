@@ -32,9 +32,9 @@ class VolumeFacts {
   io::Json facts_;
 };
 
-/// The same as text on stdout: a line each, for the first 1,000 labels.
+/// Prints them as text on stdout, with one line for each of the first 1,000 labels.
 void print_volume(const VolumeFacts& volume);
-/// All of it as JSON on stdout, the rows as labels.per_label.  Memory: of one row at a time.
+/// Prints all as JSON on stdout, rows as labels.per_label.  Memory: that of one row at a time.
 void print_volume_json(const VolumeFacts& volume);
 
 }  // namespace mw::cli

@@ -25,10 +25,10 @@ void take_part(MeshRequest& request);
 
 /// What one process of a run writes the mesh into, together with the others.
 struct SharedOutput {
-  /// Of the process that speaks: made, unless it writes alone; of the others: for the case that
-  /// the first wants it.
+  /// Null on the process that speaks when it writes alone.  The others have it in any case, since
+  /// they learn only later whether the first shares it.
   std::unique_ptr<io::SharedMesh> mesh;
-  /// Of the process that speaks, where it writes alone: what for.
+  /// Says on the process that speaks why it writes alone; empty where it does not.
   std::string why_alone;
 };
 

@@ -25,7 +25,7 @@ struct VolumeRequest {
   std::optional<Box3> crop;
   bool trust_paths = false;
   io::InputSteps steps;  ///< what is done with the labels that were opened
-  /// Of unpacked chunks that a chunked volume may keep.
+  /// How many bytes of unpacked chunks a chunked volume may keep.
   std::uint64_t cache_bytes = io::OpenOptions{}.cache_bytes;
   std::filesystem::path names;  ///< of labels; empty: only those in the volume's file
 };

@@ -19,7 +19,7 @@ class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
     return std::shared_ptr<IncomingRooms>(new IncomingRooms(store));
   }
 
-  /// A ticket for a block of so many encoded bytes; null where there is no room, or after close().
+  /// Returns a ticket for a block of this size; null where there is no room, or after close().
   [[nodiscard]] std::shared_ptr<void> take(std::uint64_t encoded_bytes);
   /// What the ticket stands for; it stays counted until it is gone.  Nothing without a ticket, or
   /// after close().

@@ -18,8 +18,8 @@ namespace mw::engine {
 /// finish() by all ranks: each writes the rows of its own lines, rank 0 gives the file its name.
 /// blocks: own ones.  REQUIRES: join_output().
 /// ENSURES: the bytes are those of finish() by one process.  Every rank gets the counts; rank 0
-/// what it asks to be measured, the same as finish(), but for the shape of interfaces, which needs
-/// the whole mesh to pass by one process: FinishedMesh::shape stays empty.
+/// all that it asks to be measured, as finish() does, except the shape of interfaces: that needs
+/// the whole mesh to pass by one process, so FinishedMesh::shape stays empty.
 /// Each reads its blocks three times: who references what, which rows are new, and to write.
 /// Memory: as finish() of own blocks; 16 bytes a line of all blocks; PartRows and the claims that
 /// it takes, which grow with the faces between this rank's lines and others'; 24 bytes a label

@@ -35,7 +35,7 @@ class TeamWork {
   [[nodiscard]] std::vector<std::filesystem::path> folders_before() const;
   [[nodiscard]] std::uint64_t epochs_before() const { return before_ ? before_->epochs : 0; }
 
-  /// By rank 0: so many epochs of this generation count from now on.
+  /// Makes the first `epochs` epochs of this generation count.  To be called by rank 0 only.
   void count(std::uint64_t epochs);
   /// Whether there is anything to go on from.
   [[nodiscard]] bool has_saved_work() const { return before_.has_value() || counted_ > 0; }
