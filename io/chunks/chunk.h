@@ -48,7 +48,7 @@ class ChunkSource {
   /// Unpacks a chunk.  box: its voxels that are in the volume.  place: kFile for what is too large
   /// to be held; what cannot be streamed comes in memory nevertheless.
   /// ENSURES: empty when the store has none, so that its voxels are the fill value; otherwise every
-  /// voxel of box is within bytes (whoever asks checks that again).
+  /// voxel of box is within bytes (the caller checks that again).
   /// ERRORS: mw::Error(kInput) naming the chunk when it is damaged; memory stays bounded by the
   /// size that the chunk must have, whatever its bytes claim.
   [[nodiscard]] virtual std::optional<Chunk> load(Index3 chunk, const Box3& box,

@@ -24,7 +24,7 @@ struct PackedName {
 /// Throws mw::Error(kInput): "FILE: CODEC: REASON; get a whole copy of the store".
 [[noreturn]] void fail_packed(const PackedName& name, std::string_view reason);
 
-/// The same for bytes that unpack to more than they may.
+/// Throws the error for bytes that unpack to more than `max`.
 [[noreturn]] void fail_too_much(const PackedName& name, std::size_t max);
 
 /// Throws mw::Error(kResource): the library could not get the memory that it works with.

@@ -72,17 +72,17 @@ class Json {
 
   [[nodiscard]] bool boolean() const { return std::get<bool>(value_); }
   [[nodiscard]] const std::string& text() const { return std::get<std::string>(value_); }
-  /// Of an integer; of a negative one in two's complement.
+  /// Returns the value of an integer; a negative one in two's complement.
   [[nodiscard]] std::uint64_t integer() const;
-  /// Of any number.
+  /// Returns the value of any number.
   [[nodiscard]] double number() const;
   [[nodiscard]] const Array& elements() const { return std::get<Array>(value_); }
   [[nodiscard]] const Object& items() const { return std::get<Object>(value_); }
   [[nodiscard]] Object& items() { return std::get<Object>(value_); }
   [[nodiscard]] bool contains(std::string_view key) const { return find(key) != nullptr; }
-  /// Of an object; nullptr: it has none.
+  /// Returns the value of an object's key; nullptr if the object does not have it.
   [[nodiscard]] const Json* find(std::string_view key) const;
-  /// ERRORS: std::out_of_range when there is none.
+  /// Returns the value of an object's key.  ERRORS: std::out_of_range if it does not have it.
   [[nodiscard]] const Json& operator[](std::string_view key) const;
   [[nodiscard]] friend bool operator==(const Json& json, std::string_view text) {
     return json.is_string() && json.text() == text;

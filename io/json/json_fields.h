@@ -41,10 +41,10 @@ class JsonFields {
   [[nodiscard]] std::array<double, 3> numbers3(std::string_view key) const;
 
   [[nodiscard]] JsonFields object(std::string_view key) const;
-  /// Of an array of objects: how many, and one.  REQUIRES: index < count(key).
+  /// Return the length of an array of objects, and one of them.  REQUIRES: index < count(key).
   [[nodiscard]] std::size_t count(std::string_view key) const;
   [[nodiscard]] JsonFields element(std::string_view key, std::size_t index) const;
-  /// The first of an array of arrays of three numbers.
+  /// Returns the first element of an array of arrays of three numbers.
   [[nodiscard]] std::array<std::int64_t, 3> first_integers3(std::string_view key) const;
 
   /// Throws mw::Error(kInput) about the field.

@@ -17,8 +17,8 @@ namespace mw::io {
 
 using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive orientation
 
-/// What is known before the first row.  The number of vertices is not: whoever merges blocks learns
-/// it with the last of them.
+/// What is known before the first row.  The number of vertices is not: a writer that merges blocks
+/// learns it with the last of them.
 struct MeshHeader {
   std::uint64_t tets = 0;
   bool labels_signed = false;  ///< labels are two's complement int64 and are written as such

@@ -33,8 +33,8 @@ enum class Encoding : std::uint8_t {
 /// place when missing, truncated, corrupt or not of tetrahedra.
 [[nodiscard]] MeshData read_mesh(const std::filesystem::path& path);
 
-/// The same into a sink, begin to finish; .vtkhdf in bounded memory, the others by way of
-/// MeshData.
+/// Reads a mesh into a sink, from begin() to finish(); .vtkhdf in bounded memory, the others by way
+/// of MeshData.
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
 /// ERRORS: mw::Error(kUsage) for an unknown extension, an element or encoding that the format does

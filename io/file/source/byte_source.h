@@ -21,7 +21,7 @@ namespace mw::io {
   return a + std::min(b, ~a);
 }
 
-/// The same for the product.
+/// The product of two numbers of a file, or the largest number when it is larger.
 [[nodiscard]] inline std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
   return b != 0 && a > kMax / b ? kMax : a * b;

@@ -30,7 +30,7 @@ struct DeflatedBytes {
   std::string field = "gzip data";  ///< what errors call them
 };
 
-/// Whether so many packed bytes can hold so many: deflate cannot pack tighter than 1 to 1032.
+/// True if `packed` bytes of deflate can unpack to `bytes`: it cannot pack tighter than 1 to 1032.
 [[nodiscard]] bool can_inflate_to(std::uint64_t packed, std::uint64_t bytes);
 
 /// ERRORS of all: mw::Error(kInput) naming file and place when truncated or corrupt.

@@ -33,10 +33,10 @@ class MshInput {
   [[nodiscard]] std::uint64_t count(std::string_view expected);
   /// Finite.
   [[nodiscard]] double real(std::string_view expected);
-  /// Reals that do not matter, finite or not.
+  /// Skips reals that do not matter, finite or not.
   void skip_reals(std::int64_t how_many);
-  /// Such a number that each row of so many bytes at least (in binary; of so many numbers in text)
-  /// could still come: a damaged one cannot ask for all memory.
+  /// Fails unless the rest of the file can hold these rows, of at least `bytes` each in binary, or
+  /// `numbers` in text: so a damaged count cannot ask for all memory.
   void check_rows(std::uint64_t rows, std::uint64_t bytes, std::uint64_t numbers) const;
 
   [[noreturn]] void fail(std::string_view reason) const;

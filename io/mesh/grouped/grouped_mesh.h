@@ -72,7 +72,7 @@ class NodeRows {
 /// ERRORS (of all that look something up): see ScratchFile.  Thread safety: none.
 class GroupedMesh {
  public:
-  /// As the mesh came with it.
+  /// Returns the header that the mesh came with.
   [[nodiscard]] const MeshHeader& header() const { return header_; }
   /// The labels that occur, ascending; label groups and facet groups hold their ranks.
   [[nodiscard]] const LabelTable& table() const { return table_; }

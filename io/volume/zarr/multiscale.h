@@ -18,10 +18,10 @@
 namespace mw::io {
 
 struct AxisMap {
-  /// Of x, y and z; empty for the z of an array of two axes, which is one slice.
+  /// The axes of x, y and z; empty for the z of an array of two axes, which is one slice.
   std::array<std::optional<std::size_t>, 3> axes;
 
-  /// What a vector with an entry an axis has along x, y and z; `missing` for the z of a slice.
+  /// Returns the entries for x, y and z of a vector by axis; `missing` for the z of a slice.
   [[nodiscard]] Index3 pick(const std::vector<std::int64_t>& of_axes, std::int64_t missing) const;
   /// The other way round: 0 along all other axes.
   [[nodiscard]] std::vector<std::int64_t> spread(Index3 index, std::size_t axes) const;
