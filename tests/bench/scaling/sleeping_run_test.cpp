@@ -12,7 +12,7 @@ namespace {
 
 using engine::Order;
 
-/// What leaves a rank, but for the output.
+/// Returns for each rank how many blocks leave it before the output.
 std::vector<std::uint64_t> foreseen(const RunFlow& flow, const engine::Partition& dealt,
                                     int ranks) {
   std::vector<std::uint64_t> out(static_cast<std::size_t>(ranks));

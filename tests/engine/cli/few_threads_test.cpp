@@ -6,7 +6,7 @@
 namespace mw::cli {
 namespace {
 
-/// The program on a system that gives so many threads beside the first.
+/// Starts the program on a system that gives `allowed` threads beside the first.
 std::string with_threads(int allowed) {
   // An address sanitizer wants to be loaded first, and is after a preloaded library.
   return "ASAN_OPTIONS=verify_asan_link_order=0 ALLOWED_THREADS=" + std::to_string(allowed) +

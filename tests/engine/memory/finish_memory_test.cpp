@@ -57,9 +57,9 @@ class MarchedStore : public FinalBlocks {
   RunStore store_;
 };
 
-/// Histogram, lines of homes, lists of blocks of a few vertices.
+/// What the histogram, lines of homes and lists of blocks of a few vertices take.
 constexpr std::uint64_t kFixedBytes = 128 << 10;
-/// Of a vertex in VertexRows, while a list is merged.
+/// What a vertex takes in VertexRows while a list is merged.
 constexpr std::uint64_t kBytesPerRemembered = 32;
 
 void expect_held(const Trial& trial, bool measured) {

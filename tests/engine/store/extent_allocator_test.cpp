@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t kSector = ExtentAllocator::kSectorBytes;
 constexpr std::uint64_t kSectors = 256;
 
-/// The same by a list of sectors.
+/// The reference: which sectors are taken, by a list of all of them.
 class Sectors {
  public:
   /// False when one of them is not as it was.

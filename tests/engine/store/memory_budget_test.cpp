@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The budget: sums by purpose, peaks, refusals, and never over the limit whoever asks at once.
+// The budget: sums by purpose, peaks, refusals; many threads at once do not exceed the limit.
 #include "engine/store/memory_budget.h"
 
 #include <gtest/gtest.h>

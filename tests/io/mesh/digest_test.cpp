@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-/// As the header of digest.h reads, with containers of everything.
+/// Computes the digest as the header of digest.h describes it, with containers of everything.
 std::string digest_in_memory(const MeshData& mesh) {
   Hasher hasher;
   hasher.add(std::string_view("mwmesh-digest-1"));
