@@ -39,7 +39,7 @@ struct RunReport : VisitStats {
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
   double output_seconds = 0.0;
   std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
-  std::optional<audit::ShapeReport> shape;      ///< the same, but of a mesh written together
+  std::optional<audit::ShapeReport> shape;      ///< as quality; empty if written together
   std::vector<std::uint64_t> label_voxels;      ///< the same, by dense label; 0: not written
   std::vector<Int128> label_volumes6;           ///< see FinishedMesh
   std::vector<double> longest_edges;            ///< the same, with sizes

@@ -73,7 +73,7 @@ class RunStore {
   /// Spills blocks until the reservation fits; nothing when it does not fit then.
   [[nodiscard]] std::optional<MemoryBudget::Reservation> try_reserve(Purpose purpose,
                                                                      std::uint64_t bytes);
-  /// The same.  ERRORS: mw::Error(kResource) with the least that works.
+  /// Reserves as try_reserve() does.  ERRORS: mw::Error(kResource) with the least that works.
   [[nodiscard]] MemoryBudget::Reservation reserve(Purpose purpose, std::uint64_t bytes);
 
   /// Returns what a block of this encoded size takes of the budget.
@@ -95,8 +95,8 @@ class RunStore {
   /// names it.  REQUIRES: nothing was committed.
   void note_done(const WindowKey& key, bool is_own);
 
-  /// Makes durable what is finished.  ENSURES: nothing happens without a work folder, or after an
-  /// error in an earlier group.
+  /// Makes durable what is finished.  Does nothing without a work folder, or after an error in an
+  /// earlier group.
   void save();
   /// Whether there is anything to go on from after this run.
   [[nodiscard]] bool has_saved_work() const;

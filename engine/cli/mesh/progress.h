@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What a run tells while it goes on: log lines and how far it is, on stderr, and its trace.
+// What a run prints while it goes on: log lines and progress on stderr, and its trace in a file.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace mw::cli {
 
 enum class ProgressKind { kNone, kBar, kJsonLines };
 
-/// "auto" (a bar when stderr is a terminal), "none", "jsonl".
+/// Parses "auto" (a bar when stderr is a terminal), "none" or "jsonl".
 [[nodiscard]] ProgressKind parse_progress(const std::string& text);
 
 /// Shows the first and the last window and at most a few lines a second between and afterwards.
@@ -34,7 +34,7 @@ class Progress {
   std::uint64_t done_ = 0;  ///< windows that were shown
 };
 
-/// Log lines go to stderr from this level on: debug, info, warn, error, off.
+/// Sends log lines of this level and above to stderr: debug, info, warn, error, off.
 void start_log(const std::string& level);
 
 /// Comma-separated values: a line of names, then a line for each visit in order of completion.
@@ -46,10 +46,10 @@ void start_log(const std::string& level);
 /// bench/scaling reads it.
 class TraceFile {
  public:
-  /// ERRORS: as io::AtomicFile.
+  /// ERRORS: those of io::AtomicFile.
   explicit TraceFile(const std::filesystem::path& path);
   void add(const engine::TraceEvent& event);
-  /// The file appears under its name.
+  /// Gives the file its name.
   void finish() { file_.commit(); }
 
  private:
