@@ -15,7 +15,7 @@ namespace mw::engine {
 
 /// Whole numbers of bricks that are counted once each, so parts add up to the whole.
 struct LabelCounts {
-  /// None yet.
+  /// Begins with no counts.
   LabelCounts(Index3 shape, std::size_t labels) : faces(shape), voxels(labels) {}
 
   /// Counts a brick of a tile that was read.  mine: the brick's voxels; only: its only label, if it

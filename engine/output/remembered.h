@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of the merge remember, told as one sum.
+// Sums up the memory that the parts of the merge hold.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace mw::engine {
 
-/// Told how many bytes are remembered, before that grows beyond what was last told; may throw.
+/// Is told how many bytes are held, before they grow beyond what it was last told; may throw.
 using HoldMemory = std::function<void(std::uint64_t bytes)>;
 
 /// Tells a memory budget in steps how much is held, so that it is not asked for each block.

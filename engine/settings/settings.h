@@ -58,7 +58,7 @@ struct InterfaceSize {
   friend bool operator==(const InterfaceSize&, const InterfaceSize&) = default;
 };
 
-/// Where edges have a size.  Most are 0.6 of it or longer; none is longer than kLongest of it.
+/// Sizes that edges should have.  Most are 0.6 of the size or longer; none exceeds kLongest of it.
 struct SizeRules {
   static constexpr double kLongest = 1.25;
 
@@ -70,7 +70,7 @@ struct SizeRules {
   [[nodiscard]] bool any() const {
     return !labels.empty() || others.has_value() || !interfaces.empty() || !image.empty();
   }
-  /// The least that is written here, infinity when there is only an image.
+  /// Returns the smallest of these sizes; infinity when there is only an image.
   [[nodiscard]] double least() const;
   /// Returns the size of a label; none where only what is around it limits its edges.
   [[nodiscard]] std::optional<double> of_label(RawLabel label) const;

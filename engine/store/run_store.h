@@ -24,18 +24,18 @@ struct GroupCommit {
   std::chrono::milliseconds age{10'000};  ///< the longest time after the group before
 };
 
-/// Where blocks go whose next user is not here.
+/// Takes blocks to the processes that need them next.
 /// Thread safety: all members may be called from many threads.
 class BlockRouter {
  public:
   virtual ~BlockRouter() = default;
-  /// Whether the next user of this version is here.
+  /// True if the next user of this version is here.
   [[nodiscard]] virtual bool stays(const BlockVersion& version) const = 0;
   /// Takes over a version whose next user is elsewhere.
   virtual void send(const BlockVersion& version, BlockPin block) = 0;
-  /// Versions that stay can be taken from now on.
+  /// Is told of versions that stay and can be taken from now on.
   virtual void committed(std::span<const BlockVersion> versions) = 0;
-  /// Whether blocks on their way, away or here, hold memory.
+  /// True if blocks that are being sent or received hold memory.
   [[nodiscard]] virtual bool is_carrying() const = 0;
 };
 
@@ -67,10 +67,10 @@ class RunStore {
            const GroupCommit& group = {}, BlockRouter* router = nullptr);
   ~RunStore();
 
-  /// The store as the windows of one march see it.  It lives as long as this.
+  /// Returns the store as the windows of one march see it.  It lives as long as this.
   [[nodiscard]] BlockStore& march(std::uint32_t march);
 
-  /// Spills blocks until the reservation fits; nothing when it does not fit then.
+  /// Spills blocks until the reservation fits; returns nothing when it does not fit then.
   [[nodiscard]] std::optional<MemoryBudget::Reservation> try_reserve(Purpose purpose,
                                                                      std::uint64_t bytes);
   /// Reserves as try_reserve() does.  ERRORS: mw::Error(kResource) with the least that works.
@@ -98,7 +98,7 @@ class RunStore {
   /// Makes durable what is finished.  Does nothing without a work folder, or after an error in an
   /// earlier group.
   void save();
-  /// Whether there is anything to go on from after this run.
+  /// True if another run can go on from what this one has saved.
   [[nodiscard]] bool has_saved_work() const;
 
   [[nodiscard]] StoreFacts facts() const;
@@ -121,13 +121,13 @@ class RunStore {
 
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   void restore();
-  /// For a table that grows with the blocks that are here.
+  /// Returns the source of memory for a table that grows with the blocks that are here.
   [[nodiscard]] TableRoom room_for_index();
-  /// Where the block is: itself, or its parts.  REQUIRES: locked.
+  /// Finds where the block or its parts are.  REQUIRES: the store is locked.
   void find(const BlockKey& key, std::vector<Source>& out) const;
   [[nodiscard]] BlockMesh read(const Source& source) const;
   [[nodiscard]] std::optional<BlockMesh> assemble(const std::vector<Source>& sources) const;
-  /// Its memory comes out of `room` if it fits there.
+  /// Encodes a block, whose memory comes out of `room` if it fits there.
   [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh,
                                 MemoryBudget::Reservation& room);
   void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin>& pins);

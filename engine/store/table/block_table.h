@@ -25,7 +25,7 @@ struct EncodedBlock {
 };
 using BlockPin = std::shared_ptr<const EncodedBlock>;
 
-/// A version of a block; it has at least one of the two.
+/// A version of a block, in memory (cached), on disk, or both.
 struct StoredBlock {
   BlockPin cached;
   std::uint64_t offset = 0;

@@ -23,12 +23,12 @@ using ClaimLists = std::vector<std::vector<std::uint64_t>>;
 /// Marks a claim whose answer is told to nobody.
 inline constexpr std::uint64_t kNoRow = ~std::uint64_t{0};
 
-/// What a claim takes that is made, and one that is judged, beside VertexRows: themselves, lists of
-/// numbers to and from other processes, and these as bytes of messages.
+/// The bytes of a claim that is made and of one that is judged, beside VertexRows: the claim, lists
+/// of numbers to and from other processes, and these as bytes of messages.
 inline constexpr std::uint64_t kBytesPerClaim = 2 * sizeof(Claim) + 8 + 16 + 4 * 8;
 inline constexpr std::uint64_t kBytesPerJudged = 2 * sizeof(Claim) + 40 + 8 + 16 + 4 * 8;
 
-/// Pure: messages are the caller's to carry.  Members are called in the order in which they stand.
+/// Sends nothing: the caller carries messages.  Members are to be called in the order given here.
 /// Memory: kBytesPerClaim and kBytesPerJudged, 24 bytes a line, and VertexRows, of own blocks.
 /// Cost: O(log) a vertex.
 class PartRows {
@@ -64,7 +64,7 @@ class PartRows {
   /// Returns the rows of a block's vertices.  To be called in the order of the calls of count().
   [[nodiscard]] Assigned assign(Index3 block, std::span<const BlockVertex> vertices);
 
-  /// See VertexRows.
+  /// Returns VertexRows::remembered().
   [[nodiscard]] std::size_t remembered() const { return rows_.remembered(); }
 
  private:
@@ -79,7 +79,7 @@ class PartRows {
     std::uint64_t local = 0;
     std::uint64_t row = kNoRow;
   };
-  /// An own line.
+  /// A line of this process.
   struct Line {
     std::uint64_t first_local = 0;
     std::uint64_t foreign_before = 0;
