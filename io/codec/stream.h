@@ -53,8 +53,8 @@ class StreamDecoder {
 inline constexpr std::size_t kMaxStreamStep = std::size_t{1} << 30U;
 
 /// Unpacks one or several streams, behind which zeros may fill up.
-/// Memory: follows what really comes out, at most `most` bytes and one.
-/// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
+/// Memory: follows what really comes out, at most max + 1 bytes.
+/// ERRORS: mw::Error(kInput) for damage, truncation and more than `max` bytes.
 [[nodiscard]] std::vector<std::byte> unpack_streams(StreamDecoder& decoder,
                                                     std::span<const std::byte> packed,
                                                     std::size_t max, const PackedName& name);

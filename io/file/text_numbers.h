@@ -28,20 +28,20 @@ namespace mw::io {
 [[nodiscard]] std::optional<std::vector<std::int64_t>> parse_integers(std::string_view text);
 [[nodiscard]] std::optional<std::vector<double>> parse_reals(std::string_view text);
 
-/// The shortest decimal that a float stands for: 1.2, not 1.2000000476837158, so that a volume has
-/// the spacing that its other files have.
+/// Returns the shortest decimal that a float stands for: 1.2, not 1.2000000476837158, so that a
+/// volume has the spacing that its other files have.
 [[nodiscard]] double decimal_of(float value);
 
 /// Returns printable ASCII as it is and other bytes as \xHH; "..." stands for all behind max bytes.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t max);
 
-/// "97MiB", rounded up: a value for --memory.
+/// Returns a value for --memory, rounded up: "97MiB".
 [[nodiscard]] inline std::string mebibytes(std::uint64_t bytes) {
   constexpr std::uint64_t kMebibyte = 1 << 20;
   return text(bytes / kMebibyte + (bytes % kMebibyte != 0 ? 1 : 0), "MiB");
 }
 
-/// "the least that works is --memory 97MiB".
+/// Returns "the least that works is --memory 97MiB".
 [[nodiscard]] inline std::string min_memory(std::uint64_t bytes) {
   return "the least that works is --memory " + mebibytes(bytes);
 }

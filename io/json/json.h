@@ -62,12 +62,12 @@ class Json {
   [[nodiscard]] bool is_array() const { return std::holds_alternative<Array>(value_); }
   [[nodiscard]] bool is_object() const { return std::holds_alternative<Object>(value_); }
   [[nodiscard]] bool is_structured() const { return is_array() || is_object(); }
-  /// Whole and not negative, as texts write it.
+  /// True for a number that is whole, not negative, and written as such.
   [[nodiscard]] bool is_unsigned() const { return std::holds_alternative<std::uint64_t>(value_); }
   [[nodiscard]] bool is_float() const { return std::holds_alternative<double>(value_); }
   [[nodiscard]] bool is_integer() const;
   [[nodiscard]] bool is_number() const { return is_integer() || is_float(); }
-  /// Whether there is nothing in the array or object, or in its place.
+  /// True for null, and for an array or object that has no elements.
   [[nodiscard]] bool empty() const;
 
   [[nodiscard]] bool boolean() const { return std::get<bool>(value_); }
@@ -88,9 +88,9 @@ class Json {
     return json.is_string() && json.text() == text;
   }
 
-  /// The field, null if it is new.  Null becomes an object.
+  /// Returns the field, which is null if it is new.  A null becomes an object.
   [[nodiscard]] Json& operator[](std::string_view key);
-  /// Null becomes an array.
+  /// Adds an element to an array.  A null becomes an array.
   void push_back(Json element);
   /// Adds the fields of another object, or puts them in the place of its own.
   void update(Json other);

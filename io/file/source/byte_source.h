@@ -32,7 +32,7 @@ class ByteSource {
  public:
   virtual ~ByteSource() = default;
   [[nodiscard]] virtual std::uint64_t size() const = 0;
-  /// The size, but at most `most`: a source that is packed unpacks so much, not all.
+  /// Returns the size, or max if that is less: a packed source unpacks no more than max bytes.
   [[nodiscard]] virtual std::uint64_t size_within(std::uint64_t max) const {
     return std::min(size(), max);
   }
@@ -64,10 +64,10 @@ class BytesPart : public ByteSource {
   std::string name_;
 };
 
-/// The first `length` bytes, or all when there are fewer.
+/// Returns the first `length` bytes, or all when there are fewer.
 [[nodiscard]] std::vector<std::byte> read_prefix(const ByteSource& source, std::size_t length);
 
-/// All of it as text; nothing when that is more than `most` bytes.
+/// Returns all bytes as text; nothing when they are more than `max`.
 [[nodiscard]] std::optional<std::string> read_whole(const ByteSource& source, std::uint64_t max);
 
 }  // namespace mw::io
