@@ -27,7 +27,7 @@ struct SequencePart {
 /// are, if it has some, so that no chunk is unpacked twice; otherwise long rows.
 class ReadingTiles {
  public:
-  /// The most voxels of a tile, unless a row of bricks or one of its slices has more.
+  /// The most voxels of a tile.
   static constexpr std::int64_t kMaxVoxels = 1 << 18;
 
   explicit ReadingTiles(const io::VolumeInfo& volume);

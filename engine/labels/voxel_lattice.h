@@ -21,7 +21,7 @@ class VoxelLattice {
   VoxelLattice& operator=(const VoxelLattice&) = delete;
 
   [[nodiscard]] const io::DenseVolume& volume() const { return volume_; }
-  /// The labels of the lattice's cells: each has that of the voxel in which it lies.
+  /// The labels of the lattice's voxels: each has that of the volume's voxel in which it lies.
   [[nodiscard]] const io::DenseVolume& labels() const { return labels_; }
   [[nodiscard]] const io::VolumeInfo& info() const { return labels_.info(); }
   [[nodiscard]] Index3 layers() const { return layers_; }
