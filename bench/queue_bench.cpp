@@ -54,7 +54,7 @@ class Heap {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
 };
 
-/// The same behind a lock.
+/// The heap behind a lock.
 class LockedHeap {
  public:
   explicit LockedHeap(LocalVertex vertices) : heap_(vertices) {}

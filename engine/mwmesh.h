@@ -31,7 +31,7 @@
 
 namespace mwmesh {
 
-/// "MAJOR.MINOR.PATCH" of the library that is linked.
+/// Returns the version of the library that is linked, "MAJOR.MINOR.PATCH".
 [[nodiscard]] const char* version();
 
 enum class ErrorKind {
@@ -40,10 +40,10 @@ enum class ErrorKind {
   kInput = 3,        ///< a volume or file that is unreadable, damaged or unsupported
   kResource = 4,     ///< memory, disk or threads do not suffice
   kCheckFailed = 5,  ///< the mesh does not pass its own check
-  kCancelled = 6,    ///< Hooks::cancel said so
+  kCancelled = 6,    ///< Hooks::cancel returned true
 };
 
-/// The message names the thing, the reason and the way out.
+/// What this library throws.  The message names the thing, the reason and the way out.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
@@ -62,7 +62,7 @@ struct Box {
   Index hi{};
 };
 
-/// Floats hold whole numbers.
+/// The type of a stored label.  Labels that are floats must be whole numbers.
 enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 };
 
 /// world = origin + sum over i of axes[i] * spacing[i] * corner[i], corners of voxels counted from
@@ -88,12 +88,12 @@ struct LabelName {
   std::optional<std::array<std::uint8_t, 4>> colour{};
 };
 
-/// Names and colours of a file as `--names` takes it.  ERRORS: kInput naming file and line.
+/// Reads names and colours from a file as `--names` takes it.  ERRORS: kInput naming file and line.
 [[nodiscard]] std::vector<LabelName> read_names(const std::filesystem::path& path);
 
 /// Voxels in memory, which must stay there, unchanged, as long as the Volume and its copies live.
 struct ArrayVolume {
-  const void* data = nullptr;  ///< of voxel (0, 0, 0), in the byte order of the machine
+  const void* data = nullptr;  ///< address of voxel (0, 0, 0); in the byte order of the machine
   VoxelType type = VoxelType::kU8;
   Index shape{};
   Index strides{};  ///< in bytes, of any sign; all 0: x fastest, without gaps
@@ -117,11 +117,11 @@ struct RegionVolume {
 struct VolumeFile {
   std::filesystem::path path;
   std::string dataset{};       ///< within a file that holds several; empty: found by convention
-  std::optional<int> scale{};  ///< of a pyramid, 0 the finest
+  std::optional<int> scale{};  ///< level of a pyramid, 0 the finest
   std::optional<Vector> spacing{};  ///< instead of the file's
-  std::optional<Vector> origin{};   ///< the same
+  std::optional<Vector> origin{};   ///< instead of the file's
   std::string frame = "file";       ///< world frame: "file", "ras", "lps" or "voxel"
-  std::optional<Box> crop{};        ///< stays where it lies, unless origin is given
+  std::optional<Box> crop{};        ///< voxels to keep; they stay in place unless origin is given
   bool trust_paths = false;         ///< files that headers name may be outside of their folder
 };
 
@@ -133,9 +133,9 @@ class Volume {
   /// ERRORS: kUsage for an empty or too large shape, or a space that makes no sense.
   [[nodiscard]] static Volume of(const ArrayVolume& array);
   [[nodiscard]] static Volume of(const RegionVolume& region);
-  /// ERRORS: kInput naming file, field, reason and way out; kUsage.
+  /// ERRORS: kInput naming file, field, reason and way out; kUsage for options that do not fit it.
   [[nodiscard]] static Volume open(const VolumeFile& file);
-  /// The same with these names added; where both name a label, these win.
+  /// Returns this volume with these names added; where both name a label, these win.
   [[nodiscard]] Volume with_names(const std::vector<LabelName>& names) const;
 
   [[nodiscard]] Index shape() const;
@@ -155,12 +155,12 @@ class Volume {
   std::shared_ptr<const Content> content_;
 };
 
-/// The label with this number or name, "7", "-1", "Liver".
+/// Returns the label with this number or name: "7", "-1", "Liver".
 /// ERRORS: kUsage for a number that no label of the volume can be, and for a name that none of them
 /// has, or several have.
 [[nodiscard]] std::uint64_t find_label(const Volume& volume, std::string_view text);
 
-/// A random volume of a kind "voronoi", "tubes", "spheres", "noise" or "checkerboard", x fastest.
+/// Returns a random volume, x fastest: "voronoi", "tubes", "spheres", "noise" or "checkerboard".
 [[nodiscard]] std::vector<std::uint64_t> synth(std::string_view kind, const Index& shape,
                                                std::uint64_t labels, std::uint64_t seed);
 
@@ -168,68 +168,68 @@ class Volume {
 struct SettingInfo {
   std::string name;  ///< "max_distance"
   std::string help;
-  std::string fallback;              ///< its default
+  std::string fallback;              ///< the default
   std::vector<std::string> choices;  ///< all that it may be; empty: a number or a list
 };
 
 /// What the mesh depends on beside the volume.
 class Settings {
  public:
-  /// text: as on the command line, "1.5", "none", "true", "voxel".
+  /// Sets a value.  text: as on the command line, "1.5", "none", "true", "voxel".
   /// ERRORS: kUsage naming the setting, what it may be, or the names that there are.
   Settings& set(std::string_view name, std::string_view text);
-  /// The effective value.  ERRORS: kUsage for a name that there is not.
+  /// Returns the effective value.  ERRORS: kUsage for a name that does not exist.
   [[nodiscard]] std::string get(std::string_view name) const;
-  /// Every setting, in the order of the documentation.
+  /// Returns every setting, in the order of the documentation.
   [[nodiscard]] static std::vector<SettingInfo> all();
-  /// What was set, by name.
+  /// Returns the values that set() was given, by name.
   [[nodiscard]] const std::map<std::string, std::string>& changed() const { return changed_; }
 
  private:
   std::map<std::string, std::string> changed_;
 };
 
-/// "4GiB", "512M", "1.5G", "4096", as a number of bytes.  ERRORS: kUsage.
+/// Returns the bytes that "4GiB", "512M", "1.5G" or "4096" stand for.  ERRORS: kUsage.
 [[nodiscard]] std::uint64_t bytes_of_text(std::string_view text);
 
 enum class Certify {
-  kAuto,  ///< where a quarter of the memory is enough
+  kAuto,  ///< certifies where a quarter of the memory is enough
   kOn,
   kOff,
 };
 
 struct Options {
-  /// Steps before anything else looks at the labels: each key becomes its value; then components of
-  /// fewer voxels take the label around them.
+  /// Steps before anything else reads the labels: each key of merge becomes its value, then
+  /// components of fewer voxels than drop_specks take the label around them.
   std::map<std::uint64_t, std::uint64_t> merge;
-  std::uint64_t drop_specks = 0;  ///< 0: none
+  std::uint64_t drop_specks = 0;  ///< in voxels; 0: none is dropped
   bool specks_joined_by_corners = false;
   /// The labels of the mesh; the others are meshed but left out.  Empty: all.
   std::vector<std::uint64_t> labels;
-  std::optional<std::uint64_t> background;  ///< the only one that is left out
+  std::optional<std::uint64_t> background;  ///< the only label that is left out
   int threads = 0;                          ///< 1 to 1,024; 0: all cores
   /// Bytes that the run may take; the mesh in memory, and the volume's arrays, come on top.
   /// 0: half of what the machine has to spare.
   std::uint64_t memory = 0;
-  /// Where blocks go that do not fit, and what a run that ended early goes on from; empty: nothing
-  /// is spilled or kept.  The folder is made, and removed after success.
+  /// The folder for spilled blocks and for the checkpoint that resume goes on from; empty: there is
+  /// neither.  The folder is made, and removed after success.
   std::filesystem::path workdir;
   bool resume = false;
   Certify certify = Certify::kAuto;
-  bool report = true;  ///< with false quality and shape are not measured, and reports are empty
+  bool report = true;  ///< false: quality and shape are not measured, and reports are empty
 };
 
 struct Progress {
-  std::uint64_t done = 0;   ///< windows
-  std::uint64_t total = 0;  ///< windows
+  std::uint64_t done = 0;   ///< windows that are finished
+  std::uint64_t total = 0;  ///< windows of the run
   std::optional<double> seconds_left;
 };
 
-/// Who looks on; nothing here changes the mesh.  Called by any thread, not by two at a time but for
-/// cancel.
+/// Callbacks that watch a run; none of them changes the mesh.  Any thread may call them, but only
+/// cancel is called by several threads at once.
 struct Hooks {
   std::function<void(const Progress& progress)> progress;  ///< after each window
-  /// Asked often; true ends the run with kCancelled.
+  /// Is asked often; when it returns true, the run ends with kCancelled.
   std::function<bool()> cancel;
 };
 
@@ -239,12 +239,12 @@ struct Mesh {
   std::vector<std::array<std::uint64_t, 4>> tets;  ///< rows of points; positive orientation
   std::vector<std::uint64_t> labels;               ///< by tet
   bool labels_are_signed = false;
-  std::vector<LabelName> names;  ///< of labels that are in it
+  std::vector<LabelName> names;  ///< of labels that are in the mesh
   std::string report;  ///< JSON, the keys of `mwmesh mesh --report`; empty when there is none
-  std::string record;  ///< what files tell of the run that made it, a line of JSON
+  std::string record;  ///< one line of JSON about the run that made it, which files keep
 };
 
-/// Takes a mesh that never need be in memory: begin, then points and tets by turns, finish.
+/// Takes a mesh that need not be in memory: begin, then points and tets by turns, then finish.
 class MeshWriter {
  public:
   virtual ~MeshWriter() = default;
@@ -264,12 +264,12 @@ class MeshWriter {
 [[nodiscard]] Mesh mesh(const Volume& volume, const Settings& settings = {},
                         const Options& options = {}, const Hooks& hooks = {});
 
-/// The same into a writer.  Returns the report.
+/// Meshes the volume into a writer, as mesh() does.  Returns the report.
 std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& settings = {},
                     const Options& options = {}, const Hooks& hooks = {});
 
-/// The same into a file of any format of `mwmesh convert`; nothing is under its name before the
-/// mesh is whole.  element: "tet4" or "tet10".  Returns the report.
+/// Meshes the volume into a file of any format of `mwmesh convert`, which appears under its name
+/// only once the mesh is whole.  element: "tet4" or "tet10".  Returns the report.
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings = {}, const Options& options = {},
                          const Hooks& hooks = {}, std::string_view element = "tet4");
@@ -278,12 +278,12 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                 std::string_view element = "tet4");
-/// Returns the label of a mesh that is called so, with the errors of find_label(Volume).
+/// Returns the label of a mesh that has this number or name.  ERRORS: those of find_label(Volume).
 [[nodiscard]] std::uint64_t find_label(const Mesh& mesh, std::string_view text);
-/// A PNG of all labels except the one around them, as `mwmesh picture` draws it.
-/// ERRORS: kUsage unless from 16 to 8,192 pixels; kInput when there is nothing to see.
+/// Returns a PNG of all labels except the one around them, as `mwmesh picture` draws it.
+/// ERRORS: kUsage for fewer than 16 or more than 8,192 pixels; kInput when nothing is to be seen.
 [[nodiscard]] std::string picture(const Mesh& mesh, int width = 1200, int height = 900);
-/// "sha256:...", the same for every format, order of rows and machine.
+/// Returns "sha256:...", which is the same for every format, order of rows and machine.
 [[nodiscard]] std::string digest(const Mesh& mesh);
 
 struct Check {
@@ -298,8 +298,8 @@ struct Verdict {
   std::string report;  ///< JSON, the keys of `mwmesh verify --report`
 };
 
-/// Holds a mesh against its volume, with what the run promised that made it (1.5 voxels and a
-/// radius ratio of 0.1 where it does not tell).  Of options, steps, labels, background, threads and
+/// Checks a mesh against its volume, with the bounds that the mesh's record tells (1.5 voxels and a
+/// radius ratio of 0.1 where it tells none).  Of the options only merge to background, threads and
 /// memory count.
 [[nodiscard]] Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options = {},
                              const Hooks& hooks = {});

@@ -25,8 +25,8 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 constexpr unsigned kSeed = 0;
-/// Of surface points, relative to the size of the volume; CGAL's default, 1e-3, is a voxel and
-/// more.
+/// The error of surface points, relative to the size of the volume; CGAL's default, 1e-3, is a
+/// voxel and more.
 constexpr double kRelativeErrorBound = 1e-4;
 
 /// The image with its layer of kOutside; the first corner of the volume is at 0, because the

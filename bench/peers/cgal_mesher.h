@@ -29,8 +29,8 @@ struct CgalCriteria {
   Improvement improvement = Improvement::kTimed;
 };
 
-/// Meshes the subdomains of an image with one thread and a fixed seed.  Deterministic
-/// but for Improvement::kTimed.
+/// Meshes the subdomains of an image with one thread and a fixed seed.  Deterministic,
+/// except with Improvement::kTimed.
 ///
 /// Voxels are samples at their centres, between which CGAL interpolates.  A layer of kOutside goes
 /// around the volume, so that the boundary of the outermost voxels is the plane of the box; without

@@ -22,7 +22,7 @@ struct Rows {
   }
 };
 
-/// A layout of so many rows, for the engine to deal.
+/// A layout of y times z rows, for the engine to deal.
 engine::RunLayout rows_layout(std::int64_t y, std::int64_t z, engine::Order order) {
   return run_layout({1, y + 1, z + 1}, 2, 1, order);
 }

@@ -13,7 +13,7 @@
 
 namespace mw::bench {
 
-/// The layout of a run over so many voxels; each march has windows twice as large.
+/// The layout of a run over a volume of this shape; each march has windows twice as large.
 [[nodiscard]] engine::RunLayout run_layout(Index3 volume, int window, std::uint32_t marches,
                                            engine::Order order);
 
@@ -21,13 +21,13 @@ namespace mw::bench {
 [[nodiscard]] engine::RunLayout traced_layout(const std::vector<MarchTrace>& trace,
                                               engine::Order order);
 
-/// As the engine deals, if its forecast were exact: costs of rows are their seconds.
+/// Deals rows as the engine would if its forecast were exact: costs of rows are their seconds.
 /// cut_every: colour bricks end where rows of the first march are a multiple of it; the engine: 1.
 [[nodiscard]] engine::Partition deal(const RunFlow& flow, std::span<const double> seconds,
                                      engine::Order order, int ranks, std::int64_t cut_every = 1);
 
-/// As the engine deals `volume` of rows that cost the same, seen from far: each of the flow's rows
-/// belongs to whom the row at its place in the volume does.
+/// Deals `volume` as the engine does where all rows cost the same; then each row of the flow
+/// belongs to the rank that has the row at its relative place in the volume.
 [[nodiscard]] engine::Partition deal_like(const RunFlow& flow, const engine::RunLayout& volume,
                                           engine::Order order, int ranks);
 

@@ -32,7 +32,7 @@ struct Job {
   std::uint64_t seed = 1;
   double factor = 1.0;
   std::int64_t cut_every = 1;
-  std::int64_t stand_in = 1;  ///< for a volume so many times as long
+  std::int64_t stand_in = 1;  ///< for a volume that is this many times as long
   double sleep_ms = 0.0;      ///< on the average; 0: nobody sleeps
   std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64, 128, 256};
   Machines machines{.cores = 16, .latency = 1e-4, .block_bytes = {36e3, 160e3}};
@@ -224,7 +224,7 @@ void add_machine_options(CLI::App& app, Job& job) {
                  "prints what volumes N times as long would take with N * N times the cores")
       ->check(CLI::Range(1, 64));
   app.add_option("--sleep", job.sleep_ms,
-                 "runs the marches with windows that sleep so many milliseconds on the average")
+                 "runs the marches with windows that sleep MS milliseconds on the average")
       ->check(CLI::NonNegativeNumber);
 }
 

@@ -20,7 +20,7 @@ struct SleepingRun {
 
 /// The engine's march (ArrivalFront, the flow graph) with ranks as threads and messages without
 /// bytes, which take no time but that of their threads; window w sleeps for seconds[w].
-/// Of the machines only ranks, cores and look_ahead count.
+/// Only ranks, cores and look_ahead of the machines have an effect.
 /// REQUIRES: a system that gives ranks x cores threads.
 [[nodiscard]] SleepingRun sleeping_run(const RunFlow& flow, std::span<const double> seconds,
                                        const engine::Partition& partition,

@@ -17,7 +17,7 @@ namespace {
 using engine::ArrivalFront;
 using engine::Arrivals;
 
-/// Of equal times first what comes in, then by window.
+/// Events are ordered by time; at equal times arrivals come first, then the order is by window.
 struct Event {
   enum class Kind : std::uint8_t { kArrival, kEnd };
 

@@ -20,7 +20,7 @@ constexpr io::ByteOrder kMachine =
 static_assert(static_cast<int>(io::VoxelType::kU8) == static_cast<int>(mwmesh::VoxelType::kU8) &&
               static_cast<int>(io::VoxelType::kF64) == static_cast<int>(mwmesh::VoxelType::kF64));
 
-/// Of ArrayVolume or RegionVolume.
+/// Returns what an ArrayVolume or a RegionVolume says of itself.
 template <class Told>
 io::VolumeInfo info_of(const Told& told) {
   return {.shape = io::checked_shape(kArray, "shape", told.shape),

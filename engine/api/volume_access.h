@@ -19,7 +19,7 @@ class Volume::Content {
   std::shared_ptr<const mw::io::LabelVolume> volume_;
 };
 
-/// The only one that looks behind a Volume.
+/// The only class that looks behind a Volume.
 class VolumeAccess {
  public:
   [[nodiscard]] static const mw::io::LabelVolume& labels(const Volume& volume) {

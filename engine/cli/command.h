@@ -12,16 +12,16 @@ struct Command {
   std::string name;
   std::string about;
   OptionSet options;
-  /// What is left to do once the options have their values; returns the exit code.
+  /// Runs the command once the options have their values; returns the exit code.
   std::function<int(const OptionSet&)> run;
   std::string note;  ///< whole lines at the end of help
-  /// What labels are called in what the command reads; asked for where an option has a name.
+  /// Returns the names of labels in what the command reads; called when an option names a label.
   std::function<io::LabelNames()> names;
 };
 
-/// The commands, a line each.
+/// Returns the help of the program, with one line for each command.
 [[nodiscard]] std::string help_of_program(const std::vector<Command>& commands);
-/// The options of a command by group, a line each; with all those for experts, too.
+/// Returns one line for each option of a command, by group; all: with those for experts, too.
 [[nodiscard]] std::string help_of_command(const Command& command, bool all);
 
 [[nodiscard]] Command mesh_command();
@@ -37,13 +37,13 @@ enum class Asked { kRun, kHelp, kHelpAll, kVersion };
 
 struct CommandLine {
   Asked asked = Asked::kRun;
-  const Command* command = nullptr;          ///< empty: none was named
+  const Command* command = nullptr;          ///< null: none was named
   std::map<std::string, std::string> flags;  ///< as OptionSet::resolve() takes them
 };
 
-/// `help COMMAND` is `COMMAND --help`.  REQUIRES: commands outlive the result.
-/// ERRORS: mw::Error(kUsage) naming the unknown command or flag, which is often why something else
-///         is missing; else what is wrong.
+/// Takes `help COMMAND` for `COMMAND --help`.  REQUIRES: commands outlive the result.
+/// ERRORS: mw::Error(kUsage) naming an unknown command or flag, which is often why something else
+///         is missing; if there is none, naming what is wrong.
 [[nodiscard]] CommandLine parse_command_line(const std::vector<Command>& commands,
                                              std::vector<std::string> arguments);
 

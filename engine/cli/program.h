@@ -10,8 +10,8 @@ namespace mw::cli {
 /// Runs the command that the arguments name.  Returns the exit code; never throws.
 int run_program(int argc, char** argv) noexcept;
 
-/// The same, divided among processes that are given the same arguments.  One of them speaks, for
-/// itself and for another one that fails.  ENSURES: the others know of a failure before it returns.
+/// Runs the command divided among processes that have the same arguments.  One of them speaks, also
+/// for another one that fails.  ENSURES: the others know of a failure before it returns.
 int run_divided_program(int argc, char** argv, engine::Processes& processes) noexcept;
 
 }  // namespace mw::cli

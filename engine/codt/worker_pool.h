@@ -41,11 +41,11 @@ class WorkerPool {
   /// ERRORS: those of find_worker() and WorkerProcess.
   explicit WorkerPool(PoolOptions options);
 
-  /// As a Triangulate.  ERRORS: those of WorkerProcess.
+  /// Triangulates as a Triangulate must.  ERRORS: those of WorkerProcess.
   [[nodiscard]] std::optional<Triangulation> triangulate(const Plc& plc);
 
   [[nodiscard]] PoolFacts facts() const;
-  /// Of workers that wait for work; for tests that kill them.
+  /// Returns the process ids of workers that wait for work; for tests that kill them.
   [[nodiscard]] std::vector<pid_t> idle() const;
 
  private:

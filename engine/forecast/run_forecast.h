@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How long the rest of a run will take.
+// Predicts how long the rest of a run will take.
 #pragma once
 
 #include <chrono>
@@ -12,8 +12,8 @@
 
 namespace mw::engine {
 
-/// Follows a run through its marches and its output: work that is known from the labels, at the
-/// speed that is measured.  Nothing of it has any effect on the mesh.
+/// Follows a run through its marches and its output.  The labels tell the work, the run itself its
+/// speed.  Nothing of it has any effect on the mesh.
 /// Cost: some microseconds a window.  Thread safety: none.
 class RunForecast {
  public:
@@ -21,11 +21,11 @@ class RunForecast {
   RunForecast(const BoundaryFaces& faces, const RunLayout& layout, const MeshSettings& settings,
               int threads);
 
-  /// The first march begins, or the next one.
+  /// To be called when a march begins.
   void begin_march(const IsFinished& finished_before);
   void visited(Index3 window);
   void begin_output();
-  /// A block of the last march; the output reads each twice.
+  /// To be called when the output reads a block of the last march, which it does twice for each.
   void reading(Index3 block);
 
   [[nodiscard]] double seconds_left() const { return left_.seconds(); }

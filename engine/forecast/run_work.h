@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What windows cost, told before they are visited.
+// Predicts what windows cost before they are visited.
 #pragma once
 
 #include "engine/labels/boundary_faces.h"
@@ -9,7 +9,7 @@
 
 namespace mw::engine {
 
-/// Of a march among those of its run.
+/// The place of a march among the marches of its run.
 struct MarchIndex {
   bool is_first = true;
   bool is_last = true;
@@ -40,7 +40,7 @@ class MarchWork {
   double density_factor_;
 };
 
-/// The same of writing a block of the last march, which is read twice: of one of these times.
+/// Returns the work, in microseconds too, of one of the two readings of a block for the output.
 [[nodiscard]] double output_work(const BoundaryFaces& faces, const Box3& block);
 
 }  // namespace mw::engine

@@ -3,7 +3,7 @@
 # `cpack`: Debian packages, one a component.  configs/package.sh configures, builds and tests them.
 set(MW_MAINTAINER "" CACHE STRING
   "Who made the packages (empty: DEBFULLNAME and DEBEMAIL of the environment)")
-# Whoever makes packages answers for them; without an address lintian will not have them.
+# The maker of packages answers for them; without an address lintian rejects them.
 if(MW_MAINTAINER)
   set(mw_maintainer ${MW_MAINTAINER})
 elseif(DEFINED ENV{DEBEMAIL} AND DEFINED ENV{DEBFULLNAME})

@@ -15,7 +15,7 @@
 namespace mw::engine {
 
 enum class Certify {
-  kAuto,  ///< where memory allows it
+  kAuto,  ///< certifies where memory allows it
   kOn,
   kOff,
 };
@@ -26,17 +26,17 @@ struct MeshJob {
   std::shared_ptr<const io::LabelVolume> size_image;  ///< SizeRules::image, opened
   LabelChoice choice;
   Certify certify = Certify::kAuto;
-  bool is_measured = false;      ///< quality and shape, for a report
+  bool is_measured = false;      ///< whether quality and shape are measured, for a report
   std::filesystem::path folder;  ///< of the certificate's temporary files
-  /// Threads, memory, work folder, other processes, and who looks on.  What is written and the
-  /// identity of the run are settled by mesh().
+  /// Threads, memory, work folder, other processes and callbacks.  mesh() sets what is written and
+  /// the identity of the run.
   RunHooks run{.threads = 0};
-  /// Nothing of these changes the result.
+  /// These two do not change the result.
   std::function<void()> stop = [] {};                    ///< called often, by any thread; may throw
   std::function<void(std::size_t labels)> labels_known;  ///< optional: before the marches
 };
 
-/// What a certificate takes of a run's budget: a quarter at most.
+/// What a certificate takes of a run's memory budget, which is a quarter at most.
 struct CertificatePlan {
   std::string why_not;  ///< empty: it is made
   int threads = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A mesh held against its volume.
+// Checks a mesh against its volume.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace mw::engine {
 
-/// What is asked instead of what the mesh's file says; what is empty is as the file says.
+/// Bounds to check instead of those in the mesh's file; where one is empty, the file's counts.
 struct AskedBounds {
   std::optional<bool> interfaces;
   std::optional<bool> smooth;
@@ -25,7 +25,7 @@ struct AskedBounds {
 struct VerifyJob {
   const io::LabelVolume& volume;  ///< as opened
   io::InputSteps steps;
-  LabelChoice choice;  ///< that the mesh was made with; with neither: what its file says
+  LabelChoice choice;  ///< that the mesh was made with; empty: what its file says
   AskedBounds asked = {};
   int threads = 0;                        ///< 0: all cores
   std::uint64_t memory = 0;               ///< bytes
@@ -33,18 +33,18 @@ struct VerifyJob {
   std::function<void()> between = [] {};  ///< called after each tile; may throw
 };
 
-/// P1 to P4 and P8 of the mesh that deliver() writes into a sink, begin to finish: what its run
-/// promised, where its file tells, else kOtherPromises, of the labels that the file holds.
+/// Checks P1 to P4 and P8 of the mesh that deliver() writes into a sink, from begin to finish, for
+/// the labels that the file holds: with the promises in the file if any, else kOtherPromises.
 /// ERRORS: those of the volume, of its steps, of deliver() and of verify_mesh(); kInput for a file
 /// that tells of promises that no run makes; kUsage when interfaces are asked for and labels were
 /// left out.
 [[nodiscard]] report::Verdict verify(const VerifyJob& job,
                                      const std::function<void(io::MeshSink&)>& deliver);
 
-/// The labels that a mesh is to hold; empty when all are.
+/// Returns the labels that a mesh is to hold; empty when it is to hold all.
 [[nodiscard]] audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& table);
 
-/// What to check of a mesh of which this was promised.
+/// Returns what to check of a mesh that was made with these promises.
 [[nodiscard]] audit::AuditOptions audit_options(const io::MeshPromises& promises,
                                                 const io::VolumeSpace& space);
 

@@ -17,8 +17,8 @@ std::int64_t bricks_along(std::int64_t voxels) {
   return (voxels + kBrick - 1) / kBrick;
 }
 
-/// Of `count` voxels of a row, with the next in x of `next` of them; up, out: steps to the one
-/// above in y and z, 0 for none.
+/// Counts the faces between `count` voxels of a row and those above them in y and z, and between
+/// `next` of them and the next in x.  up, out: steps to the voxel above in y and z; 0 for none.
 std::uint32_t faces_of_row(const Label* row, std::int64_t count, std::int64_t next, std::int64_t up,
                            std::int64_t out) {
   std::uint32_t faces = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How much there is to do where: faces between voxels of different labels, brick by brick.
+// Counts the faces between voxels of different labels by brick, which tells where the work is.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@ namespace mw::engine {
 class BoundaryFaces {
  public:
   BoundaryFaces() = default;
-  /// None yet.
+  /// Begins with no faces.
   explicit BoundaryFaces(Index3 volume);
 
-  /// Counts those of a brick; faces that it shares with voxels outside `labels` are left out.
-  /// uniform: the brick has one label, hence none inside.
+  /// Counts the faces of a brick, except those that it shares with voxels outside `labels`.
+  /// uniform: the brick has one label, hence no faces inside.
   /// REQUIRES: labels cover the brick.  Thread safety: different bricks may be counted at once.
   void count(const LabelBox& labels, Index3 brick, bool uniform);
 
-  /// By brick, x fastest.
+  /// Returns the number of faces of each brick, x fastest.
   [[nodiscard]] std::span<const std::uint16_t> counts() const { return faces_; }
-  /// Adds those of the bricks from number `first` on, which were counted elsewhere.
+  /// Adds the counts of the bricks from number `first` on, which another process has counted.
   void add(std::size_t first, std::span<const std::uint16_t> counts);
 
-  /// As if those of each brick were spread evenly over it.
+  /// Returns the number of faces in a box, as if those of each brick were spread evenly over it.
   [[nodiscard]] double in(const Box3& box) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether two volumes hold the same labels, told by a number.
+// A number that tells whether two volumes hold the same labels.
 #pragma once
 
 #include <atomic>
@@ -18,10 +18,10 @@ class FingerprintVolume : public io::VolumeView {
   using VolumeView::VolumeView;
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
-  /// That of a box alone, which is read for it and not added.
+  /// Returns the sum over a box alone, which is read for it and not added to sum().
   [[nodiscard]] std::uint64_t of(const Box3& box) const;
 
-  /// Of what was read; add() takes that of what others have read.
+  /// The sum over what was read here; add() takes the sum over what others have read.
   [[nodiscard]] std::uint64_t sum() const { return sum_; }
   void add(std::uint64_t sum) { sum_ += sum; }
 

@@ -15,7 +15,7 @@ namespace mw::engine {
 
 /// Whole numbers of bricks that are counted once each, so parts add up to the whole.
 struct LabelCounts {
-  /// None yet.
+  /// Begins with no counts.
   LabelCounts(Index3 shape, std::size_t labels) : faces(shape), voxels(labels) {}
 
   /// Counts a brick of a tile that was read.  mine: the brick's voxels; only: its only label, if it
@@ -27,8 +27,8 @@ struct LabelCounts {
   std::vector<std::uint64_t> voxels;  ///< by dense label
 };
 
-/// Counts one part of the volume's reading tiles, on so many threads, which change nothing; of all
-/// parts together it is what PreparedLabels counts of the whole.
+/// Counts one part of the volume's reading tiles; the number of threads does not change the result.
+/// The sum over all parts is what PreparedLabels counts in the whole volume.
 /// Memory: 4 MiB a thread, 2 bytes a brick of the volume and 8 a label.
 [[nodiscard]] LabelCounts counts_of_part(const io::DenseVolume& volume, int threads,
                                          const SequencePart& part);

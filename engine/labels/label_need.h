@@ -14,23 +14,23 @@ struct LabelNeed {
   Box3 near;    ///< visits look at the input's labels in it
 };
 
-/// The boxes of bricks of 16^3 voxels that are needed, each inside the one before.
+/// The boxes of bricks of 16^3 voxels that are needed; each lies inside the one before.
 struct NeededBricks {
-  Box3 original;  ///< are read
-  Box3 shapes;    ///< are coarsened
-  Box3 levels;    ///< have their large cells found
+  Box3 original;  ///< bricks that are read
+  Box3 shapes;    ///< bricks that are coarsened
+  Box3 levels;    ///< bricks whose large cells are found
 };
 
-/// Whether start meshes take their shape from coarsened labels.
+/// True if start meshes take their shape from coarsened labels.
 [[nodiscard]] bool is_coarsened(const MeshSettings& settings);
 
 [[nodiscard]] NeededBricks bricks_of(Index3 volume);
-/// With limits on edges all bricks: such a limit reaches as far as its gradation lets it, and how
-/// far that is only the labels of the whole volume tell.
+/// Returns the bricks that are needed.  With limits on edges these are all: how far such a limit
+/// reaches depends on its gradation and on the labels of the whole volume.
 [[nodiscard]] NeededBricks bricks_of(const LabelNeed& need, Index3 volume,
                                      const MeshSettings& settings);
 
-/// The smallest box that has both; an empty one adds nothing.
+/// Returns the smallest box that holds both; an empty box adds nothing.
 [[nodiscard]] Box3 hull(const Box3& a, const Box3& b);
 
 }  // namespace mw::engine

@@ -13,10 +13,10 @@ namespace mw::engine {
 struct LabelRegion {
   RawLabel label = 0;
   std::uint64_t voxels = 0;
-  Box3 box;  ///< the smallest that has them all
+  Box3 box;  ///< the smallest box that holds all of them
 };
 
-/// One pass over the volume.  Ascending by label, as signed numbers where the volume's are.
+/// Returns the labels, ascending (as signed numbers where the volume's are), in one pass over it.
 /// Memory: a tile (ReadingTiles), and some 150 bytes a label.
 /// ERRORS: what the volume throws.
 [[nodiscard]] std::vector<LabelRegion> label_regions(const io::LabelVolume& volume);
@@ -28,7 +28,7 @@ struct LabelContact {
   std::array<std::uint64_t, 3> faces{};  ///< across x, y and z of the array
 };
 
-/// One pass over the volume.  Ascending by first, then second.
+/// Returns the contacts, ascending by first, then second, in one pass over the volume.
 /// Memory: a tile (ReadingTiles) and one voxel around it, and some 100 bytes a pair.
 /// ERRORS: what the volume throws.
 [[nodiscard]] std::vector<LabelContact> label_contacts(const io::LabelVolume& volume);

@@ -13,9 +13,9 @@ namespace mw::engine {
 [[nodiscard]] std::vector<RawLabel> labels_of_part(const io::LabelVolume& volume, int threads,
                                                    const SequencePart& part);
 
-/// As io::collect_labels, on so many threads (0: all cores), which change nothing; volumes whose
-/// voxels may turn out to be no labels (floats, scaled numbers) are read in file order, so that the
-/// first of them is the one that is told.
+/// Does what io::collect_labels() does, on `threads` threads (0: all cores), whose number does not
+/// change the result.  Volumes whose voxels may be no labels (floats, scaled numbers) are read in
+/// file order, so that the error names the first such voxel.
 /// Memory: a tile and 80 KiB a thread.
 [[nodiscard]] io::LabelTable collect_labels(const io::LabelVolume& volume, int threads);
 

@@ -34,7 +34,7 @@ bool is_within(const Box3& part, const Box3& whole) {
   return intersection(part, whole) == part;
 }
 
-/// The same voxels in a larger box, whose others are outside the volume.
+/// Returns these labels in a larger box, whose other voxels are outside the volume: kExterior.
 LabelBox padded(const LabelBox& inside, const Box3& box) {
   if (inside.box == box) return inside;
   LabelBox out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()), kExterior)};

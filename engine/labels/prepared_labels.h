@@ -23,32 +23,32 @@ namespace mw::engine {
 class PreparedLabels {
  public:
   /// Reads the volume once, drops its buffers, and coarsens it when the start mesh asks for that.
-  /// image: of the settings' SizeRules.  folder: where temporary files go.  threads: they change
-  /// nothing. ERRORS: whatever the volume throws; kResource when the temporary file cannot grow.
-  /// Memory while it works: preparation_bytes() a thread; 8 bytes a label stay.
+  /// image: of the settings' SizeRules.  folder: where temporary files go.  The result does not
+  /// depend on threads.  ERRORS: what the volume throws; kResource when the temporary file cannot
+  /// grow.  Memory while it works: preparation_bytes() a thread; 8 bytes a label stay.
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
                  const std::filesystem::path& folder = io::scratch_folder(),
                  const SizeImage* image = nullptr);
 
-  /// Only what is needed; what is counted is then known already (counts_of_part()).
+  /// Prepares only what is needed; the counts are then known already (counts_of_part()).
   /// REQUIRES: the volume outlives this.
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, const LabelNeed& need,
                  int threads = 1, const std::filesystem::path& folder = io::scratch_folder(),
                  const SizeImage* image = nullptr);
 
-  /// Boxes may reach outside the volume; voxels there are kExterior.
-  /// Beyond what is needed the volume is read again: how far the tets of a window reach out of it
-  /// has no bound that is as tight as what is usual.
+  /// Returns the input's labels in a box, which may reach outside the volume: voxels there are
+  /// kExterior.  For voxels beyond what is needed the volume is read again: how far the tets of a
+  /// window reach out of it has no tight bound.
   [[nodiscard]] LabelBox original(const Box3& box) const;
-  /// REQUIRES: a block that is needed and kStartHalo around it.
+  /// Returns the labels for start meshes.  REQUIRES: box is a needed block with its kStartHalo.
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
-  /// What is counted on the way.  REQUIRES: all labels are prepared.
+  /// Returns what was counted while the labels were prepared.  REQUIRES: all labels are prepared.
   [[nodiscard]] const LabelCounts& counts() const { return *counts_; }
-  /// Limits on edges; null: none.
+  /// Returns the limits on edges; null when there are none.
   [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
-  /// Labels whose tets should have an inner vertex; null: none.
+  /// Returns the labels whose tets should have an inner vertex; null when there are none.
   [[nodiscard]] const InnerDemand* inner() const { return inner_ ? &*inner_ : nullptr; }
 
  private:

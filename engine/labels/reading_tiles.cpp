@@ -11,7 +11,7 @@
 namespace mw::engine {
 namespace {
 
-/// Of volumes without chunks: long rows, 2 MiB of labels.
+/// The tile of volumes without chunks: long rows, 2 MiB of labels.
 constexpr Index3 kPlainTile{1024, kBrick, kBrick};
 
 std::int64_t whole_bricks(std::int64_t voxels) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// In which boxes a whole volume is read, and the bricks in them.
+// The boxes in which a whole volume is read, and the bricks in them.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace mw::engine {
 
-/// One of `count` parts that a sequence is cut into, as large as the others but for one thing.
+/// One of `count` parts that a sequence is cut into; their sizes differ by at most one.
 struct SequencePart {
   int index = 0;
   int count = 1;
@@ -27,19 +27,19 @@ struct SequencePart {
 /// are, if it has some, so that no chunk is unpacked twice; otherwise long rows.
 class ReadingTiles {
  public:
-  /// Voxels of a tile, unless a row of bricks or a slice's worth of one has more.
+  /// The most voxels of a tile.
   static constexpr std::int64_t kMaxVoxels = 1 << 18;
 
   explicit ReadingTiles(const io::VolumeInfo& volume);
 
-  /// How many along each axis.
+  /// Returns the number of tiles along each axis.
   [[nodiscard]] Index3 count() const;
-  /// The part of the volume that a tile is.  ENSURES: it begins at a brick, and ends at one or with
-  /// the volume.
+  /// Returns the box of a tile.  ENSURES: it begins with a brick, and ends with one or with the
+  /// volume.
   [[nodiscard]] Box3 box(Index3 tile) const;
-  /// The tiles that have voxels of a box.  REQUIRES: it is inside the volume.
+  /// Returns the tiles that have voxels of a box.  REQUIRES: the box is inside the volume.
   [[nodiscard]] Box3 over(const Box3& box) const;
-  /// The boxes of a part of all tiles, x fastest: a slab, more or less.
+  /// Returns the boxes of one part of all tiles, x fastest; together they are about a slab.
   [[nodiscard]] std::vector<Box3> boxes(const SequencePart& part) const;
 
  private:
@@ -47,7 +47,7 @@ class ReadingTiles {
   Index3 edges_;
 };
 
-/// The bricks that a box of voxels touches.  REQUIRES: no voxel is below 0.
+/// Returns the bricks that a box of voxels touches.  REQUIRES: no coordinate is below 0.
 [[nodiscard]] Box3 bricks_over(const Box3& voxels);
 
 /// Copies the voxels of a brick out of a larger box.

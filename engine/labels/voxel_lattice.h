@@ -9,8 +9,8 @@
 
 namespace mw::engine {
 
-/// Layers that a volume's voxels are cut into: layers_of() its spacing for smooth surfaces, else
-/// none.
+/// Returns the layers that a volume's voxels are cut into: layers_of() its spacing for smooth
+/// surfaces, else one.
 [[nodiscard]] Index3 layers_of(const io::VolumeInfo& volume, Surface surface);
 
 /// A volume and the lattice that it is meshed on.  The volume must outlive it.
@@ -21,7 +21,7 @@ class VoxelLattice {
   VoxelLattice& operator=(const VoxelLattice&) = delete;
 
   [[nodiscard]] const io::DenseVolume& volume() const { return volume_; }
-  /// The same labels on the lattice.
+  /// The labels of the lattice's voxels: each has that of the volume's voxel in which it lies.
   [[nodiscard]] const io::DenseVolume& labels() const { return labels_; }
   [[nodiscard]] const io::VolumeInfo& info() const { return labels_.info(); }
   [[nodiscard]] Index3 layers() const { return layers_; }
@@ -33,13 +33,13 @@ class VoxelLattice {
   io::DenseVolume labels_;
 };
 
-/// What a run asks of a volume, told before any work.
+/// Checks before any work that a volume fits the settings of a run.
 /// ERRORS: those of check(settings); kInput when the lattice has too many voxels along an axis;
 ///         kUsage when the quality floor cannot be kept at this spacing, with the floor that can,
 ///         or when a size is less than the diagonal of a voxel of the lattice.
 void check(const io::VolumeInfo& volume, const MeshSettings& settings);
 
-/// What a run asks of a volume's labels.
+/// Checks that a volume's labels fit the settings of a run.
 /// ERRORS: kUsage when a size is given for a label that the volume does not have.
 void check(const io::LabelTable& labels, const MeshSettings& settings);
 

@@ -8,7 +8,7 @@
 
 namespace mw::engine {
 
-/// As march(), by this crew, always through the graph.  REQUIRES: order.size() >= 1.
+/// Marches as march() does, by this crew, always through the graph.  REQUIRES: order.size() >= 1.
 /// Memory: that of the wavefront, and two messages and one admission a thread.
 void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options,
                 Crew& crew);

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// As in engine/cli/main.cpp.
+/// Runs before the constructors of static objects, for the reason in engine/cli/main.cpp.
 [[gnu::constructor(101)]] void begin() {
   mw::cli::end_well_without_memory();
 }

@@ -22,7 +22,7 @@ namespace mw::engine {
 // that came end in a triangle that is open.  What waits is therefore no more than the front between
 // the blocks that came and the others, and nobody has to be told when to forget it.
 
-/// See audit::ShapeReport, of the triangles between two labels that are written.
+/// Measures the audit::ShapeReport of the triangles between two labels that are written.
 /// Memory: 32 bytes an open triangle, of which a front has about as many as a plane and a row of
 /// blocks have on one side, and 56 for each of its edges, some 1.5 a triangle; both sorted by the
 /// block in which their first vertex lies.
@@ -33,12 +33,12 @@ class InterfaceShape {
   InterfaceShape(const WindowGrid& grid, io::VolumeInfo info, const LabelSelection& selection,
                  HoldMemory hold);
 
-  /// REQUIRES: each block once, in a fixed order, whole: what is not written is left out here.
+  /// REQUIRES: each block comes once, in a fixed order, with the labels that are not written, too.
   void add(const BlockMesh& block);
 
-  /// Of the blocks so far.
+  /// Returns the shape of the interfaces of the blocks so far.
   [[nodiscard]] audit::ShapeReport report() const { return meter_.report(); }
-  /// Bytes remembered now, and at most so far.
+  /// Return how many bytes are remembered now, and the most so far.
   [[nodiscard]] std::uint64_t remembered() const {
     return list_bytes_ + kBytesPerFront * fronts_.size();
   }

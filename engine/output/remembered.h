@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of the merge remember, told as one sum.
+// Sums up the memory that the parts of the merge hold.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace mw::engine {
 
-/// Told how many bytes are remembered, before that grows beyond what was last told; may throw.
+/// Is told how many bytes are held, before they grow beyond what it was last told; may throw.
 using HoldMemory = std::function<void(std::uint64_t bytes)>;
 
-/// Tells a budget in steps, so that it is not asked for each block.
+/// Tells a memory budget in steps how much is held, so that it is not asked for each block.
 class Remembered {
  public:
   /// Entries of VertexRows, and a second list while one is merged.
@@ -21,7 +21,7 @@ class Remembered {
 
   explicit Remembered(HoldMemory hold) : hold_(std::move(hold)) {}
 
-  /// Before a part comes to so many bytes.
+  /// These three are called before a part of what is held grows to `bytes`; here rows of vertices.
   void rows(std::uint64_t bytes) {
     rows_ = bytes;
     tell();
@@ -30,7 +30,7 @@ class Remembered {
     shape_ = bytes;
     tell();
   }
-  /// Of what several processes tell one another.
+  /// The lists that several processes send one another.
   void shared(std::uint64_t bytes) {
     shared_ = bytes;
     tell();

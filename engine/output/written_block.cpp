@@ -5,7 +5,7 @@
 namespace mw::engine {
 namespace {
 
-/// Of the labels that are written.
+/// Returns the names of the labels that are written.
 io::LabelNames written_names(const io::DenseVolume& volume, const LabelSelection& selection) {
   const io::LabelTable& table = volume.table();
   return volume.info().names.only(

@@ -39,7 +39,7 @@ Measured measure(MeshScene& scene, const View& view) {
   return out;
 }
 
-/// How dark edges are, 0 to 1.  What is seen has on average so many pixels a triangle.
+/// Returns how dark edges are, 0 to 1, by the average number of pixels that a triangle covers.
 double line_share(const Measured& measured, const PictureStyle& style) {
   constexpr double kFaint = 3, kPlain = 14;  // pixels across
   constexpr double kDarkest = 0.5;

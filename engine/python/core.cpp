@@ -39,7 +39,7 @@ VoxelType voxel_type(const py::dtype& type) {
                                      ": expected integers, or floats that are whole numbers");
 }
 
-/// Of an array that is indexed [x, y, z] already.  It stays alive as long as the volume.
+/// A volume, and the array that it reads, indexed [x, y, z], which lives as long as the volume.
 struct HeldVolume {
   Volume volume;
   std::shared_ptr<py::object> array;  ///< none for files

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""The wheel's extension, built by the CMake of the whole tree, of which only that target is made."""
+"""Builds the wheel's extension with the CMake of the whole tree, which makes only that target."""
 
 import os
 import pathlib

@@ -17,7 +17,7 @@ namespace mwmesh::python {
 /// REQUIRES: the caller holds the lock.
 void run_watched(const pybind11::object& progress, const std::function<void(const Hooks&)>& work);
 
-/// The same for work that returns something.
+/// Does the same for work that returns a value, and returns that value.
 template <class Work>
 auto watched_run(const pybind11::object& progress, const Work& work) {
   std::optional<decltype(work(Hooks{}))> result;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The report of a run of `mwmesh mesh` (--report); its keys are fixed by the documentation.
+// The report of a run of `mwmesh mesh` (--report); the documentation fixes its keys.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ struct FinishedRun {
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels
   Resources resources;        ///< times until the mesh was written, memory until its digest
-  std::string digest;         ///< empty: nobody made it
+  std::string digest;         ///< empty: it was not made
   std::string fingerprint;    ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty: none was made
   std::string why_no_certificate;
@@ -45,12 +45,12 @@ struct FinishedRun {
 void for_each_volume(const FinishedRun& run,
                      const std::function<void(const audit::VolumeRow&)>& visit);
 
-/// What nobody measured is null.  Memory: no more for more labels.
+/// Figures that were not measured are null.  Memory: it does not grow with the labels.
 /// REQUIRES: run.engine.quality and volumes.
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, io::Json settings,
                        const AppendText& append);
 
-/// The same into a file, which gets its name.
+/// Writes that report into a file, which then gets its name.
 void write_run_report(io::AtomicFile& file, const FinishedRun& run,
                       const std::filesystem::path& mesh, io::Json settings);
 

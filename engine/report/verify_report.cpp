@@ -21,7 +21,7 @@ constexpr const char* kNone = "none";
 constexpr const char* kInterfaces = "interfaces";
 constexpr const char* kVoxel = "voxel";
 
-/// As the input has them, or "exterior".
+/// Returns the changed labels by the numbers of the input; the outside is "exterior".
 std::vector<std::string> changed_labels(const Verdict& verdict) {
   std::vector<std::string> out;
   const io::LabelTable& table = verdict.table;

@@ -24,7 +24,7 @@ namespace mw::engine {
 
 struct RunHooks;
 
-/// What one process did and held.
+/// What one process did, and the memory that it held.
 struct ProcessFacts {
   std::uint64_t windows = 0;
   std::uint64_t blocks_sent = 0;
@@ -43,67 +43,67 @@ struct LabelPlan {
 struct StoppedAfterSave {};
 
 /// What one process does in a run.  The members are called in the order in which they stand.
-/// ERRORS (of all but fail() and keep_work()): those of the other processes.
+/// ERRORS (of all except fail() and keep_work()): those of the other processes.
 class RunPart {
  public:
   virtual ~RunPart() = default;
 
-  /// Null: there is no work folder.
+  /// Null when there is no work folder.
   [[nodiscard]] virtual WorkFiles* work_files() = 0;
-  /// Of temporary files; empty: there is none.
+  /// Returns the folder of temporary files; empty when there is none.
   [[nodiscard]] virtual std::filesystem::path work_folder() const = 0;
-  /// Null: all blocks stay here.
+  /// Null when all blocks stay here.
   [[nodiscard]] virtual BlockRouter* router() = 0;
-  /// Blocks come into the store from now on, until the result is destroyed.
+  /// Lets blocks come into the store from now on, until the result is destroyed.
   [[nodiscard]] virtual std::shared_ptr<void> attach(RunStore& store) = 0;
 
-  /// Settles which labels are prepared here.  Memory: as preparation (LabelReaders).
+  /// Decides which labels are prepared here.  Memory: that of preparation (LabelReaders).
   [[nodiscard]] virtual LabelPlan plan_labels(const io::DenseVolume& volume,
                                               const MeshSettings& settings, const RunHooks& hooks,
                                               RunStore& store) = 0;
-  /// The labels are prepared.  ENSURES: what an earlier run left is in the store.
+  /// To be called once labels are prepared.  ENSURES: what an earlier run left is in the store.
   virtual void begin_marches(RunStore& store) = 0;
-  /// Whether the window is visited here.
+  /// True if the window is visited here.
   [[nodiscard]] virtual bool visits(const WindowKey& key) const = 0;
-  /// None: all windows of the march are visited here.
+  /// Returns the part of a march that is visited here; none if that is all of it.
   [[nodiscard]] virtual std::optional<PartialMarch> part_of_march(std::uint32_t march) = 0;
-  /// All own windows are done.  Returns what the visits of all processes add up to.
+  /// To be called once all own windows are done.  Returns the sum of the visits of all processes.
   [[nodiscard]] virtual VisitStats end_marches(const VisitStats& own) = 0;
 
-  /// Whether this process writes the mesh or a part of it; its final blocks are in the store then.
+  /// True if this process writes the mesh or a part of it; its final blocks are in the store then.
   [[nodiscard]] virtual bool await_output() = 0;
-  /// Whether other processes write parts of it, too.
+  /// True if other processes write parts of it, too.
   [[nodiscard]] virtual bool writes_with_others() const = 0;
   [[nodiscard]] virtual FinishedMesh write(FinalBlocks& blocks, const WindowGrid& grid,
                                            const io::DenseVolume& volume, io::MeshSink& sink,
                                            const OutputOptions& options) = 0;
-  /// The output is complete: the work folder is not needed any more.  Returns what each process
-  /// did; empty: there is only one.
+  /// To be called once the output is complete: the work folder is not needed any more.  Returns
+  /// what each process did; empty if there is only one.
   [[nodiscard]] virtual std::vector<ProcessFacts> end(const ProcessFacts& own) = 0;
 
-  /// This process cannot go on.  Returns the error that the run ends with.
-  /// ENSURES: nothing but what still comes in uses the store.
+  /// Ends a process that cannot go on.  Returns the error that the run ends with.
+  /// ENSURES: only messages that still come in use the store.
   [[nodiscard]] virtual std::exception_ptr fail(const std::exception_ptr& error) = 0;
-  /// After fail(): keeps the work folder if work is saved in it.  Returns whether another run can
-  /// go on from there.
+  /// To be called after fail(): keeps the work folder if work is saved in it.  Returns true if
+  /// another run can go on from there.
   [[nodiscard]] virtual bool keep_work(const RunStore& store) = 0;
 };
 
-/// Thread safety: count(), count_here(), speaks() and fail() from any thread.
+/// Thread safety: any thread may call count(), count_here(), speaks() and fail().
 class Processes {
  public:
   virtual ~Processes() = default;
 
   [[nodiscard]] virtual int count() const = 0;
-  /// Those on this machine, which share its memory and its cores.
+  /// Returns the number of processes on this machine, which share its memory and its cores.
   [[nodiscard]] virtual int count_here() const = 0;
-  /// Exactly one of them speaks to the user, and writes what one process writes.
+  /// True for exactly one of them, which speaks to the user and writes what one process writes.
   [[nodiscard]] virtual bool speaks() const = 0;
 
-  /// The labels of the whole volume, which then has the fingerprint of all of it.
+  /// Returns the labels of the whole volume, which then has the fingerprint of all of it.
   [[nodiscard]] virtual io::LabelTable collect_labels(FingerprintVolume& volume, int threads) = 0;
-  /// What the table of blocks and the prepared labels take at least, as far as it is known before
-  /// any label is read.
+  /// Returns the least bytes of the table of blocks and the prepared labels, as far as they are
+  /// known before any label is read.
   [[nodiscard]] virtual std::uint64_t least_bytes(const RunLayout& layout,
                                                   const io::DenseVolume& volume,
                                                   const MeshSettings& settings) const = 0;

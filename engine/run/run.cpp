@@ -184,8 +184,8 @@ bool is_damage(const std::exception_ptr& error) {
   }
 }
 
-/// After an error: what can be saved is, and the first error stays the one that is told.  Nobody is
-/// told to go on from damage; it stays for whoever wants to know what happened.
+/// Saves what can be saved after an error; the user is told of the first error only.  Nobody is
+/// told to go on from damage, which stays for those who want to know what happened.
 void keep_work(RunContext& run, const std::exception_ptr& error) {
   const bool damaged = is_damage(error);
   try {

@@ -35,15 +35,15 @@ struct RunReport : VisitStats {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
   int threads = 1;
-  double inner_quality = 0.0;    ///< that was kept to, see MeshSettings
+  double inner_quality = 0.0;    ///< the value that was used, see MeshSettings
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
   double output_seconds = 0.0;
   std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
-  std::optional<audit::ShapeReport> shape;      ///< the same, but of a mesh written together
-  std::vector<std::uint64_t> label_voxels;      ///< the same, by dense label; 0: not written
+  std::optional<audit::ShapeReport> shape;      ///< as quality; empty if written together
+  std::vector<std::uint64_t> label_voxels;      ///< as quality; by dense label; 0: not written
   std::vector<Int128> label_volumes6;           ///< see FinishedMesh
-  std::vector<double> longest_edges;            ///< the same, with sizes
-  EdgeRatios edge_ratios;                       ///< the same
+  std::vector<double> longest_edges;            ///< see FinishedMesh; with sizes only
+  EdgeRatios edge_ratios;                       ///< see FinishedMesh; with sizes only
   std::uint64_t memory_budget_bytes = 0;
   std::uint64_t peak_accounted_bytes = 0;
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
@@ -57,7 +57,7 @@ struct RunReport : VisitStats {
 struct RunProgress {
   std::uint64_t done = 0;   ///< windows, those of an earlier run included
   std::uint64_t total = 0;  ///< windows
-  /// An estimate (RunForecast); nothing before this run has done any.
+  /// An estimate (RunForecast); empty before this run has done any window.
   std::optional<double> seconds_left;
 };
 
@@ -75,7 +75,7 @@ struct TraceEvent {
   int slot = 0;              ///< of the visiting thread, below the number of threads
 };
 
-/// How a run goes and who looks on.  Nothing here changes the result.
+/// How a run goes, and callbacks that watch it.  Nothing here changes the result.
 struct RunHooks {
   OnProgress progress;  ///< optional
   PickReady pick;       ///< sequential, in this order among ready windows; empty: by threads
@@ -87,24 +87,24 @@ struct RunHooks {
   const SizeImage* sizes = nullptr;  ///< of SizeRules::image; outlives the run
   StoreOptions store;                ///< memory and disk
   codt::PoolOptions workers;         ///< of Optimizer::kTetgen
-  /// The processes that the run is divided among; null: this one alone.  All of them call
+  /// The processes that the run is divided among; null if it is this one alone.  All of them call
   /// mesh_volume() with the same volume and settings; only the one that speaks uses its sink, and
   /// the others return when its output is complete.  Store options and threads are each one's own.
   Processes* processes = nullptr;
-  /// With several processes: what all of them write the mesh into, in the place of the sink.  The
-  /// one that speaks decides: null there, and its sink is used; what the others have is joined only
-  /// when it is not.  REQUIRES: where it speaks it is created, and nothing of the output is
-  /// measured then.
+  /// With several processes: the file that all of them write the mesh into, instead of the sink.
+  /// The process that speaks decides: if it has null, its sink is used, else the others join what
+  /// they have.  REQUIRES: the process that speaks has created the file, and nothing of the output
+  /// is measured.
   io::SharedMesh* together = nullptr;
-  /// With several processes, optional, where it speaks; asked often, by a thread of its own:
-  /// whether to save and end the run, which throws StoppedAfterSave.
+  /// Optional, with several processes, on the one that speaks: is asked often, by a thread of its
+  /// own, whether to save and end the run, which throws StoppedAfterSave.
   std::function<bool()> stop_after_save;
-  /// Under a tight budget the allocator is told to give large pieces back at once (mallopt).
+  /// True: under a tight budget the allocator gives large pieces back at once (mallopt).
   bool owns_process = false;
 };
 
-/// Meshes the whole box of the volume into `sink`.
-/// On its VoxelLattice, which the windows and bounds of settings are counted in.
+/// Meshes the whole box of the volume into `sink`, on its VoxelLattice, in whose voxels the windows
+/// and bounds of the settings are counted.
 /// ENSURES: promises P1 to P3 and P5 of the README.
 ///          A run that ends early, by an error or because progress throws, leaves what it has done
 ///          in the work folder, if there is one and anything was done; otherwise the folder goes.

@@ -11,7 +11,7 @@
 namespace mw::engine {
 namespace {
 
-/// The same without what is wrong with them.
+/// Returns the settings once check() has found nothing wrong with them.
 const MeshSettings& checked(const io::DenseVolume& volume, const MeshSettings& settings) {
   check(volume.info(), settings);
   check(volume.table(), settings);

@@ -58,7 +58,7 @@ struct InterfaceSize {
   friend bool operator==(const InterfaceSize&, const InterfaceSize&) = default;
 };
 
-/// Where edges have a size.  Most are 0.6 of it or longer; none is longer than kLongest of it.
+/// Sizes that edges should have.  Most are 0.6 of the size or longer; none exceeds kLongest of it.
 struct SizeRules {
   static constexpr double kLongest = 1.25;
 
@@ -70,7 +70,7 @@ struct SizeRules {
   [[nodiscard]] bool any() const {
     return !labels.empty() || others.has_value() || !interfaces.empty() || !image.empty();
   }
-  /// The least that is written here, infinity when there is only an image.
+  /// Returns the smallest of these sizes; infinity when there is only an image.
   [[nodiscard]] double least() const;
   /// Returns the size of a label; none where only what is around it limits its edges.
   [[nodiscard]] std::optional<double> of_label(RawLabel label) const;
@@ -94,10 +94,10 @@ struct MeshSettings {
   Order order = Order::kRaster;
   StartMesh start = StartMesh::kCoarse;
   std::optional<double> edge_variance;  ///< bound on Eq (3), none: unbounded
-  /// No tet below this radius ratio; 0: nothing is asked of shapes, as in the paper.
+  /// No tet has a radius ratio below this.  0: nothing is asked of shapes, as in the paper.
   double quality_floor = 0.2;
-  /// The same around inner vertices that contractions move (SimplifyOptions::inner_quality); counts
-  /// where it is above quality_floor, and not where that is 0; none: inner_quality_for() chooses.
+  /// The floor around inner vertices that contractions move (SimplifyOptions::inner_quality).  It
+  /// counts only above a quality_floor that is not 0.  None: inner_quality_for() chooses it.
   std::optional<double> inner_quality;
   std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
   /// Each window stops collapsing at this many vertices a voxel; none: only the bounds stop it.

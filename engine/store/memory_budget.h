@@ -21,7 +21,7 @@ enum class Purpose {
   kOutput,   ///< what the writing of the mesh needs
 };
 inline constexpr std::size_t kPurposes = 6;
-/// Of the purposes, in their order: how reports call them.
+/// The names of the purposes in reports, in the order of Purpose.
 inline constexpr std::array<const char*, kPurposes> kPurposeNames{"program", "labels",  "index",
                                                                   "blocks",  "windows", "output"};
 
@@ -56,16 +56,16 @@ class MemoryBudget {
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
-  /// Nothing when it would exceed the limit.
+  /// Reserves bytes; returns nothing when they would exceed the limit.
   [[nodiscard]] std::optional<Reservation> try_reserve(Purpose purpose, std::uint64_t bytes);
-  /// ERRORS: as fail() when it would exceed the limit.
+  /// Reserves bytes.  ERRORS: those of fail() when they would exceed the limit.
   [[nodiscard]] Reservation reserve(Purpose purpose, std::uint64_t bytes);
 
   /// Moves bytes from one reservation to a new one, for another purpose; the sum stays.
-  /// REQUIRES: from is of this budget and holds that many.
+  /// REQUIRES: from is of this budget and holds at least `bytes`.
   [[nodiscard]] Reservation carve(Reservation& from, Purpose purpose, std::uint64_t bytes);
 
-  /// The smallest limit under which `bytes` could be reserved now, blocks all spilled.
+  /// Returns the least limit under which `bytes` could be reserved now, with all blocks spilled.
   [[nodiscard]] std::uint64_t min_with(std::uint64_t bytes) const;
   /// ERRORS: mw::Error(kResource) with the limit, and the --memory that gives each min_with(bytes).
   [[noreturn]] void fail(std::uint64_t bytes) const;

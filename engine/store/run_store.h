@@ -20,22 +20,22 @@ namespace mw::engine {
 
 /// When finished windows become durable: a group at a time.  The result does not depend on it.
 struct GroupCommit {
-  std::uint64_t windows = 1 << 12;        ///< at most so many in a group, whose record is in memory
-  std::chrono::milliseconds age{10'000};  ///< at most so long after the group before
+  std::uint64_t windows = 1 << 12;        ///< most windows of a group; its record is in memory
+  std::chrono::milliseconds age{10'000};  ///< the longest time after the group before
 };
 
-/// Where blocks go whose next user is not here.
+/// Takes blocks to the processes that need them next.
 /// Thread safety: all members may be called from many threads.
 class BlockRouter {
  public:
   virtual ~BlockRouter() = default;
-  /// Whether the next user of this version is here.
+  /// True if the next user of this version is here.
   [[nodiscard]] virtual bool stays(const BlockVersion& version) const = 0;
   /// Takes over a version whose next user is elsewhere.
   virtual void send(const BlockVersion& version, BlockPin block) = 0;
-  /// Versions that stay can be taken from now on.
+  /// Is told of versions that stay and can be taken from now on.
   virtual void committed(std::span<const BlockVersion> versions) = 0;
-  /// Whether blocks on their way, away or here, hold memory.
+  /// True if blocks that are being sent or received hold memory.
   [[nodiscard]] virtual bool is_carrying() const = 0;
 };
 
@@ -67,16 +67,16 @@ class RunStore {
            const GroupCommit& group = {}, BlockRouter* router = nullptr);
   ~RunStore();
 
-  /// The store as the windows of one march see it.  It lives as long as this.
+  /// Returns the store as the windows of one march see it.  It lives as long as this.
   [[nodiscard]] BlockStore& march(std::uint32_t march);
 
-  /// Spills blocks until the reservation fits; nothing when it does not fit then.
+  /// Spills blocks until the reservation fits; returns nothing when it does not fit then.
   [[nodiscard]] std::optional<MemoryBudget::Reservation> try_reserve(Purpose purpose,
                                                                      std::uint64_t bytes);
-  /// The same.  ERRORS: mw::Error(kResource) with the least that works.
+  /// Reserves as try_reserve() does.  ERRORS: mw::Error(kResource) with the least that works.
   [[nodiscard]] MemoryBudget::Reservation reserve(Purpose purpose, std::uint64_t bytes);
 
-  /// What a block of so many encoded bytes takes of the budget.
+  /// Returns what a block of this encoded size takes of the budget.
   [[nodiscard]] static std::uint64_t cost_of(std::uint64_t encoded_bytes);
   /// Takes in a version that was left elsewhere: `bytes` as its pin had them.
   /// room: what was reserved for it, cost_of(bytes) of blocks, or nothing.
@@ -95,10 +95,10 @@ class RunStore {
   /// names it.  REQUIRES: nothing was committed.
   void note_done(const WindowKey& key, bool is_own);
 
-  /// Makes durable what is finished.  ENSURES: nothing happens without a work folder, or after an
-  /// error in an earlier group.
+  /// Makes durable what is finished.  Does nothing without a work folder, or after an error in an
+  /// earlier group.
   void save();
-  /// Whether there is anything to go on from after this run.
+  /// True if another run can go on from what this one has saved.
   [[nodiscard]] bool has_saved_work() const;
 
   [[nodiscard]] StoreFacts facts() const;
@@ -121,13 +121,13 @@ class RunStore {
 
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   void restore();
-  /// For a table that grows with the blocks that are here.
+  /// Returns the source of memory for a table that grows with the blocks that are here.
   [[nodiscard]] TableRoom room_for_index();
-  /// Where the block is: itself, or its parts.  REQUIRES: locked.
+  /// Finds where the block or its parts are.  REQUIRES: the store is locked.
   void find(const BlockKey& key, std::vector<Source>& out) const;
   [[nodiscard]] BlockMesh read(const Source& source) const;
   [[nodiscard]] std::optional<BlockMesh> assemble(const std::vector<Source>& sources) const;
-  /// Its memory comes out of `room` if it fits there.
+  /// Encodes a block, whose memory comes out of `room` if it fits there.
   [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh,
                                 MemoryBudget::Reservation& room);
   void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin>& pins);

@@ -9,7 +9,7 @@
 namespace mw::engine {
 namespace {
 
-/// As oneTBB gives its own threads, whatever `ulimit -s` says.
+/// The stack that oneTBB gives its own threads, whatever `ulimit -s` says.
 constexpr std::size_t kStackBytes = std::size_t{4} << 20U;
 
 }  // namespace

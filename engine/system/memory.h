@@ -29,7 +29,7 @@ namespace mw::engine {
 
 /// The allocator keeps what is given back to it, for each thread apart; a budget that counts what
 /// is in use can therefore be exceeded.  This returns such memory to the kernel when the process
-/// holds more than `most`.  No result depends on it.
+/// holds more than `max`.  No result depends on it.
 /// Cost: 10 us; milliseconds when there is much to return.  Thread safety: yes.
 void return_free_memory_above(std::uint64_t max);
 

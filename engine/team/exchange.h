@@ -12,13 +12,13 @@
 
 namespace mw::engine {
 
-/// What a message is about, for whoever made it; its bytes follow.  The first number is its kind:
-/// those from 1 to kMaxKind are told to TakeRoom.
+/// Four numbers in front of a message's bytes.  The first is its kind: TakeRoom is told of kinds
+/// from 1 to kMaxKind.  What the others mean is the sender's choice.
 using MessageHead = std::array<std::uint64_t, 4>;
 
 inline constexpr std::uint64_t kMaxKind = 255;
 
-/// Shared with whoever waits until they are sent.
+/// Bytes that are shared with the thread that waits until they are sent.
 using SharedBytes = std::shared_ptr<const std::vector<std::byte>>;
 
 /// A message that came in.
@@ -37,32 +37,32 @@ using OnMessage = std::function<void(Message message)>;
 /// other messages.
 using TakeRoom = std::function<std::shared_ptr<void>(std::uint64_t kind, std::uint64_t bytes)>;
 
-/// Who is told of what comes and goes.
+/// Callbacks for messages that come in and bytes that have left.
 struct ExchangeListener {
   OnMessage receive;           ///< empty: messages are kept
   TakeRoom room;               ///< optional; one call at a time, never beside `receive`
-  std::function<void()> sent;  ///< optional: told, now and then, that bytes have left
+  std::function<void()> sent;  ///< optional: is called now and then when bytes have left
 };
 
 /// Carries messages between `ranks()` processes, each one exactly once, in any order.
-/// Thread safety: all members but listen().
+/// Thread safety: all members except listen() may be called from many threads.
 class Exchange {
  public:
   virtual ~Exchange() = default;
 
   [[nodiscard]] virtual int rank() const = 0;
   [[nodiscard]] virtual int ranks() const = 0;
-  /// How many of them share this machine's memory and cores.
+  /// Returns how many of them share this machine's memory and cores.
   [[nodiscard]] virtual int ranks_here() const = 0;
 
-  /// Returns at once; the bytes are let go when they have left.  REQUIRES: to != rank().
+  /// Returns at once; the bytes are released when they have left.  REQUIRES: to != rank().
   virtual void send(int to, const MessageHead& head, SharedBytes bytes) = 0;
-  /// Whether all that was sent has left.
+  /// True if all that was sent has left.
   [[nodiscard]] virtual bool is_idle() const = 0;
-  /// Bytes that have not left yet are let go, too; where that cannot be, it waits, or keeps them
+  /// Releases bytes that have not left yet, too; where that is impossible, it waits or keeps them
   /// for good.
   virtual void let_go() = 0;
-  /// From now on messages go to this one, those that came before first.
+  /// Gives messages to this listener from now on, first those that came before.
   /// ENSURES: the former listener is not called any more.
   virtual void listen(ExchangeListener listener) = 0;
 };

@@ -10,15 +10,15 @@
 
 namespace mw::engine {
 
-/// How lists go.
+/// How swap_lists() sends its lists.
 struct SwapOptions {
-  /// Of a message.  All ranks have the same.
+  /// The largest size of a message; REQUIRES: it is the same on all ranks.
   std::size_t max_bytes = std::size_t{1} << 22U;
-  /// Optional: told how many numbers will come, before they do; may throw.
+  /// Optional: is told how many numbers will come before they do, and may throw.
   std::function<void(std::uint64_t count)> expect;
 };
 
-/// The list that each rank has for this one, by rank, when `mine` are those for each.
+/// Returns the list that each rank has for this one, by rank; `mine` are this rank's for each.
 /// Memory: beside the lists two messages from and to each rank.  ERRORS: as Team::gather().
 template <typename T>
 [[nodiscard]] std::vector<std::vector<T>> swap_lists(Team& team,

@@ -19,7 +19,7 @@
 
 namespace mw::engine {
 
-/// Sorts messages: parcels go to whoever listens, the rest is its own.
+/// Sorts messages: parcels go to the listener, the others are for the team itself.
 /// Thread safety: send(), signal(), fail() and failure() from any thread; the others from one.
 class Team {
  public:
@@ -37,48 +37,48 @@ class Team {
   /// Two threads of a rank may gather at the same time, each on a channel of its own.
   enum class Channel : std::uint8_t { kRun, kEpochs };
 
-  /// What every rank says, by rank.  On each channel all ranks call it equally often.
-  /// ERRORS: that of the rank that failed, be it this one.
+  /// Returns what every rank gave it, by rank.  On each channel all ranks must call it equally
+  /// often. ERRORS: that of the rank that failed, which may be this one.
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine,
                                                            Channel channel = Channel::kRun);
-  /// What every rank says to this one, by rank, when each says `mine` to each, by rank.  It counts
-  /// as gather().  REQUIRES: as many as ranks.  ERRORS: as gather().
+  /// Sends mine[r] to each rank r, and returns what every rank sent to this one, by rank.  Counts
+  /// as a call of gather().  REQUIRES: mine.size() == ranks().  ERRORS: those of gather().
   [[nodiscard]] std::vector<std::vector<std::byte>> trade(std::vector<std::vector<std::byte>> mine,
                                                           Channel channel = Channel::kRun);
-  /// gather() of texts.
+  /// Gathers texts.
   [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
 
-  /// The numbers are the sender's; parcels for a rank that has no listener wait.
+  /// Numbers of the sender's choice; parcels for a rank that has no listener wait.
   using Head = std::array<std::uint64_t, 3>;
-  /// room: of the bytes, what Listener::room returned.
+  /// room: what Listener::room returned for these bytes.
   using OnParcel = std::function<void(const Head& head, std::vector<std::byte> bytes,
                                       std::shared_ptr<void> room)>;
   void send(int to, const Head& head, SharedBytes bytes);
-  /// A number for the listeners of all other ranks.
+  /// Sends a number to the listeners of all other ranks.
   void signal(std::uint64_t number);
   [[nodiscard]] bool is_idle() const { return exchange_.is_idle(); }
   void let_go() { exchange_.let_go(); }
 
-  /// Who is told: of parcels, one at a time; that bytes have left; that a rank has failed.
+  /// Callbacks for parcels (one at a time), for bytes that have left, and for a rank's failure.
   struct Listener {
     OnParcel parcel;
-    /// Optional, see TakeRoom: asked before a parcel's bytes are in memory, but not for those that
-    /// came before there was a listener.
+    /// Optional, see TakeRoom: is called before a parcel's bytes are in memory, but not for parcels
+    /// that came before there was a listener.
     std::function<std::shared_ptr<void>(std::uint64_t bytes)> room;
     std::function<void(std::uint64_t number)> signalled;
     std::function<void()> sent;
     std::function<void(const Error& error)> failed;
   };
-  /// Those of before come first.  ENSURES: the former listener is not called any more.
+  /// Sets the listener, and gives it the parcels that wait.  ENSURES: the former one is not called.
   void listen(Listener listener);
 
-  /// Tells all ranks that this one cannot go on, and which one that is; only the first failure of a
-  /// run is told.
+  /// Tells all ranks that this one cannot go on, and its rank; only the first failure of a run is
+  /// told.
   void fail(const Error& error);
   void fail(const std::exception_ptr& error);
-  /// The failure of another rank, if that is why this one ends.
+  /// Returns the failure of another rank, if that is why this one ends.
   [[nodiscard]] std::optional<Error> failure() const;
-  /// Whether any rank has failed, this one or another.
+  /// True if any rank has failed, this one or another.
   [[nodiscard]] bool has_failed() const;
 
  private:

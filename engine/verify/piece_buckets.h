@@ -27,7 +27,7 @@ class PieceBuckets {
   /// REQUIRES: called once, after the last triangle.
   void make_pieces();
 
-  /// Of the largest piece.
+  /// The radius of the largest piece.
   [[nodiscard]] double radius() const { return radius_; }
   /// All pieces whose centroid lies in a tile that meets this box of voxels of the volume; those
   /// outside of the volume lie in the nearest.  Thread-safe.

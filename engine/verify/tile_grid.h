@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The tiles in which a mesh is held against its volume.
+// The tiles in which a mesh is compared with its volume.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@ class TileGrid {
   static constexpr std::int64_t kEdge = 64;
   static constexpr std::int64_t kMaxTiles = 1 << 14;
 
-  /// Edges of that many voxels of the lattice, twice as long as often as there are too many tiles.
+  /// Makes tiles of `edge` voxels of the lattice, and doubles the edge until they are few enough.
   TileGrid(Index3 shape, Index3 layers, std::int64_t edge = kEdge);
 
   [[nodiscard]] Index3 shape() const { return shape_; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(count_.product()); }
   [[nodiscard]] Box3 box(std::uint32_t tile) const;
-  /// The tile of the voxel at a point, in voxels from the first corner; points outside of the
-  /// volume are taken to its nearest voxel.  REQUIRES: finite.
+  /// Returns the tile of the voxel at a point, in voxels from the first corner; points outside of
+  /// the volume are taken to its nearest voxel.  REQUIRES: the point is finite.
   [[nodiscard]] std::uint32_t at(const std::array<double, 3>& point) const;
-  /// Positions in the grid of the tiles that meet a box of voxels.
+  /// Returns the positions in the grid of the tiles that meet a box of voxels.
   [[nodiscard]] Box3 meeting(const Box3& voxels) const;
   [[nodiscard]] std::uint32_t number(Index3 position) const {
     return static_cast<std::uint32_t>(Box3{{0, 0, 0}, count_}.offset(position));

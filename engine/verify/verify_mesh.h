@@ -25,8 +25,8 @@ struct VerifyTask {
 /// memory.
 /// Memory: besides, 24 bytes a part of a label in a tile, and 8 for each other one that it touches;
 /// where interfaces are counted, 4 a part of one that goes on in another tile.
-/// ENSURES: the report depends on mesh and volume only, but for distances farther than memory lets
-/// it look (DistanceReport::far_samples); sums are rounded in the order of the tiles.
+/// ENSURES: the report depends on mesh and volume only, except for distances farther than memory
+/// lets it look (DistanceReport::far_samples); sums are rounded in the order of the tiles.
 /// ERRORS: kResource when a temporary file cannot be written.
 /// REQUIRES: mesh is finished, and of that volume.
 [[nodiscard]] audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& mesh,

@@ -96,7 +96,7 @@ class VolumeStage {
     return std::max(kMin, task_.options.max_distance.value_or(4 - kBeyond) + kBeyond);
   }
 
-  /// The box, and what lies within so many voxels of the lattice.
+  /// Returns the box grown by this many voxels of the lattice, cut to the grid.
   [[nodiscard]] Box3 around(const Box3& box, double voxels) const {
     const auto along = [&](std::int64_t layers) {
       const double wide = std::ceil(voxels / static_cast<double>(layers)) + 1;

@@ -29,11 +29,11 @@ struct WindowNeeds {
 [[nodiscard]] std::uint64_t window_bytes(const WindowGrid& grid, Index3 window,
                                          const BlockStore& store, const WindowNeeds& needs);
 
-/// The size of a block whatever its labels are.
+/// Returns the largest size of a block for any labels.
 [[nodiscard]] StartSize max_start_size(const WindowGrid& grid, Index3 block);
 
-/// Labels for the distance bound are seldom asked for farther from a window of the grid than so
-/// many voxels.
+/// Returns how many voxels around a window of the grid the labels for the distance bound are
+/// asked for, with rare exceptions farther out.
 [[nodiscard]] std::int64_t content_halo(const WindowGrid& grid, double max_distance);
 
 /// Whether this many windows at a time fit many times over, whatever the labels are: then sizes
@@ -47,10 +47,10 @@ struct WindowNeeds {
 
 /// What PreparedLabels holds of a volume of this shape; sized: with limits on edges.
 [[nodiscard]] std::uint64_t prepared_label_bytes(Index3 shape, bool sized = false);
-/// The same of a share.
+/// What PreparedLabels holds when it prepares only these bricks of the volume.
 [[nodiscard]] std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape,
                                                  bool sized = false);
-/// What it takes beside that while it is made.
+/// What it takes in addition while it is made.
 [[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings);
 
 /// What it takes to write a block of the finished mesh.  `loaded`: its bytes in memory.

@@ -63,7 +63,7 @@ class WindowVisitor {
   [[nodiscard]] std::optional<double> max_distance() const { return max_distance_; }
   /// The size of a block that is made from voxels.  Cost: about a hundredth of a visit.
   [[nodiscard]] StartSize start_size(Index3 block) const;
-  /// Such a block.
+  /// Makes a block from voxels.
   [[nodiscard]] BlockMesh start(Index3 block) const;
   /// Returns what this visit did.
   VisitStats visit(Index3 window) const;

@@ -22,9 +22,9 @@ namespace mw::io {
 struct Chunk {
   std::vector<std::byte> bytes;
   std::shared_ptr<const ByteSource> file;  ///< has the bytes instead, unless null
-  /// Where the voxel box.lo of ChunkSource::load is, in voxels from the first byte.
+  /// The place of the voxel box.lo of ChunkSource::load, in voxels from the first byte.
   std::size_t first = 0;
-  /// How many voxels further along x, y and z.
+  /// The distance of neighbours along x, y and z, in voxels.
   Index3 strides;
 
   [[nodiscard]] std::uint64_t size() const { return file ? file->size() : bytes.size(); }
@@ -48,7 +48,7 @@ class ChunkSource {
   /// Unpacks a chunk.  box: its voxels that are in the volume.  place: kFile for what is too large
   /// to be held; what cannot be streamed comes in memory nevertheless.
   /// ENSURES: empty when the store has none, so that its voxels are the fill value; otherwise every
-  /// voxel of box is within bytes (whoever asks checks that again).
+  /// voxel of box is within bytes (the caller checks that again).
   /// ERRORS: mw::Error(kInput) naming the chunk when it is damaged; memory stays bounded by the
   /// size that the chunk must have, whatever its bytes claim.
   [[nodiscard]] virtual std::optional<Chunk> load(Index3 chunk, const Box3& box,
@@ -65,23 +65,23 @@ class ChunkSource {
 /// The most bytes that a chunk may unpack to, whatever a store says.
 inline constexpr std::uint64_t kMaxChunkBytes = 2ULL << 30U;
 
-/// Bytes of the voxels of a chunk.
+/// Returns the bytes of the voxels of a chunk.
 /// ERRORS: mw::Error(kInput) naming file and field when an axis is not positive, or when they are
 /// more than kMaxChunkBytes.
 [[nodiscard]] std::uint64_t checked_chunk_bytes(std::string_view file, std::string_view field,
                                                 Index3 chunk, VoxelType type);
 
-/// What no codec's packed form of that many bytes exceeds: lz4-java's adds the most, a third.
+/// Returns a bound on the packed form of this many bytes; lz4-java's adds the most, a third.
 [[nodiscard]] constexpr std::uint64_t max_packed_bytes(std::uint64_t unpacked) {
   constexpr std::uint64_t kHeaders = 64U << 10U;
   return unpacked + unpacked / 2 + kHeaders;
 }
 
-/// A file of a store; null when there is none.
+/// Opens a file of a store; null when there is none.
 /// ERRORS: mw::Error(kInput) when there is something that cannot be read.
 [[nodiscard]] std::unique_ptr<FileSource> open_if_there(const std::filesystem::path& path);
 
-/// The bytes from offset on.  ERRORS: mw::Error(kInput) when they are more than `most`.
+/// The bytes from offset on.  ERRORS: mw::Error(kInput) when they are more than `max`.
 [[nodiscard]] std::vector<std::byte> read_rest(const ByteSource& source, std::uint64_t offset,
                                                std::uint64_t max);
 

@@ -30,9 +30,9 @@ enum class Codec {
 [[nodiscard]] const char* name(Codec codec);
 
 /// The bytes that `packed` unpacks to.  name: what errors call them, a file or a chunk in it.
-/// Memory: in the order of `most`, whatever the packed bytes claim, see max_scratch().
+/// Memory: in the order of `max`, whatever the packed bytes claim, see max_scratch().
 /// Thread safety: any.
-/// ERRORS: mw::Error(kInput) naming name and codec for damage, truncation and more than `most`
+/// ERRORS: mw::Error(kInput) naming name and codec for damage, truncation and more than `max`
 /// bytes; flips that the codec has no checksum against give other bytes, not an error.
 [[nodiscard]] std::vector<std::byte> unpack(Codec codec, std::span<const std::byte> packed,
                                             std::size_t max, std::string_view name);

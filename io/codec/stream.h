@@ -24,7 +24,7 @@ struct PackedName {
 /// Throws mw::Error(kInput): "FILE: CODEC: REASON; get a whole copy of the store".
 [[noreturn]] void fail_packed(const PackedName& name, std::string_view reason);
 
-/// The same for bytes that unpack to more than they may.
+/// Throws the error for bytes that unpack to more than `max`.
 [[noreturn]] void fail_too_much(const PackedName& name, std::size_t max);
 
 /// Throws mw::Error(kResource): the library could not get the memory that it works with.
@@ -53,8 +53,8 @@ class StreamDecoder {
 inline constexpr std::size_t kMaxStreamStep = std::size_t{1} << 30U;
 
 /// Unpacks one or several streams, behind which zeros may fill up.
-/// Memory: follows what really comes out, at most `most` bytes and one.
-/// ERRORS: mw::Error(kInput) for damage, truncation and more than `most` bytes.
+/// Memory: follows what really comes out, at most max + 1 bytes.
+/// ERRORS: mw::Error(kInput) for damage, truncation and more than `max` bytes.
 [[nodiscard]] std::vector<std::byte> unpack_streams(StreamDecoder& decoder,
                                                     std::span<const std::byte> packed,
                                                     std::size_t max, const PackedName& name);

@@ -62,35 +62,35 @@ class Json {
   [[nodiscard]] bool is_array() const { return std::holds_alternative<Array>(value_); }
   [[nodiscard]] bool is_object() const { return std::holds_alternative<Object>(value_); }
   [[nodiscard]] bool is_structured() const { return is_array() || is_object(); }
-  /// Whole and not negative, as texts write it.
+  /// True for a number that is whole, not negative, and written as such.
   [[nodiscard]] bool is_unsigned() const { return std::holds_alternative<std::uint64_t>(value_); }
   [[nodiscard]] bool is_float() const { return std::holds_alternative<double>(value_); }
   [[nodiscard]] bool is_integer() const;
   [[nodiscard]] bool is_number() const { return is_integer() || is_float(); }
-  /// Whether there is nothing in the array or object, or in its place.
+  /// True for null, and for an array or object that has no elements.
   [[nodiscard]] bool empty() const;
 
   [[nodiscard]] bool boolean() const { return std::get<bool>(value_); }
   [[nodiscard]] const std::string& text() const { return std::get<std::string>(value_); }
-  /// Of an integer; of a negative one in two's complement.
+  /// Returns the value of an integer; a negative one in two's complement.
   [[nodiscard]] std::uint64_t integer() const;
-  /// Of any number.
+  /// Returns the value of any number.
   [[nodiscard]] double number() const;
   [[nodiscard]] const Array& elements() const { return std::get<Array>(value_); }
   [[nodiscard]] const Object& items() const { return std::get<Object>(value_); }
   [[nodiscard]] Object& items() { return std::get<Object>(value_); }
   [[nodiscard]] bool contains(std::string_view key) const { return find(key) != nullptr; }
-  /// Of an object; nullptr: it has none.
+  /// Returns the value of an object's key; nullptr if the object does not have it.
   [[nodiscard]] const Json* find(std::string_view key) const;
-  /// ERRORS: std::out_of_range when there is none.
+  /// Returns the value of an object's key.  ERRORS: std::out_of_range if it does not have it.
   [[nodiscard]] const Json& operator[](std::string_view key) const;
   [[nodiscard]] friend bool operator==(const Json& json, std::string_view text) {
     return json.is_string() && json.text() == text;
   }
 
-  /// The field, null if it is new.  Null becomes an object.
+  /// Returns the field, which is null if it is new.  A null becomes an object.
   [[nodiscard]] Json& operator[](std::string_view key);
-  /// Null becomes an array.
+  /// Adds an element to an array.  A null becomes an array.
   void push_back(Json element);
   /// Adds the fields of another object, or puts them in the place of its own.
   void update(Json other);

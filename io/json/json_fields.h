@@ -24,7 +24,7 @@ class JsonFields {
   [[nodiscard]] const std::string& file() const { return file_; }
   /// What errors call a field.
   [[nodiscard]] std::string name_of(std::string_view key) const;
-  /// Whether the field is there, and not null.
+  /// True if the field is there, and not null.
   [[nodiscard]] bool has(std::string_view key) const;
   [[nodiscard]] bool is_array(std::string_view key) const;
 
@@ -36,15 +36,15 @@ class JsonFields {
   [[nodiscard]] std::vector<std::int64_t> integers(std::string_view key) const;
   [[nodiscard]] double number(std::string_view key) const;
   [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
-  /// Three numbers.
+  /// Return the three numbers of an array.
   [[nodiscard]] std::array<std::int64_t, 3> integers3(std::string_view key) const;
   [[nodiscard]] std::array<double, 3> numbers3(std::string_view key) const;
 
   [[nodiscard]] JsonFields object(std::string_view key) const;
-  /// Of an array of objects: how many, and one.  REQUIRES: index < count(key).
+  /// Return the length of an array of objects, and one of them.  REQUIRES: index < count(key).
   [[nodiscard]] std::size_t count(std::string_view key) const;
   [[nodiscard]] JsonFields element(std::string_view key, std::size_t index) const;
-  /// The first of an array of arrays of three numbers.
+  /// Returns the first element of an array of arrays of three numbers.
   [[nodiscard]] std::array<std::int64_t, 3> first_integers3(std::string_view key) const;
 
   /// Throws mw::Error(kInput) about the field.

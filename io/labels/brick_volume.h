@@ -26,7 +26,7 @@ class BrickVolume {
   /// folder: where the temporary file goes.
   /// REQUIRES: labels > 0, all labels below it.
   BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder);
-  /// The same, of the bricks `held` of such a volume.
+  /// Holds only the bricks `held` of such a volume.
   BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder,
               const Box3& held);
 

@@ -33,7 +33,7 @@ void for_each_z_slab(const Box3& box, std::int64_t max_voxels, Visit visit) {
   }
 }
 
-/// The same along x, for volumes whose fastest axis is z.
+/// Does the same with slabs along x, for volumes whose fastest axis is z.
 template <class Visit>
 void for_each_x_slab(const Box3& box, std::int64_t max_voxels, Visit visit) {
   const auto turned = [](const Index3& v) { return Index3{v.z, v.y, v.x}; };
@@ -46,7 +46,7 @@ void for_each_x_slab(const Box3& box, std::int64_t max_voxels, Visit visit) {
 struct LabelRun {
   std::int32_t begin = 0;
   std::int32_t end = 0;
-  std::uint32_t part = 0;  ///< for whoever walks over the runs
+  std::uint32_t part = 0;  ///< free for the use of those that walk over the runs
   RawLabel label = 0;
 };
 

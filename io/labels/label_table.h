@@ -22,7 +22,7 @@ class LabelTable {
   [[nodiscard]] RawLabel raw(Label dense) const { return labels_[dense]; }
   /// REQUIRES: raw is in the table.
   [[nodiscard]] Label dense(RawLabel raw) const { return slots_[slot(raw)]; }
-  /// The same for any number; kExterior for one that is not in the table.
+  /// Returns the dense label of any number; kExterior for one that is not in the table.
   [[nodiscard]] Label find(RawLabel raw) const;
   [[nodiscard]] bool contains(RawLabel raw) const { return find(raw) != kExterior; }
 
@@ -55,7 +55,7 @@ class DenseVolume {
   [[nodiscard]] const LabelVolume& raw() const { return *volume_; }
   [[nodiscard]] const VolumeInfo& info() const { return volume_->info(); }
   [[nodiscard]] const LabelTable& table() const { return *table_; }
-  /// As LabelVolume::read, with dense labels.
+  /// Reads the voxels of a box as LabelVolume::read() does, as dense labels.
   /// ERRORS: fail_input_changed() for a label that is not in the table.
   void read(const Box3& box, std::span<Label> out) const;
 

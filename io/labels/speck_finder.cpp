@@ -242,7 +242,7 @@ class Finder {
       way_out = "that takes --memory " + mebibytes(SpeckLimits::kShare * bytes) + " at least";
     }
     throw Error(ErrorKind::kResource,
-                text("--drop-specks: two slices of the volume have so many runs of labels that "
+                text("--drop-specks: two slices of the volume have more runs of labels than fit: "
                      "they take ",
                      bytes, " bytes, more than ", limits_.memory, "; ", way_out));
   }

@@ -14,8 +14,8 @@ namespace mw::io {
 /// Rows that a reader apart may write at once.
 inline constexpr std::uint64_t kMaxApartRows = 1 << 16;
 
-/// Runs read in a child and passes on to sink what it writes, but for finish(): that is for the
-/// caller to do once it is known that all went well.
+/// Runs read in a child and passes on to sink what it writes, except finish(): the caller does that
+/// once it is known that all went well.
 /// ENSURES: returns how the child died, nothing when it finished the mesh; tets name vertices that
 /// were written before, whatever the child sends.  Memory: a batch of rows.
 /// ERRORS: those of read and of sink; kResource when there can be no child.

@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-/// Whether the corner's place in the world is p, but for rounding.
+/// True if the corner's place in the world is p up to rounding.
 bool is_position_of(const VolumeSpace& space, const Vector3& corner, const Position& p) {
   constexpr double kUnitsInLastPlace = 10;
   constexpr double kRounding = kUnitsInLastPlace * std::numeric_limits<double>::epsilon();

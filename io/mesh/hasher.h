@@ -16,7 +16,7 @@ class Hasher {
  public:
   Hasher();
   void add(std::string_view characters);
-  /// As 8 bytes, least significant first.
+  /// Adds a number as 8 bytes, least significant first.
   void add(std::uint64_t word);
   /// 64 hexadecimal digits.  REQUIRES: nothing is added afterwards.
   [[nodiscard]] std::string finish();

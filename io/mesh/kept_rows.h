@@ -10,23 +10,23 @@
 
 namespace mw::io {
 
-/// A row goes when it is the middle of an edge and nobody's corner; rows that no tet names stay.
-/// Middles are all told first, then corners.  Memory: a quarter of a byte a row.
+/// A row goes when it is the middle of an edge and no tet's corner; rows that no tet names stay.
+/// All middles are given first, then all corners.  Memory: a quarter of a byte for each row.
 /// REQUIRES of all: row < rows.
 class KeptRows {
  public:
   explicit KeptRows(std::uint64_t rows = 0) { grow(rows); }
 
-  /// There are so many rows now, no fewer than before.
+  /// Sets the number of rows.  REQUIRES: there are no fewer than before.
   void grow(std::uint64_t rows) { words_.resize(rows / 64 + 1, ~std::uint64_t{0}); }
   void middle(std::uint64_t row) {
     words_[row / 64] &= ~bit(row);
     any_ = true;
   }
-  /// Whether there were middles; without them all rows stay as they are.
+  /// True if there were middles; without them all rows stay as they are.
   [[nodiscard]] bool any() const { return any_; }
   void corner(std::uint64_t row) { words_[row / 64] |= bit(row); }
-  /// After the last corner.
+  /// Numbers the rows that stay.  To be called after the last corner.
   void number() {
     before_.assign(words_.size(), 0);
     for (std::size_t i = 1; i < words_.size(); ++i) {

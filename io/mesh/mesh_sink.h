@@ -17,8 +17,8 @@ namespace mw::io {
 
 using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive orientation
 
-/// What is known before the first row.  The number of vertices is not: whoever merges blocks learns
-/// it with the last of them.
+/// What is known before the first row.  The number of vertices is not: a writer that merges blocks
+/// learns it with the last of them.
 struct MeshHeader {
   std::uint64_t tets = 0;
   bool labels_signed = false;  ///< labels are two's complement int64 and are written as such
@@ -38,11 +38,11 @@ class MeshSink {
   /// REQUIRES: tets.size() == labels.size(); the vertices of these tets have been written.
   virtual void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) = 0;
   virtual void finish() = 0;
-  /// The most that it holds in memory between begin() and finish(); 0 of one that is no file.
+  /// Returns the most bytes that it holds between begin() and finish(); 0 if it is no file.
   [[nodiscard]] virtual std::uint64_t buffer_bytes() const { return 0; }
 };
 
-/// What every sink checks before a file gets its name.
+/// Checks what every sink must before a file gets its name.
 /// ERRORS: mw::Error(kInternal) when the tets written are not those the header promised.
 inline void check_sink_counts(std::string_view file, const MeshHeader& header, std::uint64_t tets) {
   if (tets == header.tets) return;

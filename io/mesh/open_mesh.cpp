@@ -35,7 +35,7 @@ struct MeshFormat {
   std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element);
   /// Endings of files that are written beside it, in the place of its own; null behind the last.
   std::array<const char*, 4> beside{};
-  /// The same as text; null where there is one way to write it.
+  /// Opens a sink that writes text; null where there is one way to write the format.
   std::unique_ptr<MeshSink> (*open_text)(const std::filesystem::path&, Element) = nullptr;
 
   [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }

@@ -19,22 +19,22 @@ enum class Encoding : std::uint8_t {
   kText,
 };
 
-/// The extensions that are written, as ".vtkhdf, .vtu, .mesh".
+/// Returns the extensions that are written, as ".vtkhdf, .vtu, .mesh".
 [[nodiscard]] std::string mesh_extensions();
-/// Those that are read: those of solvers are not, and kPiecesExtension is.
+/// Returns the extensions that are read: without those of solvers, with kPiecesExtension.
 [[nodiscard]] std::string read_mesh_extensions();
-/// Whether the extension is that of a mesh, be it one that is read or not.
+/// True if the extension is that of a mesh, even of one that is not read.
 [[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
 
-/// What is written for a mesh of that name: that file first, then what goes beside it.
+/// Returns the files that are written for a mesh of that name: that file, then those beside it.
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
 
 /// ERRORS: mw::Error(kUsage) for an extension that is unknown or written only; kInput with file and
 /// place when missing, truncated, corrupt or not of tetrahedra.
 [[nodiscard]] MeshData read_mesh(const std::filesystem::path& path);
 
-/// The same into a sink, begin to finish; .vtkhdf in bounded memory, the others by way of
-/// MeshData.
+/// Reads a mesh into a sink, from begin() to finish(); .vtkhdf in bounded memory, the others by way
+/// of MeshData.
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
 /// ERRORS: mw::Error(kUsage) for an unknown extension, an element or encoding that the format does

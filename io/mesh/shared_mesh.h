@@ -19,7 +19,7 @@ struct RowPlace {
 /// is the maker: create() before any work, lay_out() when all is counted, finish() when all others
 /// have synced.  The others join() and take no part in these.  All of them begin() once the file is
 /// laid out, write, and sync().
-/// ENSURES: equal meshes are equal bytes, those of the format's sink, whoever wrote which rows.
+/// ENSURES: equal meshes are equal bytes, those of the format's sink, for any division of the rows.
 ///          Nothing has the final name before finish() returns; the maker's destructor removes what
 ///          was not finished.
 /// ERRORS (all members): mw::Error(kResource) on a full disk, kUsage when the path cannot be
@@ -30,14 +30,14 @@ class SharedMesh {
 
   /// Makes the file, still without its name.
   virtual void create() = 0;
-  /// How the others find it.  REQUIRES: create().
+  /// Returns what the others need to find the file.  REQUIRES: create().
   [[nodiscard]] virtual std::string place() const = 0;
   /// Makes sure that the file of that place() is within reach of this process.
   virtual void join(const std::string& place) = 0;
 
   /// Gives each row its place.
   virtual void lay_out(const MeshHeader& header, std::uint64_t vertices) = 0;
-  /// REQUIRES: laid out for so many tets.
+  /// REQUIRES: the file is laid out for this number of tets.
   virtual void begin(std::uint64_t tets) = 0;
   /// Rows go there from now on, one behind the other.  REQUIRES: of all processes one begins at the
   /// first row, even of an empty mesh, and rows that are written do not overlap.
@@ -45,11 +45,11 @@ class SharedMesh {
   virtual void write_vertices(std::span<const Position> positions) = 0;
   /// REQUIRES: tets.size() == labels.size().
   virtual void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) = 0;
-  /// What this process wrote is on the disk; nothing is written afterwards.
+  /// ENSURES: what this process wrote is on the disk.  REQUIRES: it writes nothing afterwards.
   virtual void sync() = 0;
   virtual void finish() = 0;
 
-  /// The most that it holds in memory.
+  /// Returns the most bytes that it holds in memory.
   [[nodiscard]] virtual std::uint64_t buffer_bytes() const = 0;
 };
 

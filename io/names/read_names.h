@@ -22,7 +22,7 @@ inline constexpr std::uint64_t kMaxNamesBytes = 64 << 20;
 /// kMaxNamesBytes, or not of text.
 [[nodiscard]] LabelNames read_names(const std::filesystem::path& path);
 
-/// The same of text; `file` is what errors call it.
+/// Reads names from text; `file` is what errors call it.
 [[nodiscard]] LabelNames parse_names(std::string_view text, std::string_view file);
 
 /// The volume with these names added to its own; where both name a label, these win.

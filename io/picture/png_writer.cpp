@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// libpng into memory, from there to whoever takes the bytes.
+// Lets libpng write into memory, and hands the bytes from there to the caller's function.
 #include "io/picture/png_writer.h"
 
 #include <png.h>

@@ -34,14 +34,14 @@ class ShellPlans {
   /// REQUIRES: mesh outlives it.
   ShellPlans(const GroupedMesh& mesh, bool closed);
 
-  /// All that bounds a label, normals outwards.
+  /// Returns the boundary of a label, with normals outwards.
   [[nodiscard]] ShellPlan of_label(Label rank) const;
-  /// Where both meet, normals out of the lower one; without parts where they do not.
+  /// Returns the interface of two labels, with normals out of the lower; empty if there is none.
   [[nodiscard]] ShellPlan of_pair(Label one, Label other) const;
-  /// All interfaces of two labels, normals out of the lower one, and where labels meet what was
-  /// left out of the mesh.  The box is no interface.
+  /// Returns all interfaces of two labels, with normals out of the lower one, and where labels meet
+  /// what was left out of the mesh.  The sides of the box are no interfaces.
   [[nodiscard]] ShellPlan of_interfaces() const;
-  /// The same, each a shell of its own.
+  /// Returns these interfaces, each as a shell of its own.
   [[nodiscard]] std::vector<ShellPlan> of_each_interface() const;
 
  private:

@@ -79,7 +79,7 @@ struct SurfaceHeader {
 /// and runs, finish.  A sink holds buffers whose size does not grow with the surface.  Nothing
 /// appears under the final name before finish() returns; a sink destroyed earlier leaves no file
 /// behind. ERRORS: mw::Error(kResource) on a full disk, kUsage when the path cannot be written or
-/// the format has no numbers for so many vertices.
+/// the surface has more vertices than the format has numbers for.
 class SurfaceSink {
  public:
   virtual ~SurfaceSink() = default;
@@ -95,10 +95,10 @@ class RunCursor {
   /// REQUIRES: header outlives it.
   explicit RunCursor(const SurfaceHeader& header) : header_(&header) {}
 
-  /// Steps to the next triangle.  ENSURES: returns whether another run begins with it.
-  /// REQUIRES: there is one.
+  /// Steps to the next triangle.  Returns true if another run begins with it.
+  /// REQUIRES: there is a next triangle.
   bool next();
-  /// Of the triangle that next() came to.
+  /// Return the shell and the run of the triangle that next() came to.
   [[nodiscard]] const SurfaceShell& shell() const { return header_->shells[shell_]; }
   [[nodiscard]] const SurfaceRun& run() const { return shell().runs[run_]; }
 

@@ -88,7 +88,8 @@ std::optional<std::int64_t> whole(double x) {
   return static_cast<std::int64_t>(x);
 }
 
-/// The same of slope * value + intercept; in integers where all three are, so that no bit is lost.
+/// The whole number that slope * value + intercept is, if 64 signed bits hold it; computed in
+/// integers where all three are, so that no bit is lost.
 template <class T>
 std::optional<std::int64_t> scaled(T value, const VoxelScaling& scaling) {
   if constexpr (std::is_integral_v<T>) {

@@ -11,7 +11,7 @@
 
 namespace mw::io {
 
-/// As a header has it, not checked.
+/// A volume's place in the world as a header has it, not checked.
 struct FileSpace {
   /// steps[i]: the way from a voxel to its neighbour along axis i of the array (x, y, z).
   std::array<Vector3, 3> steps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

@@ -31,9 +31,9 @@ struct VolumeInfo {
   VoxelType type = VoxelType::kU8;  ///< as stored
   std::string format;               ///< "npy", "nifti", "nrrd", "raw" and so on
   bool scaled = false;              ///< labels are slope * stored + intercept, hence signed
-  bool z_fastest = false;           ///< order in the file; whoever reads everything goes along x
-  /// What is read at once anyhow: boxes that begin and end at multiples of it are the cheapest.  An
-  /// axis of 0: any.
+  bool z_fastest = false;           ///< order in the file; to read all, go along x
+  /// What is read at once anyhow: boxes that begin and end at multiples of it are the cheapest.  0
+  /// along an axis: any box is.
   Index3 chunk{0, 0, 0};
   LabelNames names;  ///< what the file calls labels
   std::string note;  ///< what was taken for what the file leaves open, for people; mostly empty
@@ -55,10 +55,10 @@ class LabelVolume {
   /// ERRORS: mw::Error(kInput) naming the file when it is truncated or cannot be read.
   virtual void read(const Box3& box, std::span<RawLabel> out) const = 0;
 
-  /// The most that it holds between and during reads by so many threads at once, beside what a
-  /// reader of plain files takes (1 MiB a thread).
+  /// Returns the most bytes that it holds between and during reads by this number of threads at
+  /// once, beside what a reader of plain files takes (1 MiB a thread).
   [[nodiscard]] virtual std::uint64_t buffer_bytes(int /*threads*/) const { return 0; }
-  /// Gives up what it holds between reads.
+  /// Frees what it holds between reads.
   virtual void drop_buffers() const {}
 };
 

@@ -39,8 +39,8 @@ using OpenFolder = std::unique_ptr<LabelVolume> (*)(const std::filesystem::path&
 /// One format: what it is called, how it is told, how it is read, and which options it understands.
 struct VolumeFormat {
   const char* name;  ///< in help and errors
-  /// Of a file: endings, each with a dot and a blank between two, which may also be in front of
-  /// .gz; null in rows of folders, as is what follows.
+  /// Endings of a file, each with a dot, with blanks between them; .gz may follow them.  Null in
+  /// rows of folders, as are the next two.
   const char* endings = nullptr;
   bool (*is_file)(std::span<const std::byte> head) = nullptr;
   OpenFile open_file = nullptr;

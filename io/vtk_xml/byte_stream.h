@@ -17,7 +17,7 @@ class ByteStream {
   virtual ~ByteStream() = default;
   /// ERRORS: mw::Error(kInput) when there are fewer bytes or the text is no base64.
   virtual void read(std::span<std::byte> out) = 0;
-  /// An upper bound on the bytes left, counted up to `most`, to refuse absurd lengths before memory
+  /// An upper bound on the bytes left, counted up to `max`, to refuse absurd lengths before memory
   /// is taken.
   [[nodiscard]] virtual std::uint64_t left(std::uint64_t max) const = 0;
 };

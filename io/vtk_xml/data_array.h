@@ -53,7 +53,7 @@ struct ArrayName {
 [[nodiscard]] std::vector<double> reals_of_bytes(const std::vector<std::byte>& bytes,
                                                  NumberType type, ByteOrder order);
 
-/// The same from `format="ascii"`.
+/// Return the numbers of the text of an array with `format="ascii"`.
 [[nodiscard]] std::vector<std::uint64_t> integers_of_text(std::string_view text,
                                                           const ArrayName& name);
 [[nodiscard]] std::vector<double> reals_of_text(std::string_view text, const ArrayName& name);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kAppendedTag = "<AppendedData";
 constexpr std::uint64_t kChunkBytes = 1 << 20;
 constexpr std::string_view kRootTag = "<VTKFile";
-/// Of text, which is held in memory.
+/// The most bytes of text, which is held in memory.
 constexpr std::uint64_t kMaxTextBytes = std::uint64_t{1} << 33U;
 constexpr std::uint64_t kMaxStringBytes = 64 << 20;
 

@@ -13,8 +13,8 @@ namespace mw::io {
 
 /// What a VTKFile must be.
 struct VtkKind {
-  const char* type;     ///< of its attribute and its first element
-  const char* way_out;  ///< what errors say when it is of another
+  const char* type;     ///< the value of its attribute type, and the name of its first element
+  const char* way_out;  ///< what errors say when it is of another type
 };
 
 /// Arrays may be appended (raw or base64) or inline (ascii or base64), packed with zlib, with LZ4
@@ -25,7 +25,7 @@ class VtkDocument {
   VtkDocument(const ByteSource& source, VtkKind kind);
 
   [[nodiscard]] pugi::xml_node grid() const;
-  /// The attribute as a whole number; without it the fallback, if there is one.
+  /// Returns the attribute as a whole number; the fallback, if given, when there is no attribute.
   [[nodiscard]] std::uint64_t number(pugi::xml_node node, const char* attribute,
                                      std::optional<std::uint64_t> fallback = {}) const;
   [[nodiscard]] const std::string& file() const { return source_.name(); }

@@ -25,8 +25,8 @@ namespace mw {
 /// them in vertex order.  Nothing is ever removed: a vertex whose cost has changed lies in several
 /// buckets, and the owner finds out when it gets there.
 ///
-/// Memory orders.  All producers' and the owner's accesses to a word are read-modify-writes (but
-/// for a look that decides nothing but whether to skip an empty word), so no bit is lost: each is
+/// Memory orders.  All producers' and the owner's accesses to a word are read-modify-writes (except
+/// a look that only decides whether to skip an empty word), so no bit is lost: each is
 /// returned by exactly one exchange.  Pushes release and the exchange acquires; the ORs between
 /// them continue the release sequence, hence the owner sees all that every producer did before it
 /// pushed.  A push that happened before take_round() is seen by it, because a look cannot read an

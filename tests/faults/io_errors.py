@@ -113,7 +113,7 @@ def again(folder, arguments):
 
 
 def attempt(folder, arguments, expected, call, how):
-    """REQUIRES: the calls up to this one are the same in every run, but for those of a child that
+    """REQUIRES: the calls up to this one are the same in every run, except those of a child that
     reads a file apart."""
     clear(folder)
     log = folder / "log"

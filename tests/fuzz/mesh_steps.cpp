@@ -35,7 +35,7 @@ void check_fixed(const TetMesh& before, const TetMesh& mesh) {
   }
 }
 
-/// Of the places where labels meet, the exterior one of them.
+/// The Betti numbers of the places where labels meet, with the exterior as a label.
 audit::test::JunctionsBetti positions(const TetMesh& mesh, std::size_t label_count) {
   const test::SmallMesh rows = test::small_mesh(mesh, mesh.tets());
   return audit::test::junctions_of(audit::test::complex_of(rows.view(), label_count));
@@ -135,7 +135,7 @@ void fuzz_simplify(Bytes bytes) {
           "interfaces keep theirs");
 }
 
-/// Of a mesh that was disturbed or contracted, whole or cut out of a larger one.
+/// Optimises a mesh that was disturbed or contracted, whole or cut out of a larger one.
 void fuzz_optimise(Bytes bytes) {
   Choices choices(bytes);
   const SmallVolume volume = choose_volume(choices, 4);

@@ -22,7 +22,7 @@ struct InterfaceBends {
 
   /// The least bend up to which this share of the length lies.
   [[nodiscard]] double percentile(double share) const;
-  /// Of the length, that bends by more.
+  /// The share of the length that bends by more than this.
   [[nodiscard]] double share_above(double degrees) const;
 };
 

@@ -33,7 +33,7 @@ class OldestFirst {
   std::vector<std::array<std::int64_t, 3>> seen_;
 };
 
-/// As late in raster order as possible.
+/// Picks the window that is last in raster order.
 std::size_t pick_last(std::span<const Index3> ready) {
   const auto less = [](Index3 a, Index3 b) {
     return std::array{a.z, a.y, a.x} < std::array{b.z, b.y, b.x};

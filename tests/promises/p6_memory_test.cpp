@@ -109,7 +109,7 @@ TEST_F(MemoryProgramTest, Promise6HoldsWhenBlocksAreSpilled) {
   EXPECT_EQ(read("v.vtu"), read("plenty.vtu"));
 }
 
-/// getrusage's figure begins with the memory of whoever started the program; VmHWM does not.
+/// getrusage's figure begins with the memory of the process that started it; VmHWM does not.
 TEST_F(MemoryProgramTest, ReportsItsOwnMemoryAndNotItsStarters) {
   if (!mw::test::kResidentMemoryIsOurs) GTEST_SKIP() << "resident memory is a sanitizer's";
   make_volume();

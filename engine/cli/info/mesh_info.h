@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What `mwmesh info` tells of a mesh, and of the volume that it was made from.
+// What `mwmesh info` prints about a mesh, and about the volume that it was made from.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@
 
 namespace mw::cli {
 
-/// What the volume says of what the mesh has.
+/// What the volume has for the labels and contacts of the mesh.
 struct VolumeSide {
   std::unordered_map<RawLabel, std::uint64_t> voxels;
   double voxel_volume = 1;  ///< cubic physical units
@@ -28,11 +28,11 @@ struct VolumeSide {
   std::map<std::pair<RawLabel, RawLabel>, double> areas;
 };
 
-/// Opens the volume, does its steps and reads it; twice for the areas.
+/// Opens the volume, does its steps and reads it; for the areas it is read twice.
 /// ERRORS: those of open() and of reading.
 [[nodiscard]] VolumeSide look_at_volume(const VolumeRequest& request, bool with_areas);
 
-/// Everything that is told.
+/// All that `mwmesh info` prints about a mesh.
 struct MeshInfo {
   std::string file;
   std::uint64_t vertices = 0;
@@ -54,13 +54,13 @@ struct Contact {
   std::optional<double> voxel_area;  ///< empty without a volume
 };
 
-/// Those of the mesh, then those that only the voxels have between labels of the mesh.
+/// Returns the contacts of the mesh, then those between its labels that only the voxels have.
 [[nodiscard]] std::vector<Contact> contacts_of(const MeshInfo& facts);
 
-/// The label in the volume; empty without a volume, and for a label that it does not have.
+/// Returns the label's row of the volume; empty without a volume, or if it lacks that label.
 [[nodiscard]] std::optional<audit::VolumeRow> voxels_of(const MeshInfo& facts, Label rank);
 
-/// "kind", "file", "vertices", ... as a JSON object.  contacts: those as well.
+/// Returns "kind", "file", "vertices", ... as a JSON object.  contacts: also the contacts.
 [[nodiscard]] io::Json mesh_json(const MeshInfo& facts, bool contacts);
 
 }  // namespace mw::cli

@@ -24,7 +24,7 @@ std::size_t width_of(const std::string& field) {
 struct Column {
   std::size_t width = 0;
   bool numbers = true;
-  bool empty = true;  ///< but for the title
+  bool empty = true;  ///< below the title
 };
 
 std::vector<Column> columns_of(const TextTable& table) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What `mwmesh info` says of a volume.
+// What `mwmesh info` prints about a volume.
 #pragma once
 
 #include <vector>
@@ -17,13 +17,13 @@ class VolumeFacts {
   /// ERRORS: those of open() and of reading the volume.
   explicit VolumeFacts(const VolumeRequest& request);
 
-  /// Everything but a row for each label.
+  /// Returns all facts except a row for each label.
   [[nodiscard]] const io::Json& json() const { return facts_; }
   [[nodiscard]] std::size_t labels() const { return regions_.size(); }
-  /// Label, name, voxels, box (hi is one behind the last voxel) and colour.  i < labels(),
-  /// ascending.
+  /// Returns label, name, voxels, box (hi is one behind the last voxel) and colour of the i-th
+  /// label, ascending.  REQUIRES: i < labels().
   [[nodiscard]] io::Json label_row(std::size_t i) const;
-  /// "17.18 mL".
+  /// Returns the volume of the i-th label as text: "17.18 mL".
   [[nodiscard]] std::string volume_text(std::size_t i) const;
 
  private:
@@ -32,9 +32,9 @@ class VolumeFacts {
   io::Json facts_;
 };
 
-/// The same as text on stdout: a line each, for the first 1,000 labels.
+/// Prints them as text on stdout, with one line for each of the first 1,000 labels.
 void print_volume(const VolumeFacts& volume);
-/// All of it as JSON on stdout, the rows as labels.per_label.  Memory: of one row at a time.
+/// Prints all as JSON on stdout, rows as labels.per_label.  Memory: that of one row at a time.
 void print_volume_json(const VolumeFacts& volume);
 
 }  // namespace mw::cli

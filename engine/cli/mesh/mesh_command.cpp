@@ -159,7 +159,7 @@ void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
   }
 }
 
-/// As many of the threads asked for as the system gives.
+/// Returns how many of the threads asked for the system gives, and warns when they are fewer.
 int threads_at_hand(int asked) {
   engine::save_address_space();
   const int wanted = engine::thread_count(asked);
@@ -173,7 +173,7 @@ int threads_at_hand(int asked) {
   return given;
 }
 
-/// Whoever is told that the page is missing is told, too, that nothing else is.
+/// The error that says that the page is missing says, too, that nothing else is missing.
 void write_page(const MeshRequest& request, const report::FinishedRun& run, MeshFiles& files,
                 io::Json settings) {
   try {

@@ -17,8 +17,8 @@ struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
-  bool ascii = false;                    ///< the output as text
-  bool force = false;                    ///< the output may replace what is no mesh of ours
+  bool ascii = false;                    ///< whether the output is text
+  bool force = false;                    ///< whether it may replace a file that we did not write
   std::filesystem::path report;          ///< empty: none
   std::filesystem::path html;            ///< empty: none
   std::filesystem::path trace;           ///< empty: none
@@ -30,7 +30,7 @@ struct MeshRequest {
   std::string log_level;
 };
 
-/// Every option of the subcommand, in the order of the documentation.
+/// Adds every option of the command, in the order of the documentation.
 /// REQUIRES: request outlives options.
 void add_mesh_options(OptionSet& options, MeshRequest& request);
 
@@ -38,13 +38,13 @@ void add_mesh_options(OptionSet& options, MeshRequest& request);
 /// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other.
 void check_mesh_request(MeshRequest& request);
 
-/// Told before any work: what is written is not what is read, no name is written twice, and the
-/// work folder neither is one of these files, nor lies in one, nor has one in it.
+/// Checks before any work that no file is both read and written, that no name is written twice, and
+/// that the work folder neither is one of these files, nor lies in one, nor has one in it.
 /// REQUIRES: the work folder of the request is settled.
 /// ERRORS: mw::Error(kUsage) naming flag and path.
 void require_paths_apart(const MeshRequest& request);
 
-/// A file that is to be replaced is empty or one that this program wrote.
+/// Checks that a file that is to be replaced is empty or was written by this program.
 /// ERRORS: mw::Error(kUsage) naming --force.
 void require_own_output(const std::filesystem::path& output);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What a run tells while it goes on: log lines and how far it is, on stderr, and its trace.
+// What a run prints while it goes on: log lines and progress on stderr, and its trace in a file.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace mw::cli {
 
 enum class ProgressKind { kNone, kBar, kJsonLines };
 
-/// "auto" (a bar when stderr is a terminal), "none", "jsonl".
+/// Parses "auto" (a bar when stderr is a terminal), "none" or "jsonl".
 [[nodiscard]] ProgressKind parse_progress(const std::string& text);
 
 /// Shows the first and the last window and at most a few lines a second between and afterwards.
@@ -43,10 +43,10 @@ class Progress {
 /// bench/scaling reads it.
 class TraceFile {
  public:
-  /// ERRORS: as io::AtomicFile.
+  /// ERRORS: those of io::AtomicFile.
   explicit TraceFile(const std::filesystem::path& path);
   void add(const engine::TraceEvent& event);
-  /// The file appears under its name.
+  /// Gives the file its name.
   void finish() { file_.commit(); }
 
  private:

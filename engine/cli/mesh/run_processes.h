@@ -12,11 +12,11 @@
 
 namespace mw::cli {
 
-/// Those that `mwmesh mesh` is divided among; one by default.
+/// Returns the processes that `mwmesh mesh` is divided among; one by default.
 [[nodiscard]] engine::Processes& run_processes();
-/// Whether the program is one of those that mpirun starts, be it the only one.
+/// True if the program is one of those that mpirun starts, even if it is the only one.
 [[nodiscard]] bool runs_are_divided();
-/// Once a program, before any command runs.
+/// To be called once by a program, before any command runs.
 void divide_runs_among(engine::Processes& processes);
 
 /// Makes a request this process's part of it: threads and memory are those of the machine, and
@@ -25,16 +25,16 @@ void take_part(MeshRequest& request);
 
 /// What one process of a run writes the mesh into, together with the others.
 struct SharedOutput {
-  /// Of the process that speaks: made, unless it writes alone; of the others: for the case that
-  /// the first wants it.
+  /// Null on the process that speaks when it writes alone.  The others have it in any case, since
+  /// they learn only later whether the first shares it.
   std::unique_ptr<io::SharedMesh> mesh;
-  /// Of the process that speaks, where it writes alone: what for.
+  /// Says on the process that speaks why it writes alone; empty where it does not.
   std::string why_alone;
 };
 
-/// is_certified: the process that speaks makes a certificate, for which the whole mesh has to pass
-/// by; so it has for a page.  ENSURES: nothing where runs_are_divided() is false.  ERRORS: those of
-/// the file, which is made by the process that speaks.
+/// Returns nothing where runs_are_divided() is false.  is_certified: the process that speaks makes
+/// a certificate, for which, as for a page, the whole mesh has to pass through it.  ERRORS: those
+/// of making the file, which the process that speaks does.
 [[nodiscard]] SharedOutput open_shared_output(const MeshRequest& request, bool is_certified);
 
 }  // namespace mw::cli

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Options that several commands have: settings, the machine, labels, meshes.
+// Options that several commands share: settings, the machine, labels, meshes.
 #pragma once
 
 #include <cstdint>
@@ -22,26 +22,26 @@ inline constexpr const char* kShapeGroup = "Shape and size";
 inline constexpr const char* kRunGroup = "Run";
 inline constexpr const char* kOutputGroup = "Output";
 
-/// An option for each entry of engine::setting_table(), with the default of MeshSettings, and
+/// Adds an option for each entry of engine::setting_table(), with the default of MeshSettings, and
 /// --preset.  Each value is checked as it is set, so that errors name its place.
 /// REQUIRES (all that follow): what is written to outlives options.
 void add_setting_options(OptionSet& options, engine::MeshSettings& settings);
 
-/// --memory and --threads.  threads: 0 for all cores; memory: empty unless given.  budget: what the
-/// memory is, for the help.
+/// Adds --memory and --threads.  threads: 0 for all cores; memory: empty unless given.  budget:
+/// what the memory is, for the help.
 void add_resource_options(OptionSet& options, int& threads, std::optional<std::uint64_t>& memory,
                           const std::string& budget);
 
-/// --labels and --background.
+/// Adds --labels and --background.
 void add_choice_options(OptionSet& options, engine::LabelChoice& choice);
 
-/// The argument MESH.  what: what becomes of it.
+/// Adds the argument MESH.  what: what the command does with it, for the help.
 void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what);
 
-/// What the labels of a mesh are called in its file.  ERRORS: those of io::copy_mesh().
+/// Returns the names of labels in a mesh's file.  ERRORS: those of io::copy_mesh().
 [[nodiscard]] io::LabelNames names_of(const std::filesystem::path& mesh);
 
-/// The formats of such meshes, for the end of help.
+/// Returns the formats of such meshes, for the end of the help.
 [[nodiscard]] std::string mesh_note();
 
 }  // namespace mw::cli

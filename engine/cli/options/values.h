@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Values of options from text and back.
+// Converts values of options from text and back.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ using report::format_volume;
 [[nodiscard]] Box3 parse_box(std::string_view text);  ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
 
-/// What Option::assign does for a value that lives elsewhere and outlives the options.
+/// Returns an Option::assign for a value that lives elsewhere and outlives the options.
 template <class T, class Parse>
 [[nodiscard]] auto into(T& target, Parse parse) {
   return [&target, parse](const std::string& text) { target = parse(text); };

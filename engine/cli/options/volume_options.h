@@ -25,36 +25,36 @@ struct VolumeRequest {
   std::optional<Box3> crop;
   bool trust_paths = false;
   io::InputSteps steps;  ///< what is done with the labels that were opened
-  /// Of unpacked chunks that a chunked volume may keep.
+  /// How many bytes of unpacked chunks a chunked volume may keep.
   std::uint64_t cache_bytes = io::OpenOptions{}.cache_bytes;
   std::filesystem::path names;  ///< of labels; empty: only those in the volume's file
 };
 
-/// The argument INPUT.
+/// Adds the argument INPUT.
 void add_input_option(OptionSet& options, std::filesystem::path& path);
 
-/// --spacing --origin --frame; --shape --dtype for raw files; --dataset --scale for files of
+/// Adds --spacing --origin --frame; --shape --dtype for raw files; --dataset --scale for files of
 /// several arrays; --crop.
 void add_volume_options(OptionSet& options, VolumeRequest& request);
 
-/// --merge --drop-specks --names: what is done with the labels before all else (io::PreparedInput),
-/// and what they are called.
+/// Adds --merge --drop-specks, which are done with the labels before all else (io::PreparedInput),
+/// and --names, which tells what they are called.
 void add_step_options(OptionSet& options, VolumeRequest& request);
 
-/// The formats of volumes, for the end of help.
+/// Returns the formats of volumes, for the end of the help.
 [[nodiscard]] std::string volume_note();
 
 /// ERRORS: mw::Error(kUsage) when values contradict each other.
 [[nodiscard]] io::OpenOptions open_options(const VolumeRequest& request);
 
-/// open_volume of the request, and the names of its labels; its steps are left to
+/// Opens the volume of the request with the names of its labels; its steps are left to
 /// io::PreparedInput.
 [[nodiscard]] std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request);
 
-/// What its labels are called.
+/// Returns the names of the labels of the request's volume.
 [[nodiscard]] io::LabelNames names_of(const VolumeRequest& request);
 
-/// What a chunked volume may keep of its file while labels are read: nothing else needs much then.
+/// Returns the bytes of its file that a chunked volume may keep while nothing but labels is read.
 [[nodiscard]] std::uint64_t cache_bytes(std::uint64_t memory);
 
 }  // namespace mw::cli

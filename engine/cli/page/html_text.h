@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Pieces of text as HTML and JSON in HTML want them.
+// Pieces of text in the form that HTML, and JSON in HTML, need.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace mw::cli {
 
-/// For text and for attributes in double quotes.
+/// Escapes a string for text and for attributes in double quotes.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// JSON that may stand in a script element, whatever its strings hold.
+/// Returns JSON that may stand in a script element, whatever its strings hold.
 [[nodiscard]] std::string script_json(const io::Json& value);
 
-/// "41,247".
+/// Returns a number as "41,247".
 [[nodiscard]] std::string with_commas(std::uint64_t number);
 
-/// format_figure() with commas: "0.7381", "12.34", "1,040".
+/// Returns format_figure() with commas: "0.7381", "12.34", "1,040".
 [[nodiscard]] std::string short_number(double value);
 
 using AppendText = std::function<void(std::string_view)>;
 
-/// "66.8 MiB", "11.0 GiB".
+/// Returns a size as "66.8 MiB" or "11.0 GiB".
 [[nodiscard]] std::string size_text(std::uint64_t bytes);
 
-/// Bytes in base64, passed on as they come.  Memory: 4 KiB.
+/// Encodes bytes in base64 and passes them on as they come.  Memory: 4 KiB.
 class Base64 {
  public:
   explicit Base64(AppendText append) : append_(std::move(append)) {}

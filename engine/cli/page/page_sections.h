@@ -11,16 +11,16 @@ namespace mw::cli {
 
 // Each takes the report of a run (run_report) and gives HTML.
 
-/// Title, what went in, and the figures that matter first.
+/// Returns the title, the inputs, and the figures that matter first.
 [[nodiscard]] std::string head_section(const io::Json& report);
-/// P1 to P8: what the run itself has seen to hold, or not; of the others how to check them.
+/// Returns which of P1 to P8 the run itself has seen to hold or not, and how to check the others.
 [[nodiscard]] std::string promise_section(const io::Json& report);
-/// Where time and memory went.
+/// Returns where time and memory went.
 [[nodiscard]] std::string engine_section(const io::Json& report);
-/// All settings, and the digest.
+/// Returns all settings and the digest.
 [[nodiscard]] std::string settings_section(const io::Json& report);
 
-/// The command that checks the mesh, with the options of the run that the check needs.
+/// Returns the command that checks the mesh, with the options of the run that the check needs.
 [[nodiscard]] std::string verify_command(const io::Json& report);
 
 }  // namespace mw::cli

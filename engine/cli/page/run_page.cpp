@@ -29,7 +29,7 @@ std::vector<double> shares_of(const Counts& counts) {
   return out;
 }
 
-/// Of labels of 1,000 voxels and more; what is off by more than 5 % is in the outermost columns.
+/// Counts volume errors of labels of 1,000 voxels and more; the outermost columns are beyond 5 %.
 Histogram volume_errors(const report::FinishedRun& run) {
   constexpr double kMax = 0.05;
   std::array<std::uint64_t, 20> counts{};

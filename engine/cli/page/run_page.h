@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The page of a run (--html): one file for the eye, without a network.
+// The page of a run (--html): one file for a browser, which needs no network.
 #pragma once
 
 #include "engine/report/run_report.h"

@@ -25,7 +25,7 @@ std::vector<Label> by_size(const io::GroupedMesh& mesh, std::optional<Label> sur
   return out;
 }
 
-/// Of each label its groups of facets, ascending.
+/// Returns for each label its groups of facets, ascending.
 std::vector<std::vector<std::size_t>> groups_of(const io::GroupedMesh& mesh) {
   std::vector<std::vector<std::size_t>> out(mesh.table().size());
   const std::vector<io::FacetGroup>& groups = mesh.facet_groups();

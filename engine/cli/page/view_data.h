@@ -9,20 +9,20 @@
 
 namespace mw::cli {
 
-/// Triangles that a page holds at most: some 12 MB of it.
+/// The most triangles of a page, which are some 12 MB of it.
 inline constexpr std::uint64_t kMaxViewTriangles = 600'000;
-/// And labels, each of which takes a pass when a cut is drawn.
+/// The most labels of a page: each of them takes a pass when a cut is drawn.
 inline constexpr std::size_t kMaxViewLabels = 1000;
 
-/// The facets of the largest labels, each with all of its facets, as long as they fit.
-/// Those of the surrounding label (picture::surrounding_label) come last, as it hides the others.
+/// The largest labels that fit, each with all of its facets.
+/// The surrounding label (picture::surrounding_label) is chosen last, as it hides the others.
 class ViewData {
  public:
   /// The mesh outlives it.  surrounding: may be empty.
   /// Memory: 24 bytes a triangle in the view, and 16 a group of facets.
   ViewData(io::GroupedMesh& mesh, std::optional<Label> surrounding);
 
-  /// Ranks of the labels that are seen, ascending, and how many are not.
+  /// Return the ranks of the labels that are shown, ascending, and how many are not.
   [[nodiscard]] const std::vector<Label>& labels() const { return labels_; }
   [[nodiscard]] std::size_t left_out() const { return mesh_.table().size() - labels_.size(); }
   [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
@@ -31,9 +31,9 @@ class ViewData {
   /// "edges"; "groups": [place of the first label in labels() or -1, the same of the second, how
   /// many triangles], in the order of the triangles.
   [[nodiscard]] io::Json json() const;
-  /// Base64 of three 16-bit numbers a vertex, little endian.
+  /// Writes three 16-bit numbers for each vertex, little endian, in base64.
   void write_vertices(const AppendText& append);
-  /// Base64 of three 32-bit numbers of vertices a triangle, little endian.
+  /// Writes three 32-bit numbers of vertices for each triangle, little endian, in base64.
   void write_triangles(const AppendText& append);
 
  private:

@@ -15,19 +15,19 @@ struct PictureRequest {
   std::filesystem::path output;
   std::filesystem::path names;  ///< empty: those in the mesh
   std::optional<picture::CutPosition> cut;
-  std::optional<std::vector<RawLabel>> labels;  ///< empty: all but the surrounding one
-  std::optional<picture::View> view;            ///< empty: as suits the cut
+  std::optional<std::vector<RawLabel>> labels;  ///< empty: all except the surrounding one
+  std::optional<picture::View> view;            ///< empty: the view that suits the cut
   std::array<int, 2> pixels{1200, 900};         ///< width and height
   picture::Lines lines = picture::Lines::kAuto;
   bool transparent = false;
 };
 
-/// Every option of the subcommand.  REQUIRES: request outlives options.
+/// Adds every option of the command.  REQUIRES: request outlives options.
 void add_picture_options(OptionSet& options, PictureRequest& request);
 
-/// "x=0.5".  ERRORS (both): mw::Error(kUsage) saying what was expected.
+/// Parses "x=0.5".  ERRORS (both): mw::Error(kUsage) saying what was expected.
 [[nodiscard]] picture::CutPosition parse_cut(std::string_view text);
-/// "iso", "x", "y", "z" (from the far end of that axis), or "AZIMUTH,ELEVATION" in degrees.
+/// Parses "iso", "x", "y", "z" (from the far end of that axis) or "AZIMUTH,ELEVATION" in degrees.
 [[nodiscard]] picture::View parse_view(std::string_view text);
 
 }  // namespace mw::cli

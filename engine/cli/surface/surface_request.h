@@ -27,8 +27,8 @@ struct SurfaceFlags {
 };
 
 enum class SurfaceTarget {
-  kFile,      ///< all in one
-  kEachFile,  ///< one a label, `{label}` in the path
+  kFile,      ///< all surfaces in one file
+  kEachFile,  ///< one file for each label, with `{label}` in the path
   kFolder,    ///< precomputed meshes
 };
 

@@ -49,7 +49,7 @@ def _setting_text(volume, value):
 
 
 def _size_place(volume, key):
-    """Sizes are of a label, of an interface (a, b), or, "*", of what is not listed."""
+    """Returns the text for the key of a size: a label, an interface (a, b), or "*" for others."""
     if key == "*":
         return key
     return "|".join(str(label(volume, k, "size"))
@@ -89,7 +89,7 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
 
 
 class _Bar:
-    """tqdm, where it is there."""
+    """A progress bar of the package tqdm."""
 
     def __init__(self, tqdm):
         self._bar = tqdm(unit=" windows", leave=False)
@@ -103,7 +103,8 @@ class _Bar:
 
 
 def _progress(wanted):
-    """wanted: None (a bar on a terminal), True, False, or a function."""
+    """Returns the function that shows progress.  wanted: None (a bar on a terminal), True, False,
+    or a function."""
     if callable(wanted):
         return wanted
     if wanted is False or (wanted is None and not sys.stderr.isatty()):
@@ -150,12 +151,13 @@ def mesh(volume, *, progress=None, **arguments):
 
     volume
         a path of any format that ``mwmesh info`` reads; a numpy array, which is not copied; a
-        nibabel image; or what has shape, dtype and slices (h5py, Zarr, dask), which is read box by
-        box.  Labels are integers, or floats that are whole numbers.
+        nibabel image; or an object with shape, dtype and slices (h5py, Zarr, dask), which is read
+        box by box.  Labels are integers, or floats that are whole numbers.
     spacing, origin
         (x, y, z), or one number for all: edges of a voxel, and the first corner of the first voxel.
     affine
-        4 x 4, from indices of voxels (x, y, z), at their centres, to the world, instead of both.
+        a 4 x 4 matrix that takes the indices (x, y, z) of voxels, at their centres, to the world;
+        it replaces spacing and origin.
     axes
         how arrays are indexed: "zyx" (as in .npy, HDF5, Zarr, TIFF), or "xyz" (as in NIfTI; the
         default with an affine and for nibabel images).
@@ -164,21 +166,22 @@ def mesh(volume, *, progress=None, **arguments):
         and so on, or a file of ``mwmesh mesh --names``, which may have colours.  Labels are given
         by number or by name, wherever they are.
     dataset, scale, crop, trust_paths
-        of files: the array within, the level of a pyramid, ((x0, y0, z0), (x1, y1, z1)), and
-        whether files that headers name may be outside of their folder.
+        for files: the array to read, the level of a pyramid, the box ((x0, y0, z0), (x1, y1, z1))
+        to keep, and whether files that headers name may be outside of their folder.
     merge, drop_specks
-        {label: label that it becomes}; then components of fewer voxels take the label around them,
-        joined by faces, or with (voxels, 26) by corners too.
+        {label: label that it becomes}; then components of fewer voxels than drop_specks take the
+        label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.
     labels, background
-        the labels that the mesh is to have, or the one that it is not; all are meshed.
+        the labels that the mesh is to have, or the one that is left out; all of them are meshed.
     threads, memory
-        0: all cores; bytes or "8GiB", beside the arrays of volume and mesh [half of what is free].
+        number of threads (0: all cores); bytes, or a text like "8GiB", in addition to the arrays of
+        volume and mesh (half of what is free by default).
     workdir, resume
-        a folder for what does not fit, and to go on from after an interrupted run.
+        a folder for spilled blocks and checkpoints; whether to go on from the checkpoint in it.
     certify
         "auto", "on" or "off": the mesh is checked before it is returned, see CheckFailedError.
     report
-        False: quality and shape are not measured, Mesh.report is None.
+        False: quality and shape are not measured, and Mesh.report is None.
     progress
         None: a bar of tqdm on a terminal; True, False; or a function of done and total windows, and
         of the seconds left (or None).
@@ -193,8 +196,8 @@ def mesh(volume, *, progress=None, **arguments):
 
 
 def mesh_to_file(volume, path, *, element="tet4", progress=None, **arguments):
-    """As :func:`mesh`, into a file, so that the mesh is never whole in memory.  Returns the report.
-    element: "tet4" or "tet10"."""
+    """Meshes as :func:`mesh` does, into a file, so that the mesh is never whole in memory.  Returns
+    the report.  element: "tet4" or "tet10"."""
 
     file = path_bytes(path, "path")
 
@@ -206,13 +209,13 @@ def mesh_to_file(volume, path, *, element="tet4", progress=None, **arguments):
 
 
 def read(path):
-    """A mesh from a file of any format of ``mwmesh convert``."""
+    """Reads a mesh from a file of any format of ``mwmesh convert``."""
     return Mesh._of(_core.read_mesh(path_bytes(path, "path")))
 
 
 def synth(kind, shape, labels=2, seed=0):
-    """A random volume, an array [z, y, x]; kind: "voronoi", "tubes", "spheres", "noise" or
-    "checkerboard"; shape: (x, y, z).
+    """Returns a random volume as an array [z, y, x].  kind: "voronoi", "tubes", "spheres", "noise"
+    or "checkerboard".  shape: (x, y, z).
 
     >>> import mwmesh
     >>> mwmesh.synth("noise", (4, 3, 2), labels=2, seed=1).shape
@@ -224,6 +227,6 @@ def synth(kind, shape, labels=2, seed=0):
 
 
 def settings():
-    """{name: (help, default, choices)} of all settings that a mesh depends on."""
+    """Returns {name: (help, default, choices)} of all settings that a mesh depends on."""
     return {name: (text, default, choices)
             for name, text, default, choices in _core.settings()}

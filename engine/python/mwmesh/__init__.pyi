@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-# Types of what the package offers.
+# The types of the package's functions and classes.
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Protocol, TypeAlias
@@ -23,14 +23,14 @@ _Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
 _Certify: TypeAlias = Literal["auto", "on", "off"]
 _Axes: TypeAlias = Literal["zyx", "xyz"]
 _Element: TypeAlias = Literal["tet4", "tet10"]
-#: By number or by name.
+#: A label by its number or by its name.
 _Label: TypeAlias = int | str
 _Names: TypeAlias = Mapping[int, str] | Sequence[str | None] | _Path
-#: None is "none"; a dictionary has sizes by label.
+#: None stands for "none"; a dictionary has sizes by label.
 _Setting: TypeAlias = str | float | bool | Mapping[Any, float] | None
 
 class _RegionArray(Protocol):
-    """What is read box by box: h5py, Zarr, dask."""
+    """An array that is read box by box: h5py, Zarr, dask."""
 
     @property
     def shape(self) -> tuple[int, ...]: ...

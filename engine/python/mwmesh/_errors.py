@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""What can go wrong."""
+"""The errors that mwmesh raises."""
 
 
 class Error(Exception):
@@ -24,7 +24,7 @@ class ResourceError(Error):
 
 
 class CheckFailedError(Error):
-    """The mesh does not pass its own check, and is not delivered."""
+    """The mesh does not pass its own check, and is not returned or written."""
 
 
 class CancelledError(Error):
@@ -32,7 +32,7 @@ class CancelledError(Error):
 
 
 class MissingPackageError(Error, ImportError):
-    """What was asked for needs a package that is not there."""
+    """A package that the call needs is not installed."""
 
 
 _KINDS = {

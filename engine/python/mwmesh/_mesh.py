@@ -18,7 +18,7 @@ _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 
 
 class Surface(NamedTuple):
-    """Triangles, rows of points, counterclockwise from outside."""
+    """Points, and triangles as rows of points, counterclockwise from outside."""
 
     points: np.ndarray
     triangles: np.ndarray
@@ -38,7 +38,7 @@ def _areas(points, triangles):
 
 
 def _restored(points, tets, labels, names, record):
-    """A mesh from its pickle."""
+    """Returns a mesh from the parts of its pickle."""
     mesh = Mesh(points, tets, labels)
     mesh._core.names = [_core.LabelName(*row) for row in names]
     mesh._core.record = record
@@ -55,7 +55,7 @@ def _package(name):
 
 
 def _window(grid):
-    """An interactor of vtk that shows the grid when it is started."""
+    """Returns an interactor of vtk that shows the grid when it is started."""
     importlib.import_module("vtkmodules.vtkInteractionStyle")
     importlib.import_module("vtkmodules.vtkRenderingOpenGL2")
     from vtkmodules.vtkRenderingCore import (vtkActor, vtkDataSetMapper, vtkRenderer,
@@ -77,7 +77,7 @@ def _window(grid):
 
 
 class Verdict:
-    """What a verification found.  True when all checks hold."""
+    """The result of a verification.  It is true when all checks hold."""
 
     def __init__(self, verdict):
         self.passed = verdict.passed
@@ -96,7 +96,7 @@ class Verdict:
 
 
 class Mesh:
-    """A conforming tetrahedral mesh, one label a tet.
+    """A conforming tetrahedral mesh with a label for each tet.
 
     >>> import mwmesh
     >>> mesh = mwmesh.mesh(mwmesh.synth("voronoi", (12, 10, 8), labels=3, seed=1))
@@ -107,8 +107,8 @@ class Mesh:
     """
 
     def __init__(self, points, tets, labels, names=None):
-        """A mesh from arrays, which are copied: (n, 3) coordinates, (m, 4) rows of points with
-        positive orientation, m labels."""
+        """Makes a mesh from arrays, which are copied: (n, 3) coordinates, (m, 4) rows of points
+        with positive orientation, m labels."""
         points = numbers(points, "points", "rows of three numbers", (None, 3), (0,))
         points = points.reshape(-1, 3)
         tets, labels = whole_numbers(tets, "tets"), whole_numbers(labels, "labels")
@@ -138,17 +138,17 @@ class Mesh:
 
     @property
     def points(self):
-        """(n, 3) world coordinates, as all arrays here a view of the mesh, which does not change."""
+        """The (n, 3) world coordinates.  All arrays here are views of a mesh that cannot change."""
         return self._core.points
 
     @property
     def tets(self):
-        """(m, 4) rows of points; orientation is positive."""
+        """The (m, 4) rows of points of each tet; orientation is positive."""
         return self._core.tets
 
     @property
     def labels(self):
-        """m labels, int64 where the volume's are signed, else uint64."""
+        """The m labels, int64 where the volume's are signed, else uint64."""
         return self._core.labels
 
     def __repr__(self):
@@ -157,18 +157,18 @@ class Mesh:
 
     @property
     def names(self):
-        """{label: name} of labels that have one."""
+        """The names of labels that have one: {label: name}."""
         kind = self.labels.dtype.type
         return {int(np.uint64(row.label).astype(kind)): row.name
                 for row in self._core.names if row.name}
 
     @property
     def digest(self):
-        """The same for every format, order of rows and machine."""
+        """A hash of the content, which does not depend on format, order of rows or machine."""
         return self._core.digest()
 
     def label_list(self):
-        """The labels that the mesh has, ascending."""
+        """Returns the labels that the mesh has, ascending."""
         return self._ranks()[0]
 
     def _ranks(self):
@@ -178,12 +178,12 @@ class Mesh:
         return self._known["ranks"]
 
     def tet_volumes(self):
-        """The volume of each tet."""
+        """Returns the volume of each tet."""
         a, b, c, d = (self.points[self.tets[:, i]] for i in range(4))
         return np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) / 6
 
     def volumes(self):
-        """{label: volume}."""
+        """Returns the volume of each label: {label: volume}."""
         labels, ranks = self._ranks()
         sums = np.bincount(ranks, weights=self.tet_volumes(), minlength=len(labels))
         return {int(label): float(v) for label, v in zip(labels, sums)}
@@ -221,8 +221,8 @@ class Mesh:
         return int(found[0])
 
     def facets(self, a, b):
-        """(k, 3) rows of points: the triangles where labels a and b meet, counterclockwise seen
-        from b."""
+        """Returns the triangles where labels a and b meet, (k, 3) rows of points, counterclockwise
+        seen from b."""
         rank_a, rank_b = self._rank(a), self._rank(b)
         facets = self._facets()
         here = (facets.label == min(rank_a, rank_b)) & (facets.other == max(rank_a, rank_b))
@@ -230,7 +230,7 @@ class Mesh:
         return triangles if rank_a < rank_b else triangles[:, ::-1]
 
     def surface(self, label, closed=True):
-        """The surface of a label, with what lies on the sides of the box unless closed is False.
+        """Returns the surface of a label; closed: with its facets on the sides of the box.
 
         >>> import mwmesh
         >>> mesh = mwmesh.mesh(mwmesh.synth("spheres", (20, 20, 20), labels=1, seed=1))
@@ -247,7 +247,7 @@ class Mesh:
         return Surface(self.points[rows], corners.reshape(-1, 3))
 
     def contacts(self):
-        """{(a, b): area} of the labels that touch, a < b."""
+        """Returns the contact areas of the labels that touch: {(a, b): area} with a < b."""
         labels = self.label_list()
         facets = self._facets()
         touch = facets.other >= 0
@@ -259,13 +259,13 @@ class Mesh:
                 for p, s in zip(known, sums)}
 
     def save(self, path, element="tet4"):
-        """Writes a file of any format of ``mwmesh convert``; nothing is under its name before it is
-        whole.  element: "tet4" or "tet10"."""
+        """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
+        it is whole.  element: "tet4" or "tet10"."""
         _core.write_mesh(self._core, path_bytes(path, "path"), text(element, "element"))
 
     def verify(self, volume, *, threads=0, memory=None, labels=None, background=None, merge=None,
                drop_specks=None, **place):
-        """Holds the mesh against its volume; arguments as of :func:`mwmesh.mesh`.
+        """Checks the mesh against its volume.  The arguments are those of :func:`mwmesh.mesh`.
 
         >>> import mwmesh
         >>> grains = mwmesh.synth("voronoi", (12, 10, 8), labels=3, seed=1)
@@ -279,7 +279,7 @@ class Mesh:
         return Verdict(_core.verify(self._core, volume, options))
 
     def _inner(self):
-        """Ranks of all labels but the one around them: two thirds of the box are at that."""
+        """Returns the ranks of all labels except the one that has two thirds of the box's sides."""
         facets = self._facets()
         box = facets.other < 0
         sums = np.bincount(facets.label[box], _areas(self.points, facets.triangles[box]),
@@ -288,8 +288,8 @@ class Mesh:
         return np.flatnonzero(inner if inner.any() else ~inner)
 
     def plot(self, labels=None, **arguments):
-        """Shows labels in a window, without a list all but the one around them; by pyvista, whose
-        plot() takes the arguments, else by vtk."""
+        """Shows these labels in a window, by default all except the one around them.  Uses pyvista
+        if it is installed, whose plot() takes the arguments, else vtk."""
         ranks = self._inner() if labels is None else [self._rank(label) for label in labels]
         seen = np.isin(self._ranks()[1], ranks)
         grid = Mesh(self.points, self.tets[seen], self.labels[seen], self.names).to_vtk()
@@ -300,20 +300,20 @@ class Mesh:
         return pyvista.wrap(grid).plot(**{"scalars": "label", **arguments})
 
     def _repr_png_(self):
-        """What a notebook shows, unless it would take long."""
+        """Returns the picture that a notebook shows, unless it would take long."""
         most = 2_000_000
         return _core.picture(self._core, 800, 600) if 0 < len(self.tets) <= most else None
 
     def to_meshio(self):
-        """A meshio.Mesh with the cell data "label" and names as field data {name: [label, 3]}."""
+        """Returns a meshio.Mesh with cell data "label"; names are field data {name: [label, 3]}."""
         meshio = _package("meshio")
         return meshio.Mesh(self.points, [("tetra", self.tets)], cell_data={"label": [self.labels]},
                            field_data={name: np.array([label, 3])
                                        for label, name in self.names.items()})
 
     def to_vtk(self):
-        """A vtkUnstructuredGrid with the cell array "label"; names and colours are the field arrays
-        "label_id", "label_name" and "label_colour", a row for each."""
+        """Returns a vtkUnstructuredGrid with the cell array "label".  Names and colours are the
+        field arrays "label_id", "label_name" and "label_colour", with a row for each label."""
         _package("vtkmodules")
         from vtkmodules.util import numpy_support
         from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
@@ -347,5 +347,5 @@ class Mesh:
         return grid
 
     def to_pyvista(self):
-        """A pyvista.UnstructuredGrid with the cell data "label"."""
+        """Returns a pyvista.UnstructuredGrid with the cell data "label"."""
         return _package("pyvista").wrap(self.to_vtk())

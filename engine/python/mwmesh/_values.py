@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""Arguments of callers as the core takes them.  What is of another kind is an error that names the
-argument; which numbers are allowed is the core's to say, the same for all who use it."""
+"""Converts arguments to the types that the core takes.  A value of another type is an error that
+names the argument; the core checks which numbers are allowed, the same for all its callers."""
 
 import contextlib
 import operator
@@ -14,13 +14,13 @@ from ._errors import Error, UsageError
 
 
 def unexpected(name, expected, value):
-    """The error for a value that is not what was expected."""
+    """Returns the error for a value that is not what was expected."""
     return UsageError(f"{name}: expected {expected}, got {value!r}")
 
 
 @contextlib.contextmanager
 def naming(name):
-    """Errors of the core name the argument."""
+    """Puts the name of the argument in front of the core's errors."""
     try:
         yield
     except Error as error:
@@ -28,8 +28,8 @@ def naming(name):
 
 
 def whole(value, name, bits=64):
-    """A whole number, as int, of numpy, or without a fraction; what a signed number of these bits
-    cannot hold becomes its nearest, which the core refuses."""
+    """Returns a whole number from an int, a number of numpy, or a float without a fraction.  What
+    a signed number of these bits cannot hold becomes the nearest, which the core refuses."""
     try:
         if isinstance(value, (bool, np.bool_)):
             raise TypeError
@@ -42,7 +42,7 @@ def whole(value, name, bits=64):
 
 
 def count(value, name):
-    """A whole number from 0 to 2^64 - 1."""
+    """Returns a whole number from 0 to 2^64 - 1."""
     number = whole(value, name, 80)
     if 0 <= number < 1 << 64:
         return number
@@ -50,21 +50,21 @@ def count(value, name):
 
 
 def switch(value, name):
-    """True or False."""
+    """Returns True or False."""
     if isinstance(value, (bool, np.bool_, int)) and value in (0, 1):
         return bool(value)
     raise unexpected(name, "True or False", value)
 
 
 def text(value, name):
-    """A string; None is an empty one."""
+    """Returns a string; None gives an empty one."""
     if value is None or isinstance(value, str):
         return value or ""
     raise unexpected(name, "a string", value)
 
 
 def path_bytes(value, name):
-    """The bytes of a path."""
+    """Returns the bytes of a path."""
     try:
         return os.fsencode(value)
     except TypeError:
@@ -72,7 +72,7 @@ def path_bytes(value, name):
 
 
 def numbers(value, name, expected, *shapes):
-    """An array of numbers of one of these shapes; None stands for any length."""
+    """Returns an array of numbers of one of these shapes; None stands for any length."""
     try:
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
@@ -84,14 +84,14 @@ def numbers(value, name, expected, *shapes):
 
 
 def three(value, name):
-    """(x, y, z), or one number for all of them; None stays."""
+    """Returns (x, y, z) from three numbers or from one for all of them; None stays None."""
     if value is None:
         return None
     return np.broadcast_to(numbers(value, name, "three numbers, or one", (), (3,)), 3).tolist()
 
 
 def whole_numbers(values, name):
-    """An array as integers of 64 bits, uint64 unless it is signed or of floats."""
+    """Returns an array as integers of 64 bits: int64 if it is signed or of floats, else uint64."""
     values = np.asarray(values)
     if values.dtype.kind in "bu":
         return values.astype(np.uint64)
@@ -106,14 +106,15 @@ def whole_numbers(values, name):
 
 
 def label(of, value, name):
-    """The label of a volume or a mesh that has this number or name, as 64 bits."""
+    """Returns the label of a volume or a mesh that has this number or name, as 64 bits."""
     digits = value if isinstance(value, str) else str(whole(value, name, 80))
     with naming(name):
         return _core.find_label(of, digits)
 
 
 def name_rows(of, names):
-    """names: {label: name}, a list of the names of labels 0, 1, 2 and so on, or a file of them."""
+    """Returns the core's rows of names.  names: {label: name}, a list of the names of labels 0, 1,
+    2 and so on, or a file of them."""
     if names is None:
         return []
     if isinstance(names, (str, bytes, os.PathLike)):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whatever holds labels, as a volume of the library."""
+"""Makes volumes of the library from files, arrays and images."""
 
 import os
 
@@ -13,18 +13,18 @@ from ._values import (name_rows, numbers, path_bytes, text, three, unexpected, w
 
 #: Arrays are indexed [z, y, x], as .npy, HDF5, Zarr and TIFF have them, unless told otherwise.
 AXES = ("zyx", "xyz")
-#: What says where and what of a source the volume is.
+#: The arguments that say which part of a source the volume is, and where it lies.
 PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
          "trust_paths")
 
 
 def _is_image(source):
-    """Whether it is a nibabel image."""
+    """Returns True if the source is a nibabel image."""
     return hasattr(source, "dataobj") and hasattr(source, "affine")
 
 
 def _image_array(image):
-    """The labels of a nibabel image as they are stored where nothing scales them."""
+    """Returns the labels of a nibabel image, as they are stored if nothing scales them."""
     proxy = image.dataobj
     slope, inter = getattr(proxy, "slope", 1), getattr(proxy, "inter", 0)
     if hasattr(proxy, "get_unscaled") and (slope, inter) == (1, 0):
@@ -55,8 +55,8 @@ def _space(spacing, origin, affine, frame, unit):
 
 
 def _chunk(array):
-    """The shape of what an array is stored in, in the order of its axes; zeros where it does not
-    say."""
+    """Returns the shape of an array's chunks, in the order of its axes; zeros where it does not say
+    that it has chunks."""
     chunks = getattr(array, "chunks", None)
     if not chunks or len(chunks) != 3:
         return [0, 0, 0]
@@ -126,8 +126,8 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
 
 
 def as_volume(source, *, names=None, **place):
-    """The library's volume of a path, a nibabel image, a numpy array, or an array that is read by
-    region (h5py, Zarr, dask: what has shape, dtype and slices).  See mwmesh.mesh()."""
+    """Returns a volume from a path, a nibabel image, a numpy array, or an array that is read by
+    region (h5py, Zarr, dask: an object with shape, dtype and slices).  See mwmesh.mesh()."""
     if not isinstance(source, _core.Volume):
         source = _volume(source, **{**dict.fromkeys(PLACE), **place})
     elif place:

@@ -32,8 +32,8 @@ struct BlockKey {
 ///                   vertices var; least x, y, z of their positions, zigzag var
 ///       a vertex:   id var, minus the one before; x, y, z var, minus the least;
 ///                   5 bytes: ten codes of 4 bits, one for each number of the quadric (a, b, c),
-///                   low bits first: 0..8 = so many high bytes of the double follow (the others are
-///                   0), 9 = the same as the first number; then those bytes, number by number
+///                   low bits first: 0..8 = how many high bytes of the double follow (the others
+///                   are 0), 9 = equal to the first number; then those bytes, number by number
 ///                   tets var
 ///       a tet:      first row var, minus that of the tet before; each next row var, minus the one
 ///                   before, minus 1; place of the label among the labels var

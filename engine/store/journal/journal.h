@@ -56,7 +56,7 @@ class Journal {
   /// ENSURES: the records survive a power cut, even those of a run that was killed before it synced
   /// them; the space of blocks that they replace may be used again.
   void replay(const std::function<void(const JournalRecord&)>& use);
-  /// The same for the first `count` records, of a journal that stays as it is.
+  /// Calls `use` for the first `count` records, and leaves the journal as it is.
   /// ERRORS: mw::Error(kInput) when there are fewer.
   void scan(std::uint64_t count, const std::function<void(const JournalRecord&)>& use);
   /// ENSURES: on return the record survives a power cut.

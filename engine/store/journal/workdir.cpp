@@ -75,7 +75,7 @@ std::string shown(const std::optional<std::string>& value) {
   return value ? io::printable(*value, kMaxShown) : "(not there)";
 }
 
-/// As identity_text() and the program write it.
+/// True if the text has only characters that identity_text() and the program write.
 bool is_plain(const std::string& text) {
   return std::all_of(text.begin(), text.end(),
                      [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });

@@ -16,8 +16,8 @@
 
 namespace mw::engine {
 
-/// A block as bytes in memory.  Whoever shares it pins it; its part of the budget is given back
-/// with the last pin.
+/// A block as bytes in memory.  Each owner of a shared pointer to it pins it; its part of the
+/// budget is given back with the last pin.
 struct EncodedBlock {
   std::vector<std::byte> bytes;
   std::uint64_t memory_bytes = 0;  ///< decoded
@@ -25,7 +25,7 @@ struct EncodedBlock {
 };
 using BlockPin = std::shared_ptr<const EncodedBlock>;
 
-/// A version of a block; it has at least one of the two.
+/// A version of a block, in memory (cached), on disk, or both.
 struct StoredBlock {
   BlockPin cached;
   std::uint64_t offset = 0;
@@ -38,7 +38,7 @@ struct StoredBlock {
   [[nodiscard]] bool empty() const { return cached == nullptr && size == 0; }
 };
 
-/// Memory for so many bytes of a table, which may evict blocks from it.
+/// Reserves memory for a table, and may evict blocks from that table to get it.
 using TableRoom = std::function<MemoryBudget::Reservation(std::uint64_t bytes)>;
 
 /// The blocks of a run by slot, in pages that are there as long as one of their blocks is: a
@@ -91,7 +91,7 @@ class BlockTable {
 
   /// REQUIRES: there is one.
   [[nodiscard]] StoredBlock& held(std::uint64_t slot);
-  /// Of an empty block, which must be filled next.
+  /// Returns an empty block of that slot, which must be filled next.
   [[nodiscard]] StoredBlock& fresh(std::uint64_t slot);
   void clear(std::uint64_t slot);
   [[nodiscard]] Turn turn(std::uint64_t slot) const;
@@ -109,9 +109,9 @@ class BlockTable {
   std::uint64_t bytes_written_ = 0;
 };
 
-/// Memory that the tables of a run take, blocks apart, with all their pages.
+/// Returns the bytes that the tables of a run take with all their pages, without the blocks.
 [[nodiscard]] std::uint64_t index_bytes(const RunLayout& layout);
-/// The same without any page, for a table that asks for room.
+/// What these tables take without any page, for a table that asks for room.
 [[nodiscard]] std::uint64_t least_index_bytes(const RunLayout& layout);
 
 /// What identifies the bytes of a version: the checksum that its encoding holds.

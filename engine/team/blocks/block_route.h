@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which window needs a block next, and which one left it: the flow of blocks between windows.
+// The flow of blocks between windows: which window needs a block next, and which one left it.
 #pragma once
 
 #include <optional>
@@ -19,14 +19,14 @@ class BlockRoute {
  public:
   explicit BlockRoute(const RunLayout& layout) : layout_(layout) {}
 
-  /// None: the output.  REQUIRES: the window covers the block, in its march.
+  /// Returns the next user; none if it is the output.  REQUIRES: the window covers the block.
   [[nodiscard]] std::optional<WindowKey> next_user(const BlockVersion& version) const;
 
-  /// What a window takes that another one has left, blocks ascending; a block that it is the first
-  /// to see is made from voxels in the first march, and from its parts in a later one.
+  /// Returns the versions that a window takes from other windows, blocks ascending.  A block that
+  /// it is the first to see is made from voxels in the first march, from its parts in a later one.
   [[nodiscard]] std::vector<BlockVersion> inputs(const WindowKey& key) const;
 
-  /// The version of a block that the output reads.  REQUIRES: a block of the last march.
+  /// Returns the version of a block that the output reads.  REQUIRES: a block of the last march.
   [[nodiscard]] BlockVersion last_version(const BlockKey& block) const;
 
  private:

@@ -68,7 +68,7 @@ void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<
     // No room: the march ends with it, if it still runs, or the output.
     return end(std::current_exception());
   }
-  ticket.reset();  // whoever finds no room now is not to wait for it
+  ticket.reset();  // a thread that finds no room now must not wait for this one
   note(version);
   ++received_;
   arrivals_.wake();
@@ -77,7 +77,7 @@ void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<
 void BlockTraffic::end(std::exception_ptr error) {
   team_.fail(error);
   arrivals_.fail(std::move(error));
-  const std::lock_guard lock(mutex_);  // whoever waits has looked before, or will after
+  const std::lock_guard lock(mutex_);  // a waiting thread has looked before, or will after
   changed_.notify_all();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Blocks between the processes of a run: each version goes to the one that needs it next.
+// Sends blocks between the processes of a run: each version goes to the one that needs it next.
 #pragma once
 
 #include <atomic>
@@ -15,16 +15,16 @@
 
 namespace mw::engine {
 
-/// Where the blocks go that the last march leaves.
+/// Where the blocks of the last march go.
 enum class FinalBlocksGo : std::uint8_t {
   kToFirst,   ///< rank 0 writes the mesh
   kToOwners,  ///< of lines (line_share.h): all write it together
 };
 
-/// Who gets them.
+/// Which rank gets each block of the last march.
 struct FinalUsers {
   FinalBlocksGo go = FinalBlocksGo::kToFirst;
-  std::int64_t lines_y = 1;           ///< of blocks
+  std::int64_t lines_y = 1;           ///< number of lines of blocks along y
   std::vector<std::uint32_t> owners;  ///< by line; only kToOwners
 
   [[nodiscard]] int rank_of(Index3 block) const {
@@ -41,7 +41,7 @@ struct TrafficFacts {
 
 /// Sends versions whose next user is elsewhere, takes in those that come, and counts the inputs of
 /// own windows.  Nobody asks for a block: it comes as soon as it is ready.
-/// Thread safety: as BlockRouter; the others from one thread.
+/// Thread safety: that of BlockRouter for its members; the others are called from one thread.
 class BlockTraffic : public BlockRouter {
  public:
   /// The references outlive it.
@@ -51,7 +51,7 @@ class BlockTraffic : public BlockRouter {
         team_(team),
         sent_to_(static_cast<std::size_t>(team.ranks())) {}
 
-  /// While it lives, what comes goes into the store.
+  /// While the result lives, blocks that come in go into the store.
   class Attached {
    public:
     Attached(BlockTraffic& traffic, RunStore& store);
@@ -64,10 +64,10 @@ class BlockTraffic : public BlockRouter {
     BlockTraffic& traffic_;
   };
 
-  /// Before anything is committed.
+  /// To be called before anything is committed.
   void deal(Partition partition, FinalBlocksGo go);
   [[nodiscard]] FinalBlocksGo final_blocks_go() const { return final_users_.go; }
-  /// By line of the final blocks.  REQUIRES: kToOwners.
+  /// Returns the owners by line of the final blocks.  REQUIRES: kToOwners.
   [[nodiscard]] const std::vector<std::uint32_t>& line_owners() const {
     return final_users_.owners;
   }
@@ -81,12 +81,12 @@ class BlockTraffic : public BlockRouter {
   }
   [[nodiscard]] TrafficFacts facts() const;
 
-  /// The last number that another rank has signalled; they only grow.
+  /// Returns the last number that another rank has signalled; these numbers only grow.
   [[nodiscard]] std::uint64_t signalled() const { return signalled_; }
-  /// Parcels that were sent to each rank, and those that are in the store here.
+  /// Return how many parcels were sent to each rank, and how many are in the store here.
   [[nodiscard]] std::vector<std::uint64_t> sent_to() const;
   [[nodiscard]] std::uint64_t received() const { return received_; }
-  /// Ends march and output of all ranks with this error.
+  /// Ends the march and the output of all ranks with this error.
   void end(std::exception_ptr error);
 
   /// Waits until all blocks of the last march that go to this rank are in the store.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Room in the budget for blocks that are about to come in.
+// Memory that is reserved in the budget for blocks that are about to come in.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace mw::engine {
 
-/// Each message on its way has a ticket, which may outlive the run: MPI ends what it has begun.
+/// Each message on its way has a ticket, which may outlive the run, as MPI ends what it has begun.
 /// Thread safety: all members may be called from many threads.
 class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
  public:
@@ -19,14 +19,14 @@ class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
     return std::shared_ptr<IncomingRooms>(new IncomingRooms(store));
   }
 
-  /// A ticket for a block of so many encoded bytes; null where there is no room, or after close().
+  /// Returns a ticket for a block of this size; null where there is no room, or after close().
   [[nodiscard]] std::shared_ptr<void> take(std::uint64_t encoded_bytes);
-  /// What the ticket stands for; it stays counted until it is gone.  Nothing without a ticket, or
-  /// after close().
+  /// Returns the reservation that the ticket stands for, which counts until it is destroyed; none
+  /// without a ticket, or after close().
   [[nodiscard]] MemoryBudget::Reservation claim(const std::shared_ptr<void>& ticket);
-  /// Whether there are tickets.
+  /// True if there are tickets.
   [[nodiscard]] bool is_empty() const;
-  /// All rooms are given back, and nothing is taken any more.
+  /// Gives back all reservations, and takes no more.
   void close();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which process visits which window.
+// Decides which process visits which window.
 #pragma once
 
 #include <span>
@@ -21,18 +21,18 @@ namespace mw::engine {
 /// Nothing here changes the result.
 class Partition {
  public:
-  /// Everything to one process.
+  /// Deals all windows to one process.
   Partition() = default;
-  /// row_costs: of the first march's rows, y fastest; empty: all alike.
-  /// REQUIRES: ranks >= 1; none of the costs negative.
+  /// row_costs: the costs of the first march's rows, y fastest; empty if all are equal.
+  /// REQUIRES: ranks >= 1; no cost is negative.
   Partition(const RunLayout& layout, Order order, int ranks,
             std::span<const double> row_costs = {});
-  /// From owners(), for processes that are told rather than count.
-  /// REQUIRES: as many as the first march has rows.
+  /// Takes owners() of another process, for those that do not compute it.
+  /// REQUIRES: there are as many as the first march has rows.
   Partition(const RunLayout& layout, std::vector<std::uint32_t> owners);
 
   [[nodiscard]] int rank_of(const WindowKey& key) const;
-  /// Ranks by row of the first march, y fastest.
+  /// Returns the rank of each row of the first march, y fastest.
   [[nodiscard]] const std::vector<std::uint32_t>& owners() const { return owners_; }
 
  private:

@@ -69,7 +69,7 @@ void PartRows::count(Index3 block, std::span<const BlockVertex> vertices) {
   }
 }
 
-/// Of a vertex whose first own block that is.
+/// Notes the local row of a vertex that no own block before this one references.
 void PartRows::note(std::uint64_t block, const BlockVertex& vertex, std::uint64_t local) {
   const Index3 home = uses_.home(vertex.position);
   const std::size_t line = uses_.line(home);

@@ -11,24 +11,24 @@ namespace mw::engine {
 // for all blocks.  Here a process knows its own blocks only, whole lines of them.  It numbers their
 // vertices by itself (local rows), and has to learn of which ones the first block is another's, and
 // which rows these have.  A vertex that two processes reference is known to the owner of its home
-// line, its judge: whoever references it and is not the judge claims it.
+// line, its judge: each process that references it and is not the judge claims it.
 //
 //   1  each claims; 2  the judge answers which block is first of all; now each knows how many of
 //   its vertices are new in each of its lines, and with those of all lines where its rows begin; 3
-//   whoever has the first block tells the judge the row; 4  the judge tells the others.
+//   the process with the first block tells the judge the row; 4  the judge tells the others.
 
-/// Numbers by rank, then by claim.
+/// A number for each claim: first by rank, then by the place of the claim in that rank's list.
 using ClaimLists = std::vector<std::vector<std::uint64_t>>;
 
-/// Of a claim: not to be told.
+/// Marks a claim whose answer is told to nobody.
 inline constexpr std::uint64_t kNoRow = ~std::uint64_t{0};
 
-/// What a claim takes that is made, and one that is judged, beside VertexRows: themselves, lists of
-/// numbers to and from other processes, and these as bytes of messages.
+/// The bytes of a claim that is made and of one that is judged, beside VertexRows: the claim, lists
+/// of numbers to and from other processes, and these as bytes of messages.
 inline constexpr std::uint64_t kBytesPerClaim = 2 * sizeof(Claim) + 8 + 16 + 4 * 8;
 inline constexpr std::uint64_t kBytesPerJudged = 2 * sizeof(Claim) + 40 + 8 + 16 + 4 * 8;
 
-/// Pure: messages are the caller's to carry.  Members are called in the order in which they stand.
+/// Sends nothing: the caller carries messages.  Members are to be called in the order given here.
 /// Memory: kBytesPerClaim and kBytesPerJudged, 24 bytes a line, and VertexRows, of own blocks.
 /// Cost: O(log) a vertex.
 class PartRows {
@@ -38,33 +38,33 @@ class PartRows {
   PartRows(const LineShare& share, VertexUses uses, std::vector<std::vector<Claim>> mine,
            const std::vector<std::vector<Claim>>& theirs);
 
-  /// Once each own block, ascending, with its vertices ascending by id.
+  /// To be called once for each own block, ascending, with its vertices ascending by id.
   void count(Index3 block, std::span<const BlockVertex> vertices);
-  /// Of their claims: the first block of all that reference the vertex.
+  /// Returns for each claim of theirs the first of all blocks that reference the vertex.
   [[nodiscard]] ClaimLists firsts() const;
-  /// The same of mine.
+  /// Takes what the judges' firsts() returned for the claims of this process.
   void take_firsts(const ClaimLists& firsts);
-  /// By own line, ascending: how many vertices have their first block in it.
+  /// Returns for each own line, ascending, how many vertices have their first block in it.
   [[nodiscard]] std::vector<std::uint64_t> new_vertices() const;
-  /// By own line: the row of the first of them.
+  /// Takes for each own line the row of the first of these vertices.
   void place(std::span<const std::uint64_t> first_rows);
-  /// Of my claims: the row, where the first block is own.
+  /// Returns for each claim of this process the row where the first block is own, else kNoRow.
   [[nodiscard]] ClaimLists given_rows() const;
-  /// The same of theirs.
+  /// Takes what the other processes' given_rows() returned for the claims that are judged here.
   void take_given_rows(const ClaimLists& rows);
-  /// Of their claims: the row.
+  /// Returns for each claim of theirs the row of the vertex.
   [[nodiscard]] ClaimLists found_rows() const;
-  /// The same of mine.
+  /// Takes what the judges' found_rows() returned for the claims of this process.
   void take_found_rows(const ClaimLists& rows);
 
   struct Assigned {
     std::vector<std::uint64_t> rows;  ///< of the whole mesh, by vertex
     std::vector<std::size_t> added;   ///< vertices whose first block this is
   };
-  /// As count(), once more.
+  /// Returns the rows of a block's vertices.  To be called in the order of the calls of count().
   [[nodiscard]] Assigned assign(Index3 block, std::span<const BlockVertex> vertices);
 
-  /// See VertexRows.
+  /// Returns VertexRows::remembered().
   [[nodiscard]] std::size_t remembered() const { return rows_.remembered(); }
 
  private:
@@ -79,7 +79,7 @@ class PartRows {
     std::uint64_t local = 0;
     std::uint64_t row = kNoRow;
   };
-  /// An own line.
+  /// A line of this process.
   struct Line {
     std::uint64_t first_local = 0;
     std::uint64_t foreign_before = 0;

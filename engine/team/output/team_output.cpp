@@ -57,7 +57,7 @@ OutputOptions asked_by_first(Team& team, OutputOptions options) {
   return options;
 }
 
-/// Of all ranks, on rank 0.
+/// Adds up the figures of all ranks, on rank 0.
 void add_up(Team& team, BlockFigures& mine) {
   if (mine.quality) {
     audit::QualityMeter sum;

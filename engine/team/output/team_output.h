@@ -10,18 +10,18 @@
 
 namespace mw::engine {
 
-/// Whether all ranks write the mesh: if rank 0 is given one, which it has made, the others join it.
+/// Returns true if all ranks write the mesh: the others join it if rank 0 gives one that it made.
 /// Returns when every rank has come here.  mesh: null on a rank that cannot write together.
-/// ERRORS: mw::Error(kUsage) of a rank that is to join and cannot; as SharedMesh::join().
+/// ERRORS: those of SharedMesh::join(); mw::Error(kUsage) of a rank that has to join and cannot.
 [[nodiscard]] bool join_output(Team& team, io::SharedMesh* mesh);
 
-/// finish() by all ranks: each writes the rows of its own lines, rank 0 gives the file its name.
-/// blocks: own ones.  REQUIRES: join_output().
+/// Does what finish() does by all ranks: each writes the rows of its own lines, rank 0 gives the
+/// file its name.  blocks: those of this rank.  REQUIRES: join_output() returned true.
 /// ENSURES: the bytes are those of finish() by one process.  Every rank gets the counts; rank 0
-/// what it asks to be measured, the same as finish(), but for the shape of interfaces, which needs
-/// the whole mesh to pass by one process: FinishedMesh::shape stays empty.
-/// Each reads its blocks three times: who references what, which rows are new, and to write.
-/// Memory: as finish() of own blocks; 16 bytes a line of all blocks; PartRows and the claims that
+/// all that it asks to be measured, as finish() does, except the shape of interfaces: that needs
+/// the whole mesh to pass by one process, so FinishedMesh::shape stays empty.
+/// Each reads its blocks three times: for what they reference, for new rows, and to write.
+/// Memory: that of finish() of own blocks; 16 bytes a line of all blocks; PartRows and claims that
 /// it takes, which grow with the faces between this rank's lines and others'; 24 bytes a label
 /// where something is measured.  ERRORS: those of any rank.
 FinishedMesh finish_together(Team& team, const LineShare& share, FinalBlocks& blocks,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Moments at which a run of several processes becomes durable.
+// Epochs: the checkpoints of a run of several processes.
 #pragma once
 
 #include <atomic>
@@ -12,20 +12,20 @@
 
 namespace mw::engine {
 
-/// Now and then all ranks start no window until none runs and no block is on its way; then each
-/// makes what it has durable, rank 0 counts the epoch, and the march goes on.  What was durable
-/// before stays so until the epoch counts: a kill at any time leaves the last one that did.
+/// For each checkpoint all ranks start no window until none runs and no block is on its way; then
+/// each makes what it has durable, rank 0 counts the epoch, and the march goes on.  What was
+/// durable before stays so until the epoch counts: after a kill the last one that did is there.
 ///
-/// A thread a rank.  Rank 0 begins epochs, the others follow.
+/// Each rank has a thread for it.  Rank 0 begins epochs, the others follow.
 /// Thread safety: one thread makes, ends and destroys it.
 class Epochs {
  public:
   struct Options {
     std::chrono::milliseconds every{300'000};
-    /// By rank 0, when all ranks have saved their number so-and-so; on return it survives a power
-    /// cut.
+    /// Called on rank 0 when all ranks have saved the epoch of this number.  ENSURES: on return it
+    /// survives a power cut.
     std::function<void(std::uint64_t epochs)> count;
-    /// Asked often, on rank 0; true: an epoch, then StoppedAfterSave.  Optional.
+    /// Optional: is asked often on rank 0; true asks for an epoch and then StoppedAfterSave.
     std::function<bool()> stop;
   };
 
@@ -36,12 +36,12 @@ class Epochs {
   /// REQUIRES: end() was called, or some rank has failed.
   ~Epochs();
 
-  /// One now, before the march begins.  ERRORS: those of the store; that of another rank.
+  /// Makes one now, before the march begins.  ERRORS: those of the store; that of another rank.
   void save_now() { run_one(); }
-  /// From now on they come by themselves.  An error of one ends march and output.
+  /// Makes epochs by itself from now on.  An error of one ends march and output.
   void start();
-  /// No more of them.  All ranks call it, after the last window of all; rank 0 before the others
-  /// are waited for.
+  /// Makes no more epochs.  All ranks call it after the last window of all, rank 0 before it waits
+  /// for the others.
   void end();
 
  private:

@@ -41,7 +41,7 @@ void SavedRun::scan(std::size_t folder, std::uint64_t epochs) {
   }
 }
 
-/// As BlockTable::restore; an empty one has gone to another process, or into a larger block.
+/// Does what BlockTable::restore() does; an empty block went to another process or a larger block.
 void SavedRun::take(std::size_t folder, const JournalBlock& block,
                     std::map<std::uint64_t, JournalBlock>& blocks) const {
   if (block.slot >= layout_.slots()) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What the processes of an earlier run left in their folders, for other processes to go on from.
+// The checkpoint that the processes of an earlier run left in their folders, to go on from.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace mw::engine {
 
-/// A block as the last epoch has it.
+/// A block in the version of the last epoch.
 struct SavedBlock {
   BlockVersion version;
   std::uint64_t memory_bytes = 0;  ///< decoded
@@ -26,15 +26,15 @@ struct SavedBlock {
 /// at once; nothing is changed.
 class SavedRun {
  public:
-  /// folders: one a process of that run; epochs: records of each journal that count.
-  /// ERRORS: mw::Error(kInput) when they are damaged, or do not fit together.
+  /// folders: one for each process of that run; epochs: how many records of each journal count.
+  /// ERRORS: mw::Error(kInput) when the folders are damaged, or do not fit together.
   SavedRun(const RunLayout& layout, std::vector<std::filesystem::path> folders,
            std::uint64_t epochs);
 
   [[nodiscard]] const DoneWindows& done() const { return done_; }
-  /// All blocks that some window or the output still needs, ascending.
+  /// Returns all blocks that some window or the output still needs, ascending.
   void for_each_block(const std::function<void(const SavedBlock&)>& use) const;
-  /// Its bytes.  ERRORS: mw::Error(kInput) when they are not those that were written.
+  /// Returns the bytes of a block.  ERRORS: mw::Error(kInput) when they differ from those written.
   [[nodiscard]] std::vector<std::byte> read(const SavedBlock& block) const;
 
  private:

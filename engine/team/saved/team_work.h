@@ -19,11 +19,11 @@ namespace mw::engine {
 /// what is needed, counts an epoch, and only then the generation before goes.
 class TeamWork {
  public:
-  /// All ranks make one, with the same arguments.
-  /// ERRORS: mw::Error(kUsage) as Workdir; kInput when `epochs` is damaged.
+  /// REQUIRES: all ranks make one with the same arguments.
+  /// ERRORS: mw::Error(kUsage) when Workdir has it; kInput when the file `epochs` is damaged.
   TeamWork(Team& team, const std::filesystem::path& folder, bool resume,
            const std::string& identity);
-  /// Removes what does not count.
+  /// Removes the folders of this generation if they are empty.
   ~TeamWork();
   TeamWork(const TeamWork&) = delete;
   TeamWork& operator=(const TeamWork&) = delete;
@@ -31,16 +31,16 @@ class TeamWork {
   [[nodiscard]] Workdir& own() { return *own_; }
   [[nodiscard]] const std::filesystem::path& own_folder() const { return own_folder_; }
 
-  /// What the generation before left; empty: nothing.
+  /// Returns the folders that the generation before left; empty if there is none.
   [[nodiscard]] std::vector<std::filesystem::path> folders_before() const;
   [[nodiscard]] std::uint64_t epochs_before() const { return before_ ? before_->epochs : 0; }
 
-  /// By rank 0: so many epochs of this generation count from now on.
+  /// Makes the first `epochs` epochs of this generation count.  To be called by rank 0 only.
   void count(std::uint64_t epochs);
-  /// Whether there is anything to go on from.
+  /// True if there is anything to go on from.
   [[nodiscard]] bool has_saved_work() const { return before_.has_value() || counted_ > 0; }
-  /// The mesh is complete: nothing will be gone on from.  By all ranks; before the last of them
-  /// ends.
+  /// To be called by all ranks, before the last of them ends, when the mesh is complete, so that no
+  /// run will go on from this one.
   void discard();
 
  private:

@@ -17,7 +17,7 @@ namespace mw::io {
 /// that cannot sync a folder say so, and that is not the user's problem: nothing else would help.
 void sync_folder(const std::filesystem::path& folder);
 
-/// Where rows of columns go, whoever has made the file.
+/// Where rows of columns go, in a file that this process or another has made.
 class PlacedOutput {
  public:
   virtual ~PlacedOutput() = default;

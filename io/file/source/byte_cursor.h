@@ -27,11 +27,11 @@ class ByteCursor {
   /// Fills out; false, and nothing is taken, when fewer are left.
   [[nodiscard]] bool read(std::span<std::byte> out);
   /// Up to the end of the line, which is taken but not in `out` (nor is a '\r' in front of it); at
-  /// most `most` characters, the rest is for the next call.  False at the end of all.
+  /// most `max` characters, the rest is for the next call.  False at the end of all.
   [[nodiscard]] bool read_line(std::string& out, std::size_t max);
 
   [[nodiscard]] std::uint64_t offset() const { return loaded_ - buffer_.size() + at_; }
-  /// The bytes that follow, counted up to `most`.
+  /// The bytes that follow, counted up to `max`.
   [[nodiscard]] std::uint64_t left(std::uint64_t max) const;
   /// Counted from 1 by line ends that take() and read_line() saw.
   [[nodiscard]] std::uint64_t line() const { return line_; }

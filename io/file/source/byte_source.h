@@ -21,7 +21,7 @@ namespace mw::io {
   return a + std::min(b, ~a);
 }
 
-/// The same for the product.
+/// The product of two numbers of a file, or the largest number when it is larger.
 [[nodiscard]] inline std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
   return b != 0 && a > kMax / b ? kMax : a * b;
@@ -32,7 +32,7 @@ class ByteSource {
  public:
   virtual ~ByteSource() = default;
   [[nodiscard]] virtual std::uint64_t size() const = 0;
-  /// The size, but at most `most`: a source that is packed unpacks so much, not all.
+  /// Returns the size, or max if that is less: a packed source unpacks no more than max bytes.
   [[nodiscard]] virtual std::uint64_t size_within(std::uint64_t max) const {
     return std::min(size(), max);
   }
@@ -64,10 +64,10 @@ class BytesPart : public ByteSource {
   std::string name_;
 };
 
-/// The first `length` bytes, or all when there are fewer.
+/// Returns the first `length` bytes, or all when there are fewer.
 [[nodiscard]] std::vector<std::byte> read_prefix(const ByteSource& source, std::size_t length);
 
-/// All of it as text; nothing when that is more than `most` bytes.
+/// Returns all bytes as text; nothing when they are more than `max`.
 [[nodiscard]] std::optional<std::string> read_whole(const ByteSource& source, std::uint64_t max);
 
 }  // namespace mw::io

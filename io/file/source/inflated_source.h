@@ -30,7 +30,7 @@ struct DeflatedBytes {
   std::string field = "gzip data";  ///< what errors call them
 };
 
-/// Whether so many packed bytes can hold so many: deflate cannot pack tighter than 1 to 1032.
+/// True if `packed` bytes of deflate can unpack to `bytes`: it cannot pack tighter than 1 to 1032.
 [[nodiscard]] bool can_inflate_to(std::uint64_t packed, std::uint64_t bytes);
 
 /// ERRORS of all: mw::Error(kInput) naming file and place when truncated or corrupt.
@@ -66,8 +66,8 @@ class Inflater {
                                                              const DeflatedBytes& deflated,
                                                              std::uint64_t bytes);
 
-/// Three quarters of what is free now where temporary files go: others need the disk, too.
-/// Bytes; all of them where the system does not know.
+/// Returns three quarters of the bytes that are free now where temporary files go, as others need
+/// the disk, too; the largest number where the system does not know.
 [[nodiscard]] std::uint64_t room_to_inflate();
 
 /// The bytes wait in an unlinked temporary file in $TMPDIR or /tmp, so that memory stays bounded
@@ -77,8 +77,8 @@ class Inflater {
 /// would be unpacked than may be, or the disk is full.  Thread safety: that of a ByteSource.
 class InflatedSource : public ByteSource {
  public:
-  /// The gzip data that begin at offset.  most: bytes that may be unpacked of them.
-  /// ERRORS: kInput when there are none.
+  /// Takes the gzip data that begin at offset.  max: how many bytes may be unpacked of them.
+  /// ERRORS: kInput when no gzip data begin there.
   InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset,
                  std::uint64_t max = room_to_inflate());
 

@@ -36,9 +36,9 @@ struct ApartAnswer {
 class ApartStream {
  public:
   explicit ApartStream(int fd) : fd_(fd) {}
-  /// How many bytes came, up to the size of out; 0 when there will be no more.
+  /// Returns how many bytes came, at most the size of out; 0 when there will be no more.
   [[nodiscard]] std::size_t read_some(std::span<std::byte> out);
-  /// Whether so many came.
+  /// True if all of out was filled; false if the stream ended before.
   [[nodiscard]] bool read(std::span<std::byte> out);
 
  private:
@@ -47,15 +47,15 @@ class ApartStream {
 
 using SendBytes = std::function<void(std::span<const std::byte>)>;
 
-/// The same for work that sends as it goes along; limits.answer_bytes does not matter.
-/// consume: takes in this process what comes, while it comes; what it throws ends the child.  It is
-/// to take no end for a good one: errors and deaths are known only afterwards.
+/// Runs work apart as run_apart() does, but it sends as it goes; limits.answer_bytes has no effect.
+/// consume: takes in this process what comes, while it comes; what it throws ends the child.  It
+/// must not take an end of the stream for success: errors and deaths are known only afterwards.
 /// ENSURES: returns how the work died, nothing when it came to its end.
 [[nodiscard]] std::string stream_apart(const ApartLimits& limits,
                                        const std::function<void(const SendBytes&)>& work,
                                        const std::function<void(ApartStream&)>& consume);
 
-/// Inside of work: lets it take so many seconds of a processor from its start on.
+/// To be called inside of work: lets it take this much processor time, counted from its start.
 void allow_cpu_seconds(std::uint64_t seconds);
 
 }  // namespace mw::io

@@ -15,28 +15,28 @@ class MshInput {
 
   [[nodiscard]] bool ascii() const { return ascii_; }
   [[nodiscard]] const std::string& name() const { return cursor_.source().name(); }
-  /// From now on numbers are bytes.
+  /// Reads numbers as bytes from now on.
   void set_binary(ByteOrder order);
-  /// The next line that is not blank, without blanks at its ends.  Valid until the next call of
-  /// any.
+  /// Returns the next line that is not blank, without blanks at its ends.  It is valid until the
+  /// next call of any member.
   [[nodiscard]] std::string_view next_line(std::string_view expected);
-  /// The name of the section that begins here: "Nodes"; empty at the end of the file.
+  /// Returns the name of the section that begins here, "Nodes"; empty at the end of the file.
   [[nodiscard]] std::string next_section();
-  /// The line "$End<section>", which comes here.
+  /// Reads the line "$End<section>", which must come here.
   void end_section(std::string_view section);
-  /// Up to and with that line.
+  /// Skips all up to that line, and the line.
   void skip_section(std::string_view section);
 
-  /// 32 bits in bytes.
+  /// Reads an integer, of 32 bits in binary.
   [[nodiscard]] std::int64_t integer(std::string_view expected);
-  /// Not negative; 64 bits in bytes.
+  /// Reads a number that is not negative, of 64 bits in binary.
   [[nodiscard]] std::uint64_t count(std::string_view expected);
-  /// Finite.
+  /// Reads a finite number.
   [[nodiscard]] double real(std::string_view expected);
-  /// Reals that do not matter, finite or not.
+  /// Skips reals that do not matter, finite or not.
   void skip_reals(std::int64_t how_many);
-  /// Such a number that each row of so many bytes at least (in binary; of so many numbers in text)
-  /// could still come: a damaged one cannot ask for all memory.
+  /// Fails unless the rest of the file can hold these rows, of at least `bytes` each in binary, or
+  /// `numbers` in text: so a damaged count cannot ask for all memory.
   void check_rows(std::uint64_t rows, std::uint64_t bytes, std::uint64_t numbers) const;
 
   [[noreturn]] void fail(std::string_view reason) const;

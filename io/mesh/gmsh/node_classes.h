@@ -24,7 +24,7 @@ class NodeClasses {
   NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder);
 
   [[nodiscard]] std::size_t entities() const { return boxes_.size(); }
-  /// Of all nodes that the entity has, on it or on its edge; zeros when there are none.
+  /// The box of all nodes of the entity, on it or on its edge; zeros when there are none.
   [[nodiscard]] const EntityBox& box(std::size_t entity) const { return boxes_[entity]; }
   /// The places in row() of the nodes on it.
   [[nodiscard]] const RowRange& nodes(std::size_t entity) const { return nodes_[entity]; }

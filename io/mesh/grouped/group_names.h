@@ -28,8 +28,8 @@ class GroupNames {
 
   /// The label's name; "label_7" where it has none, "name (7)" where another has the same.
   [[nodiscard]] const std::string& volume(Label rank) const { return volumes_[rank]; }
-  /// Of an interface the names of both, lower label first, as "liver|kidney"; of others the side.
-  /// So all groups of one side have the same name, whatever their label.
+  /// The names of both labels of an interface, the lower label first: "liver|kidney".  Facets on a
+  /// side of the box have the name of that side, which is the same for all labels.
   [[nodiscard]] std::string facets(const FacetGroup& group) const;
 
  private:

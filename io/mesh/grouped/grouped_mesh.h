@@ -72,16 +72,16 @@ class NodeRows {
 /// ERRORS (of all that look something up): see ScratchFile.  Thread safety: none.
 class GroupedMesh {
  public:
-  /// As the mesh came with it.
+  /// Returns the header that the mesh came with.
   [[nodiscard]] const MeshHeader& header() const { return header_; }
   /// The labels that occur, ascending; label groups and facet groups hold their ranks.
   [[nodiscard]] const LabelTable& table() const { return table_; }
   [[nodiscard]] const LabelNames& names() const { return header_.names; }
-  /// Where the file of the mesh told of no box, that of the vertices along the world's axes.
+  /// Returns the box in the mesh's file; if it has none, that of the vertices along world axes.
   [[nodiscard]] const MeshBox& box() const { return box_; }
   [[nodiscard]] Element element() const { return element_; }
 
-  /// Vertices, and with kTet10 as many more nodes as the mesh has edges.
+  /// Return the number of vertices, and of nodes: with kTet10 each edge adds one.
   [[nodiscard]] std::uint64_t vertex_count() const { return vertices_.size(); }
   [[nodiscard]] std::uint64_t node_count() const { return vertices_.size() + edges_.size(); }
   /// Position of a node.  REQUIRES: row < node_count().
@@ -91,14 +91,14 @@ class GroupedMesh {
   /// normal of the first three points at the fourth.  (Of a flat one they are as they came.)
   [[nodiscard]] std::uint64_t tet_count() const { return tets_.size(); }
   [[nodiscard]] TetRows tet(std::uint64_t number) { return tets_[number]; }
-  /// By rank of label.
+  /// Returns the numbers of each label's tets, by rank of label.
   [[nodiscard]] const std::vector<RowRange>& label_tets() const { return label_tets_; }
   [[nodiscard]] Label label_of(std::uint64_t tet) const;
   /// Rows of the middles of kTetEdges.  REQUIRES: kTet10.
   [[nodiscard]] std::array<std::uint64_t, 6> middles(std::uint64_t tet) { return middles_[tet]; }
   [[nodiscard]] NodeRows tet_nodes(std::uint64_t number);
 
-  /// Ascending by side, first, second.
+  /// Returns the groups, ascending by side, first, second.
   [[nodiscard]] const std::vector<FacetGroup>& facet_groups() const { return facet_groups_; }
   [[nodiscard]] std::uint64_t facet_count() const { return facets_.size(); }
   /// Facets are numbered by group, in a group by tet.

@@ -18,7 +18,7 @@ constexpr std::uint64_t kMaxPacking = 1040;
 /// Keeps products of counts and sizes within 64 bits.
 constexpr std::uint64_t kMaxRows = std::uint64_t{1} << 56;
 
-/// Of a file that a slow processor unpacks and checks.
+/// How many bytes of a file a slow processor unpacks and checks in a second.
 constexpr std::uint64_t kBytesPerSecond = 1 << 20;
 
 void check_finite(const Hdf5Array& points, std::uint64_t first,

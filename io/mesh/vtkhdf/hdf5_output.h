@@ -15,8 +15,8 @@
 
 namespace mw::io {
 
-/// Gives out the bytes of a file one behind the other: whoever asks for the same in the same order
-/// gets the same addresses.
+/// Gives out the bytes of a file one behind the other: processes that ask for the same sizes in the
+/// same order get the same addresses.
 class Hdf5Rooms {
  public:
   /// Room for a data set: the address of its first byte.
@@ -44,19 +44,19 @@ class Hdf5Output {
 
   [[nodiscard]] Hdf5Rooms& rooms() { return rooms_; }
   [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes) { return rooms_.reserve(bytes); }
-  /// The file gets the size of what is reserved.
+  /// Gives the file the size of what is reserved.
   void extend() { file_.resize(rooms_.next()); }
   [[nodiscard]] AtomicFile& file() { return file_; }
-  /// Where it is until the commit.
+  /// Returns the path of the file until the commit.
   [[nodiscard]] const std::filesystem::path& partial() const { return file_.partial(); }
 
-  /// A data set of these bytes.
+  /// Writes a data set of these bytes.
   [[nodiscard]] Hdf5DataSet add(Hdf5DataSet set, std::span<const std::byte> bytes) {
     set.address = reserve(bytes.size());
     file_.write_at(set.address, bytes);
     return set;
   }
-  /// A data set of kText.
+  /// Writes a data set of kText.
   [[nodiscard]] Hdf5DataSet add_texts(const std::string& name, std::span<const std::string> texts) {
     const Hdf5Texts all = hdf5_texts(texts, rooms_.next());
     file_.write_at(reserve(all.heap.size()), std::as_bytes(std::span(all.heap)));
@@ -64,9 +64,9 @@ class Hdf5Output {
                std::as_bytes(std::span(all.positions)));
   }
 
-  /// REQUIRES: the data of all sets are written.
+  /// Finishes the file and gives it its name.  REQUIRES: the data of all sets are written.
   void commit(const Hdf5Group& root) { finish(root).commit(); }
-  /// The same up to the commit, which may be one with other files (commit_together.h).
+  /// Finishes the file without the commit, which may be one with other files (commit_together.h).
   [[nodiscard]] AtomicFile& finish(const Hdf5Group& root) {
     const Hdf5Metadata metadata = hdf5_metadata(root, rooms_.next());
     file_.write_at(rooms_.next(), std::as_bytes(std::span(metadata.tail)));

@@ -98,9 +98,9 @@ void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink);
 
 /// Writes what VTK reads, in a group FieldData of `grid`: the arrays of field_names.h.  Strings
 /// have a variable length and are declared ASCII, though they are UTF-8: VTK 9.1 reads no others.
-/// What we read: the numbers there, and in `file` the names once more, `mwmesh/label_name`, bytes
-/// with a NUL behind each.  The HDF5 library does not survive damaged strings of variable length.
-/// Nothing without names.  The record is `mwmesh/record`, bytes too.
+/// What we read: the numbers there, and a second copy of the names in `file`, `mwmesh/label_name`,
+/// bytes with a NUL behind each: the HDF5 library does not survive damaged strings of variable
+/// length.  Without names nothing is written.  The record is `mwmesh/record`, bytes too.
 /// ENSURES: file and grid have the groups that there are.  ERRORS: as Hdf5Output.
 void add_vtkhdf_facts(Hdf5Output& output, const MeshHeader& header, Hdf5Group& file,
                       Hdf5Group& grid);

@@ -19,7 +19,7 @@ Position minus(const Position& a, const Position& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// Of length 1; 0 0 0 where the corners are on one line.
+/// Returns the normal of length 1; 0 0 0 where the corners are on one line.
 Position normal_of(const std::array<Position, 3>& corners) {
   const Position u = minus(corners[1], corners[0]);
   const Position v = minus(corners[2], corners[0]);

@@ -63,7 +63,7 @@ bool is_feature_ids(const Hdf5Entry& entry) {
          (entry.path.starts_with("/DataContainers/") || entry.path.starts_with("/DataStructure/"));
 }
 
-/// Integers with so many axes that are longer than 1.
+/// Fits data sets of integers with `count` axes that are longer than 1.
 Fits has_axes(int count) {
   return [count](const Hdf5Entry& entry) {
     const auto longer = std::count_if(entry.shape.begin(), entry.shape.end(),

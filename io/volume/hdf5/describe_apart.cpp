@@ -258,7 +258,7 @@ class Describer {
   void note_chunk(const std::vector<std::uint64_t>& chunk, std::uint64_t number) {
     std::array<hsize_t, H5S_MAX_RANK> corner{};
     for (std::size_t d = 0; d < chunk.size(); ++d) corner[d] = chunk[d] * out_.chunk_shape[d];
-    // The library calls it an error when there is none: whoever counts them tells it from damage.
+    // The library calls it an error when there is none: the count of chunks tells it from damage.
     hsize_t bytes = 0;
     const herr_t found = H5Dget_chunk_storage_size(set_.get(), corner.data(), &bytes);
     if (found < 0 || bytes == 0) return;

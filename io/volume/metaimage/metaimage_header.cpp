@@ -131,7 +131,7 @@ Index3 parse_shape(const FieldMap& fields, std::size_t rank, std::string_view fi
   return checked_shape(file, field_name("DimSize"), {(*sizes)[0], (*sizes)[1], (*sizes)[2]});
 }
 
-/// As many numbers as asked for.
+/// Returns exactly `count` numbers.
 std::vector<double> reals(const std::string& value, std::size_t count, const char* key,
                           std::string_view file) {
   auto numbers = parse_reals(value);

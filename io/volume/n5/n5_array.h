@@ -50,7 +50,7 @@ struct N5Array {
 /// above 1.
 [[nodiscard]] N5Array parse_n5_array(const JsonFields& attributes);
 
-/// Of the axes x, y and z.
+/// Return the sizes of the array and of its blocks along x, y and z.
 [[nodiscard]] Index3 shape_of(const N5Array& array);
 [[nodiscard]] Index3 block_of(const N5Array& array);
 

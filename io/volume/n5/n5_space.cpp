@@ -93,7 +93,7 @@ std::optional<Resolution> resolution_of(const JsonFields& fields, const N5Array&
   return std::nullopt;
 }
 
-/// Of a level's own array, or the level's row in the group's.
+/// Returns the factors that a level's own array has, else the level's row of those of the group.
 std::optional<Vector3> factors_of(const N5Attributes& attributes, const N5Array& array) {
   constexpr const char* kKey = "downsamplingFactors";
   const JsonFields own = attributes.own.fields();

@@ -269,7 +269,7 @@ namespace {
 
 constexpr std::uint64_t kMaxExtensionBytes = 4 << 20;
 constexpr int kMaxExtensions = 1000;
-/// Of its own length and its code, two int32.
+/// The bytes of an extension's own length and its code, two int32.
 constexpr std::uint64_t kExtensionHead = 8;
 
 /// 0: no extension begins there.

@@ -80,19 +80,19 @@ struct TiffPage {
 /// Thread safety: const members may be called from many threads.
 class TiffStack {
  public:
-  /// The pages of one file, in its order, but for smaller copies.
+  /// Takes the pages of one file, in its order, without smaller copies.
   /// Cost: each directory is read once; 8 bytes a page are kept.
   /// ERRORS: mw::Error(kInput) naming file and page for one that cannot be read, is no labels, or
   /// is not like the first.
   explicit TiffStack(std::shared_ptr<const ByteSource> file);
-  /// The only pages of these files, in this order.  REQUIRES: at least one.
-  /// ERRORS: the same, also for a file of several pages.
+  /// Takes the only pages of these files, in this order.  REQUIRES: there is at least one file.
+  /// ERRORS: those of the other constructor, and kInput for a file of several pages.
   explicit TiffStack(std::vector<std::filesystem::path> files);
 
   [[nodiscard]] std::int64_t slices() const { return static_cast<std::int64_t>(positions_.size()); }
-  /// All are like the first, but for their blocks.
+  /// Returns the first page, which all others are like, except for their blocks.
   [[nodiscard]] const TiffPage& first() const { return first_; }
-  /// Most bytes of a block of any slice.
+  /// Returns the largest number of bytes of a block of any slice.
   [[nodiscard]] std::uint64_t largest_block() const { return largest_block_; }
   /// ImageDescription of the first slice; empty when it has none.
   [[nodiscard]] const std::string& description() const { return description_; }

@@ -18,25 +18,25 @@
 namespace mw::io {
 
 struct AxisMap {
-  /// Of x, y and z; empty for the z of an array of two axes, which is one slice.
+  /// The axes of x, y and z; empty for the z of an array of two axes, which is one slice.
   std::array<std::optional<std::size_t>, 3> axes;
 
-  /// What a vector with an entry an axis has along x, y and z; `missing` for the z of a slice.
+  /// Returns the entries for x, y and z of a vector by axis; `missing` for the z of a slice.
   [[nodiscard]] Index3 pick(const std::vector<std::int64_t>& of_axes, std::int64_t missing) const;
-  /// The other way round: 0 along all other axes.
+  /// Returns a vector by axis with the entries of index; 0 along all other axes.
   [[nodiscard]] std::vector<std::int64_t> spread(Index3 index, std::size_t axes) const;
 };
 
-/// By names "x", "y" and "z" (z may be missing); without them the axes are z, y, x in this order.
-/// All others must be of one entry: of axes without names the first such ones are the others.
-/// names: as many as shape, or none.  way_out: what to do about further axes.
+/// Finds x, y and z by their names (z may be missing); without names the axes are z, y, x in this
+/// order.  All others must have one entry: without names the first such axes are the others.
+/// names: as many as the shape has axes, or none.  way_out: what to do about further axes.
 /// ERRORS: mw::Error(kInput) naming file and axis.
 [[nodiscard]] AxisMap map_axes(std::string_view file, const std::vector<std::int64_t>& shape,
                                const std::vector<std::string>& names, std::string_view way_out);
 
-/// What an index along an axis is in the world: scale * index + translation.
+/// Takes an index along an axis to the world: scale * index + translation.
 struct LevelTransform {
-  std::vector<double> scale;  ///< one number an axis
+  std::vector<double> scale;  ///< one number for each axis
   std::vector<double> translation;
 };
 
@@ -49,24 +49,24 @@ struct Multiscale {
   std::vector<std::string> axis_names;  ///< as map_axes wants them; empty: not said
   std::vector<std::string> axis_units;  ///< in short, "nm"; as many as names
   std::vector<MultiscaleLevel> levels;  ///< the finest first
-  /// Whether any transform moves: then they place centres of voxels, and without, nothing.
+  /// True if any transform has a translation: only then they place the centres of voxels.
   bool has_position = false;
 };
 
-/// Whether the attributes of a group have multiscales, of OME-NGFF 0.1 to 0.5.
+/// True if the attributes of a group have multiscales, of OME-NGFF 0.1 to 0.5.
 [[nodiscard]] bool has_multiscale(const Json& attributes);
 
-/// The first multiscale.  REQUIRES: has_multiscale(attributes), an object.
+/// Returns the first multiscale.  REQUIRES: has_multiscale(attributes); they are an object.
 /// ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] Multiscale parse_multiscale(const Json& attributes, const std::string& file);
 
-/// The place of a level whose array has `axes`; unit: unless the caller gives a spacing, those of
-/// x, y and z must be the same.
+/// Returns the place of a level whose array has `axes`.  Unless the caller gives a spacing, x, y
+/// and z must have the same unit.
 /// ERRORS: mw::Error(kInput) naming file and field when the transform is not of as many axes.
 [[nodiscard]] FileSpace space_of(const Multiscale& multiscale, const MultiscaleLevel& level,
                                  const AxisMap& axes, std::string_view file);
 
-/// Names of the labels that the attributes of an image's group `labels` list.
+/// Returns the names of the label images that the attributes of an image's group `labels` list.
 [[nodiscard]] std::vector<std::string> label_images(const Json& attributes);
 
 }  // namespace mw::io

@@ -106,7 +106,7 @@ std::unique_ptr<LabelVolume> open_image(const ZarrNode& group, const OpenOptions
   Level level{.multiscale = parse_multiscale(group.attributes, group.attributes_file),
               .file = group.attributes_file};
   level.number = level_number(level.multiscale, level.file, options);
-  // Whoever names a dataset knows what it is.
+  // A user who names a dataset knows what it is.
   if (options.dataset.empty()) level.labels = labels_of_image(group.folder);
   const std::string& path = level.multiscale.levels[level.number].path;
   const auto folder = path_in_store(group.folder, path);

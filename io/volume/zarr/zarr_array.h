@@ -73,7 +73,7 @@ void check_axes(std::string_view file, std::string_view field, std::size_t axes)
 void check_grid(std::string_view file, std::string_view field,
                 const std::vector<std::int64_t>& extents, std::size_t axes);
 
-/// The same, and when the voxels are more than kMaxChunkBytes.
+/// ERRORS: those of check_grid(), and mw::Error(kInput) for more than kMaxChunkBytes of voxels.
 void check_chunk(std::string_view file, std::string_view field,
                  const std::vector<std::int64_t>& chunk, std::size_t axes, VoxelType type);
 

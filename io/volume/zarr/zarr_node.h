@@ -19,8 +19,8 @@ struct ZarrNode {
   int version = 2;
   bool is_array = false;
   Json metadata;  ///< of an array: .zarray or zarr.json
-  /// Of a group, always an object.  Those of arrays of version 2 are not read: nothing here is in
-  /// them, and NaN, which some writers put there, is no JSON.
+  /// Always an object.  Attributes of arrays of version 2 are not read: they hold nothing that is
+  /// used here, and NaN, which some writers put there, is no JSON.
   Json attributes;
   std::string metadata_file;  ///< what errors about the two name
   std::string attributes_file;

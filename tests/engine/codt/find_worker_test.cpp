@@ -76,7 +76,7 @@ TEST(FindWorker, LooksWhereTheBuildIsInstalledWhenNothingIsKnown) {
   EXPECT_EQ(worker_paths({}).size(), 1U);
 }
 
-// Whoever may write to /tmp must not decide what a library in /tmp/x starts.
+// A user who may write to /tmp must not decide what a library in /tmp/x starts.
 TEST(FindWorker, LooksNowhereAboveAFolderThatIsNoPrefix) {
   EXPECT_EQ(junctions_of("/tmp/x/libmwmesh.so").size(), 3U);
   EXPECT_EQ(junctions_of(Path("/tmp/x" + std::string(MW_INSTALLED_LIBRARY)) / "l.so").size(), 3U);

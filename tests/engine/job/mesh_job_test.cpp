@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// The labels of one volume until so many voxels have been read, then those of another.
+/// Has the labels of one volume until `voxels` voxels have been read, then those of another.
 class ChangingVolume : public MemoryVolume {
  public:
   ChangingVolume(const MemoryVolume& before, const MemoryVolume& after, std::int64_t voxels)
@@ -28,7 +28,7 @@ class ChangingVolume : public MemoryVolume {
   mutable std::atomic<std::int64_t> left_;
 };
 
-/// What a run says of labels that change after so many readings of the whole.
+/// Returns what a run says when labels change after `readings` readings of the whole volume.
 std::string said(const audit::test::SmallVolume& before, const audit::test::SmallVolume& after,
                  double readings, const io::InputSteps& steps = {}) {
   const ::mw::test::TempFolder folder;

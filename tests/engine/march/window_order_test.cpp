@@ -90,7 +90,7 @@ TEST(WindowOrder, PathsAreThoseOfSharedBlocks) {
   });
 }
 
-/// Of the windows that share a block with this one, those behind it in the sequence.
+/// Later neighbours are the windows that share a block with this one and come after it.
 TEST(WindowOrder, LaterNeighboursAreThoseOfHigherRank) {
   for_small_orders([](const WindowOrder& order) {
     const Relation shares = by_blocks(order);

@@ -23,9 +23,9 @@ class NoSink : public io::MeshSink {
   void finish() override {}
 };
 
-/// Histogram, lines of homes, lists of blocks of a few vertices.
+/// What the histogram, lines of homes and lists of blocks of a few vertices take.
 constexpr std::uint64_t kFixedBytes = 128 << 10;
-/// Of a vertex in VertexRows, while a list is merged, be it in one process or in several.
+/// What a vertex takes in VertexRows while a list is merged.
 constexpr std::uint64_t kBytesPerRemembered = 32;
 
 void expect_held(const Trial& trial, bool measured) {

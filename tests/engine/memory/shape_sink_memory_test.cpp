@@ -8,7 +8,7 @@
 namespace mw::cli {
 namespace {
 
-/// As ShapeSink says.
+/// The bound in the documentation of ShapeSink.
 constexpr std::uint64_t kMaxBytes = 40 << 20;
 
 /// A bar of cubes, every second one another label, five tets each.

@@ -66,7 +66,7 @@ using FinalBytes = std::vector<std::vector<std::byte>>;
   return out;
 }
 
-/// The same with nothing but a map: the reference.
+/// The reference: makes that run with its blocks in a map, and without a store.
 [[nodiscard]] inline FinalBytes reference_run(const RunLayout& layout) {
   std::map<std::uint64_t, BlockMesh> blocks;
   const auto find = [&](const BlockKey& key) -> std::optional<BlockMesh> {

@@ -54,7 +54,7 @@ TEST(Team, TradesWhatEachSaysToEach) {
   }
 }
 
-/// Of any length, in messages of a few numbers.
+/// Lists of any length are swapped in messages of a few numbers.
 TEST(Team, SwapsListsByPieces) {
   constexpr int kRanks = 4;
   const auto list = [](int from, int to) {

@@ -17,8 +17,8 @@ struct ThreadExchangeOptions {
   std::chrono::microseconds max_delay{0};  ///< of a message; they overtake one another
 };
 
-/// Makes the exchanges of so many ranks, one for each; a thread of its own brings each one's
-/// messages.  For tests of what does not depend on a network.
+/// Makes an exchange for each of the ranks; a thread of its own brings the messages of each.  For
+/// tests of what does not depend on a network.
 [[nodiscard]] std::vector<std::unique_ptr<Exchange>> thread_exchanges(
     const ThreadExchangeOptions& options);
 

@@ -34,7 +34,7 @@ class MemoryChunks : public ChunkSource {
   }
 
   mutable std::atomic<int> loads = 0;
-  mutable std::atomic<int> failures = 0;  ///< so many loads fail
+  mutable std::atomic<int> failures = 0;  ///< how many of the next loads fail
   std::function<bool(Index3)> is_missing;
   std::function<void(Chunk&)> change;
 
@@ -158,7 +158,7 @@ TEST(ChunkedVolume, ManyThreadsWithATinyCache) {
   }
 }
 
-// A chunk that could not be read is tried again by whoever asks next.
+// A chunk that could not be read is tried again when it is asked for next.
 TEST(ChunkedVolume, ErrorsAreNotKept) {
   Random random(4);
   const Index3 shape{12, 11, 10}, chunk{5, 5, 5};

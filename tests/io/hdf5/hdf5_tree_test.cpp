@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the author's own test.
+/// These values are from the test of the checksum's author.
 TEST(MetadataChecksum, IsLookup3) {
   EXPECT_EQ(metadata_checksum(""), 0xdeadbeefU);
   EXPECT_EQ(metadata_checksum("Four score and seven years ago"), 0x17770551U);

@@ -35,7 +35,7 @@ TEST(MeshFiles, RoundTripAndSameDigest) {
   EXPECT_EQ(dir.entries(), 3U);
 }
 
-/// As blocks come: vertices and tets by turns, in batches of any size.
+/// Saves a mesh as blocks come: vertices and tets by turns, in batches of any size.
 void save_by_turns(const MeshData& mesh, const std::filesystem::path& path) {
   const auto sink = open_mesh_sink(path);
   sink->begin({.tets = mesh.tets.size(), .labels_signed = mesh.labels_signed});

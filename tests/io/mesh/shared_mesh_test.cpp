@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A file that several write together is that of one, whoever writes which rows and when.
+// A file that several write together is that of one, for any division and order of the rows.
 #include "io/mesh/shared_mesh.h"
 
 #include <sys/resource.h>

@@ -87,7 +87,7 @@ TEST(SurfaceFiles, LabelsThatAPlyCannotHoldGetNumbers) {
   EXPECT_EQ(face, number_bytes(5, 4, false) + number_bytes(6, 4, false) + std::string(1, '\0'));
 }
 
-/// As many triangles as are asked for, on no vertices that were ever written.
+/// The header of a surface of this size, of which no vertices were ever written.
 SurfaceHeader large_header(std::uint64_t vertices, std::uint64_t triangles) {
   auto labels = std::make_shared<SurfaceLabels>();
   labels->table = LabelTable({1, 2}, false);

@@ -34,7 +34,7 @@ std::map<Edge, int> directed_edges(const CollectSurface& surface) {
   return out;
 }
 
-/// As often as an edge is run along one way it is run along the other.
+/// Expects that triangles run along each edge as often one way as the other.
 void expect_closed(const CollectSurface& surface) {
   const std::map<Edge, int> edges = directed_edges(surface);
   for (const auto& [edge, count] : edges) {

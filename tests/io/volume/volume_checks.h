@@ -93,7 +93,7 @@ inline void expect_regions(Random& random, const LabelVolume& volume, Index3 sha
   }
 }
 
-/// The same of the shape that the volume says.
+/// Expects these labels, in whole and in random boxes, in the shape that the volume says.
 inline void expect_boxes(const LabelVolume& volume, const std::vector<RawLabel>& labels,
                          unsigned seed = 1, int boxes = 50) {
   Random random(seed);
@@ -117,12 +117,12 @@ inline void expect_not_opened(const std::filesystem::path& path, std::vector<std
   pieces.push_back(path.string());
   expect_error(kind, pieces, [&] { static_cast<void>(open_volume(path, options)); });
 }
-/// The same of options that do not fit it.
+/// Expects that options that do not fit the volume are a usage error with every piece.
 inline void expect_misused(const std::filesystem::path& path, const OpenOptions& options,
                            const std::vector<std::string>& pieces) {
   expect_not_opened(path, pieces, options, ErrorKind::kUsage);
 }
-/// The same of opening it or of reading it.
+/// Expects that opening or reading the volume is an error about the input with every piece.
 inline void expect_not_read(const std::filesystem::path& path, std::vector<std::string> pieces) {
   pieces.push_back(path.string());
   expect_error(ErrorKind::kInput, pieces, [&] { read_some(*open_volume(path)); });

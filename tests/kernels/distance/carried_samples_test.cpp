@@ -149,7 +149,7 @@ TEST(CarriedSamples, FollowTheirTriangles) {
   }
 }
 
-/// Of its voxel, however far out that lies.
+/// Samples lie on the face of their voxel, however far out that voxel lies.
 TEST(FaceSamples, LieInTheirQuartersOfTheirFace) {
   constexpr std::int64_t kLast = kMaxSampledVoxels - 1;
   for (const Index3 voxel : {Index3{3, 6, 1},

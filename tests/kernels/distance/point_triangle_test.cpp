@@ -60,7 +60,7 @@ TEST(PointTriangle, ForgetsTheOrderOfCorners) {
   }
 }
 
-/// Four at a time as one by one, but for what rounding may decide.
+/// Four points at once give what each gives alone, except where rounding may decide.
 TEST(PointTriangle, TellsSeveralPointsAtOnce) {
   std::mt19937 random(903);
   constexpr double kRounding = 1e-9;

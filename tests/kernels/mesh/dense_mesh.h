@@ -96,7 +96,7 @@ inline void add_global(GlobalTets& out, const BlockMesh& block) {
   return std::find(t.vertices.begin(), t.vertices.end(), v) != t.vertices.end();
 }
 
-/// Of all tets.
+/// The sum of six times the volumes of all tets.
 [[nodiscard]] inline std::int64_t volume6_sum(const TetMesh& mesh) {
   std::int64_t sum = 0;
   for (const LocalTet& t : mesh.tets()) sum += volume6_of(mesh, t);

@@ -11,7 +11,7 @@ namespace {
 
 using Directed = std::array<LocalVertex, 3>;
 
-/// The same cyclic order, smallest vertex first.
+/// Returns the triangle in the same cyclic order with its smallest vertex first.
 Directed rotated(Directed t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;

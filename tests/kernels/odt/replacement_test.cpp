@@ -152,7 +152,7 @@ TEST(Replacement, RefusesAnEmptyAnswer) {
   expect_refused(1228, [](Trial& trial, std::mt19937&, std::size_t) { trial.made = {}; });
 }
 
-/// The same points, one of them elsewhere: tets at it are turned over or do not meet.
+/// With two points exchanged, tets at them are turned over or do not meet.
 TEST(Replacement, RefusesATetTurnedOver) {
   expect_refused(1229, [](Trial& trial, std::mt19937&, std::size_t tet) {
     const auto corners = trial.made.tets[tet];

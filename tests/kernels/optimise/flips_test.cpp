@@ -60,7 +60,7 @@ std::set<Label> labels_of(const std::vector<LocalTet>& tets) {
 
 constexpr double kFloor = 0.1;
 
-/// Of real tets, all of which are positive.
+/// Measures of the real tets, all of which are positive.
 struct Measures {
   std::int64_t volume6 = 0;
   double worst = 1.0;   ///< least radius ratio
@@ -178,7 +178,7 @@ TEST(Flips, EndOnSymmetricLattices) {
 }
 
 /// Four tets around edge (0, 1) of an octahedron that is its own mirror image when x and y change
-/// places; that image has edge (2, 3) in its middle, with the same four radius ratios but for the
+/// places; that image has edge (2, 3) in its middle, with the same four radius ratios up to the
 /// last bits.
 TetMesh symmetric_octahedron(std::mt19937& random) {
   const auto about = [&](std::int32_t centre) {

@@ -11,7 +11,7 @@ constexpr int kSide = 24;  // pixels of a small picture
 
 using Pixels = std::vector<std::uint8_t>;
 
-/// All rows, drawn in bands of so many.
+/// Returns the whole picture, drawn in bands of `rows` rows.
 Pixels picture_of(const std::vector<ScreenTriangle>& triangles, int samples, int rows = kSide) {
   Pixels out;
   for (int first = 0; first < kSide; first += rows) {

@@ -214,7 +214,7 @@ double ratio(const TetMesh& mesh, const Metric& metric, const LocalTet& t) {
 /// By the list of tets: what changes, judged as the header says.
 struct ExpectedShape {
   bool inverted = false;
-  bool good = false;       ///< but for inversion
+  bool good = false;       ///< whether all filters pass, inversion aside
   bool too_close = false;  ///< to tell: ratios of one tet differ in the last bits with its order
 };
 

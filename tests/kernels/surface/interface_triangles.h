@@ -100,7 +100,7 @@ struct InterfaceEdge {
   return sum;
 }
 
-/// Of the edges of all interface triangles at v.
+/// The sum of bends over the edges of all interface triangles at v.
 [[nodiscard]] inline double bends_around(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
   double sum = 0.0;
   for (const InterfaceEdge& e : interface_edges(interface_triangles(mesh))) {

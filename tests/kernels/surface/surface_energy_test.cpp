@@ -158,7 +158,7 @@ Vec3 slope(const SurfaceWeights& weights, const TetMesh& mesh, const Metric& met
   return derivatives(energy, Vec3::Zero()).gradient;
 }
 
-/// Of the area of the star's triangles, by differences.
+/// The slope of the area of the star's triangles, by differences.
 Vec3 area_slope(const SurfaceStar& star) {
   constexpr double kStep = 1e-5;
   Vec3 out = Vec3::Zero();
@@ -226,8 +226,8 @@ TEST(SurfaceEnergy, LeavesAreaOutOnTheBox) {
   EXPECT_GT(on_box, 100);
 }
 
-/// Moves interface vertices of a plane between labels 0 and 1 by `height` along its axis, but for
-/// those for which `stays` says so.
+/// Moves interface vertices of a plane between labels 0 and 1 by `height` along its axis, except
+/// those for which `stays` returns true.
 template <typename Stays>
 void move_plane(TetMesh& mesh, int axis, double height, Stays stays) {
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
@@ -275,7 +275,7 @@ struct Hat {
   }
 };
 
-/// Of all interface vertices off the box, in planes across all axes, both ways round.
+/// Visits all interface vertices off the box, in planes across all axes, both ways round.
 template <typename Visit>
 void each_vertex_of_planes(double height, bool alone, Visit visit) {
   for (int axis = 0; axis < 3; ++axis) {

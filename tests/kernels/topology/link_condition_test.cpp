@@ -63,7 +63,7 @@ class Trial {
     if (accepted) contract(p, q, *x);
   }
 
-  /// Of a test that has been used before and of a new one, in both directions.
+  /// Asks a LinkCondition that was used before and a new one, in both directions.
   bool verdict(LocalVertex p, LocalVertex q) {
     LinkCondition fresh(mesh_);
     const bool accepted = fresh.keeps_topology(mesh_, p, q);

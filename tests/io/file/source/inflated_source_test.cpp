@@ -26,7 +26,7 @@ std::string read_text(const ByteSource& source, std::uint64_t offset, std::size_
   return out;
 }
 
-/// Two million bytes, damaged behind half of them: whoever gets that far learns of it.
+/// Two million bytes, damaged behind half of them: a reader that gets that far reports it.
 std::string damaged_behind_half(const std::string& content) {
   std::string packed = gzip(content.substr(0, content.size() / 2));
   std::string rest = gzip(content.substr(content.size() / 2));

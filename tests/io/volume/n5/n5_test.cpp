@@ -296,7 +296,7 @@ TEST(N5Errors, Blocks) {
   expect("00000003" + size + voxels + "00", {"9 bytes", "are 8"});
 }
 
-/// Files with a hole of 64 GiB: whoever believes their size runs out of memory.
+/// Files with a hole of 64 GiB: a reader that believes their size runs out of memory.
 TEST(N5Errors, FilesThatAreFarTooLarge) {
   Random random(35);
   for (const char* file : {"attributes.json", "0/0/0"}) {

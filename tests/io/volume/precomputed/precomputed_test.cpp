@@ -272,7 +272,7 @@ TEST(PrecomputedErrors, Shards) {
   expect_not_read(dir.path(), {"0.index", "old form"});
 }
 
-/// Files with a hole of 64 GiB: whoever believes their size runs out of memory.
+/// Files with a hole of 64 GiB: a reader that believes their size runs out of memory.
 TEST(PrecomputedErrors, FilesThatAreFarTooLarge) {
   constexpr std::uint64_t kHuge = std::uint64_t{1} << 36;
   Random random(21);

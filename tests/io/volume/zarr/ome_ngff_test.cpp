@@ -154,7 +154,7 @@ TEST(OmeNgff, FiveAxesTwoAxesAndNoTransformations) {
   EXPECT_EQ(open_volume(dir.path())->info().space.spacing, (Vector3{0.5, 2, 1}));
 }
 
-// Whoever opens a level as an array gets its place too.
+// A level that is opened as an array has its place, too.
 TEST(OmeNgff, LevelsOpenedAsArraysKeepTheirPlace) {
   const TempDir dir;
   const Json image{{"axes", kZyx},

@@ -119,7 +119,7 @@ SmallMesh shaken_mesh(std::mt19937& random) {
   return mesh;
 }
 
-/// As the world has it: x and y changed, which is a mirror, or x turned twice; then some rounding.
+/// Vertices in the world: x and y exchanged, which is a mirror, or turned by half; then rounded.
 std::vector<Position> written_as(std::mt19937& random, const SmallMesh& mesh, bool mirrored) {
   std::vector<Position> out;
   for (const Position& p : mesh.vertices) {

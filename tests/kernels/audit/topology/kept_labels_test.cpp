@@ -93,7 +93,7 @@ class BrokenKeptMesh : public ::testing::Test {
   }
   [[nodiscard]] Names failed() const { return failures(run()); }
 
-  /// A tet of the label all of whose vertices are at least so many voxels inside the block.
+  /// Returns a tet of the label whose vertices are all at least `depth` voxels inside the block.
   [[nodiscard]] std::size_t inner_tet(Label label, double depth) const {
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
       const bool is_inside = std::all_of(mesh_.tets[t].begin(), mesh_.tets[t].end(), [&](auto v) {

@@ -17,7 +17,7 @@ Label label_at(const SmallVolume& volume, Index3 v) {
   return all.contains(v) ? volume.labels[static_cast<std::size_t>(all.offset(v))] : kExterior;
 }
 
-/// Of all kinds, but most often the one where most can be done.
+/// A volume of any kind, but most often of the one where most can be coarsened.
 SmallVolume random_of(std::mt19937& random, std::uint32_t min, std::uint32_t max) {
   const auto edge = [&] { return std::int64_t{min + below(random, max - min + 1)}; };
   const auto x = edge(), y = edge(), z = edge();
