@@ -103,8 +103,7 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
   out_.add_attribute(NetcdfOutput::kWholeFile, "version", kVersion);
   out_.add_attribute(NetcdfOutput::kWholeFile, "floating_point_word_size", kBytesOfDouble);
   out_.add_attribute(NetcdfOutput::kWholeFile, "file_size", kLargeModel);
-  out_.add_attribute(NetcdfOutput::kWholeFile, "maximum_name_length",
-                     static_cast<int>(kNameBytes));
+  out_.add_attribute(NetcdfOutput::kWholeFile, "maximum_name_length", static_cast<int>(kNameBytes));
   out_.add_attribute(NetcdfOutput::kWholeFile, "title",
                      text("mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
   name_length_ = out_.add_dimension("len_name", kNameBytes + 1);

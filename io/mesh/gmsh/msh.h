@@ -67,8 +67,9 @@ class MshWriter : public GroupedWriter {
   std::filesystem::path folder_;  ///< of temporary files
 };
 
-/// The same groups, names, numbers and table in version 2.2, as text, for programs that read no
-/// later one (GetFEM); Gmsh's own ending for it is .msh2.  Elements are triangles, then tets.
+/// Writes the groups, names, numbers and table of MshWriter in version 2.2, as text, for programs
+/// that read no later one (GetFEM); Gmsh's own ending for it is .msh2.  Elements are triangles,
+/// then tets.
 class Msh2Writer : public GroupedWriter {
  public:
   explicit Msh2Writer(const std::filesystem::path& path)

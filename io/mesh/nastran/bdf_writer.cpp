@@ -44,7 +44,8 @@ void BdfWriter::write(GroupedMesh& mesh) {
   }
   const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
   const PlainNames names(mesh);
-  line(text("$ mwmesh: tetrahedra of ", mesh.table().size(), " labels; materials are placeholders."));
+  line(text("$ mwmesh: tetrahedra of ", mesh.table().size(),
+            " labels; materials are placeholders."));
   line("CEND");
   const std::vector<NamedFacets> sets = named_facets(mesh, names);
   for (std::size_t s = 0; s < sets.size(); ++s) write_set(mesh, s + 1, sets[s]);

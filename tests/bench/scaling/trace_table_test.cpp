@@ -43,7 +43,7 @@ TEST(TraceTable, RefusesWhatIsNotAWholeTrace) {
 
 // Ranks whose windows sleep visit all of them, and send what was foreseen.
 
-/// What leaves a rank, but for the output.
+/// What leaves a rank, without the output.
 std::vector<std::uint64_t> foreseen(const RunFlow& flow, const engine::Partition& dealt,
                                     int ranks) {
   std::vector<std::uint64_t> out(static_cast<std::size_t>(ranks));

@@ -44,7 +44,7 @@ TEST_F(PathsTest, LinksAreFollowed) {
 
 // Systems that give fewer threads than were asked for, or none.
 
-/// The program on a system that gives so many threads beside the first.
+/// The program on a system that gives this number of threads beside the first.
 std::string with_threads(int allowed) {
   // An address sanitizer wants to be loaded first, and is after a preloaded library.
   return "ASAN_OPTIONS=verify_asan_link_order=0 ALLOWED_THREADS=" + std::to_string(allowed) +

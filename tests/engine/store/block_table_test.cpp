@@ -157,7 +157,7 @@ TEST_F(BlockTableTest, StaysAsItIsWithoutRoomForAPage) {
 constexpr std::uint64_t kSector = ExtentAllocator::kSectorBytes;
 constexpr std::uint64_t kSectors = 256;
 
-/// The same by a list of sectors.
+/// Does what the allocator does, by a list of sectors.
 class Sectors {
  public:
   /// False when one of them is not as it was.

@@ -114,7 +114,7 @@ TEST_F(MappedFileTest, EndsInAnErrorWhenThereIsNoSpace) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 42) << status;
 }
 
-// The budget: sums by purpose, peaks, refusals, and never over the limit whoever asks at once.
+// The budget: sums by purpose, peaks, refusals, and never over the limit, however many ask at once.
 
 using Reservation = MemoryBudget::Reservation;
 

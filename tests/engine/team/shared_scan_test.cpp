@@ -183,7 +183,7 @@ struct Shares {
   std::uint64_t bytes = 0;  ///< that it has reserved for labels
 };
 
-/// Of a run without work: all voxels have one label.
+/// A run without work: all voxels have one label.
 Shares largest_shares(Index3 shape, int ranks, Order order) {
   const audit::test::SmallVolume small{
       shape, 1, std::vector<Label>(static_cast<std::size_t>(shape.product()), 0)};

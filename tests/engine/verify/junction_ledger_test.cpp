@@ -155,7 +155,7 @@ bool share_an_item(const ItemRun& a, const ItemRun& b) {
   return a.first < b.first + b.count && b.first < a.first + a.count;
 }
 
-/// The same by comparing all with all.
+/// Finds the same by comparing all with all.
 std::int64_t components_by_force(const std::vector<ItemRun>& runs) {
   std::vector<std::uint32_t> name(kParts);
   for (std::uint32_t part = 0; part < kParts; ++part) name[part] = part;

@@ -84,7 +84,7 @@ TEST(MeshRecord, DamageIsTold) {
 
 // The digest by external sorting is that of sorting in memory.
 
-/// As the header of digest.h reads, with containers of everything.
+/// Computes the digest as the header of digest.h says, with containers of everything.
 std::string digest_in_memory(const MeshData& mesh) {
   Hasher hasher;
   hasher.add(std::string_view("mwmesh-digest-1"));

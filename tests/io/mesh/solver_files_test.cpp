@@ -89,7 +89,7 @@ TEST_P(SolverFiles, LeaveNothingWhenTheyAreNotFinished) {
   EXPECT_EQ(dir_.entries(), 0U);
 }
 
-/// All with both kinds of tets, but for Medit, which has four nodes.
+/// All formats with both kinds of tets, except Medit, which has four nodes.
 std::vector<Case> cases() {
   std::vector<Case> out{{".mesh", Element::kTet4, false}, {".mesh", Element::kTet4, true}};
   for (const char* extension : {".vtkhdf", ".vtu", ".xdmf", ".feb", ".inp", ".exo", ".msh2"}) {

@@ -98,8 +98,8 @@ TEST(Scaling, LargeIntegersLoseNothing) {
 
 constexpr Index3 kShape{5, 4, 3};
 
-/// The content, then more zeros than any header may have, and damage: whoever unpacks that far
-/// learns of it.
+/// The content, then more zeros than any header may have, and damage: a reader that unpacks that
+/// far learns of it.
 std::string bomb(const std::string& content) {
   std::string damaged = gzip("the end of it");
   damaged[damaged.size() - 5] = static_cast<char>(damaged[damaged.size() - 5] ^ 1);

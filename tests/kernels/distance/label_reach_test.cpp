@@ -93,7 +93,7 @@ bool faces(const TetMesh& mesh, LocalVertex v, LocalVertex a, LocalVertex b, Loc
   return volume6(mesh.position(v), mesh.position(a), mesh.position(b), mesh.position(apex)) > 0;
 }
 
-/// Of every vertex: each triangle of the mesh whose two tets have different labels.
+/// Lists for every vertex each triangle of the mesh whose two tets have different labels.
 std::vector<Fan> fans_of_all_tets(const TetMesh& mesh) {
   std::map<std::set<LocalVertex>, std::map<Label, LocalVertex>> triangles;
   for (const LocalTet& t : mesh.tets()) {
@@ -143,7 +143,7 @@ void expect_fans_throughout(TetMesh mesh) {
   expect_fans(mesh);
 }
 
-/// Of 500 labels several share a bit of the signature.
+/// Among 500 labels several share a bit of the signature.
 TEST(InterfaceFan, IsThatOfAllTets) {
   std::mt19937 random(615);
   for (const std::uint32_t labels : {1U, 2U, 3U, 20U, 500U}) {
