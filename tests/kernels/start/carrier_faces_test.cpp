@@ -97,8 +97,8 @@ struct Sheet {
   std::vector<Vec3> centres;
   Vec3 normals = Vec3::Zero();
 
-  /// The faces of x, in physical units like `voxel`, the edges of a voxel; as often as there are
-  /// faces.
+  /// Returns the sum of squared distances of x from the planes of all faces.  x, voxel (its edges):
+  /// in physical units.
   [[nodiscard]] double squared_distance(const Vec3& x, const Vec3& voxel) const {
     if (normals.norm() == 0.0) return 0.0;
     Vec3 mean = Vec3::Zero();
