@@ -50,6 +50,7 @@ RunHooks run_hooks(const MeshJob& job, const io::LabelTable& table, const std::s
   out.store.memory = memory;
   out.store.identity =
       std::string("version = ") + version() + "\nlabel fingerprint = " + fingerprint + "\n";
+  out.keep.identity = std::string("version = ") + version() + "\n";
   out.progress = [&job](const RunProgress& at) {
     job.stop();
     if (job.run.progress) job.run.progress(at);
@@ -75,7 +76,8 @@ RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink&
                 RunHooks run) {
   std::string work;
   run.store.kept = [&] {
-    work = "; the work so far is in " + run.store.workdir.string() + ", add --resume to go on";
+    const auto& folder = run.keep.folder.empty() ? run.store.workdir : run.keep.folder;
+    work = "; the work so far is in " + folder.string() + ", add --resume to go on";
     if (job.run.store.kept) job.run.store.kept();
   };
   try {

@@ -95,6 +95,16 @@ Json rank_json(const engine::ProcessFacts& rank) {
           {"peak_bytes_by_purpose", purposes_json(rank.peak_bytes_by_purpose)}};
 }
 
+Json keep_json(const engine::KeepFacts& keep) {
+  Json out{{"tiles_read", keep.tiles_read},
+           {"bytes_written", keep.bytes_written},
+           {"folder_bytes", keep.bytes_kept}};
+  for (const engine::KeepFacts::March& march : keep.marches) {
+    out["marches"].push_back({{"visited", march.visited}, {"skipped", march.skipped}});
+  }
+  return out;
+}
+
 Json engine_json(const FinishedRun& run) {
   const engine::StoreFacts& store = run.engine.store;
   Json out{{"windows", run.engine.windows},
@@ -111,6 +121,7 @@ Json engine_json(const FinishedRun& run) {
     out["ranks"].push_back(rank_json(rank));
   if (!run.engine.processes.empty())
     out["written_by"] = run.engine.written_together ? "all" : "first";
+  if (run.engine.keep) out["remesh"] = keep_json(*run.engine.keep);
   if (run.engine.workers) out["codt"] = codt_json(run.engine);
   return out;
 }

@@ -110,12 +110,14 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   job.size_image = open_sizes(request);
   job.labels_known = [](std::size_t labels) { spdlog::info("meshing {} labels", labels); };
   engine::RunHooks& run = job.run;
+  run.keep.say = [](const std::string& line) { spdlog::warn("{}", line); };
   run.together = files.shared.mesh.get();
   run.stop_after_save = is_save_requested;
   run.progress = [&](const engine::RunProgress& at) { progress.show(at); };
   if (files.trace) run.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
   run.store.kept = [&] {
-    work = "the work so far is in " + run.store.workdir.string() + ", add --resume to go on";
+    const auto& folder = run.keep.folder.empty() ? run.store.workdir : run.keep.folder;
+    work = "the work so far is in " + folder.string() + ", add --resume to go on";
   };
   try {
     return engine::mesh(volume, job, files.all());
@@ -149,7 +151,7 @@ void log_processes(const engine::RunReport& run) {
 }
 
 void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
-  if (!request.job.run.store.resume) return;
+  if (!request.job.run.store.resume || !request.job.run.keep.folder.empty()) return;
   if (facts.resumed_windows == 0) {
     spdlog::warn("{}: no saved work to resume, started from the beginning",
                  request.job.run.store.workdir.string());
