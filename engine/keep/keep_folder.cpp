@@ -26,8 +26,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLockFile = "lock";
 constexpr const char* kSettingsFile = "settings.txt";
-constexpr std::array<const char*, 5> kFiles{kLockFile, kSettingsFile, kVersionsFile, kWindowsFile,
-                                            kLabelsFile};
+constexpr const char* kChangingFile = "changing";
+constexpr std::array<const char*, 8> kFiles{kLockFile,    kSettingsFile, kVersionsFile,
+                                            kWindowsFile, kLabelsFile,   kChosenFile,
+                                            kMeshFile,    kChangingFile};
 
 /// Left by a kill in an unlucky instant.
 bool is_left_over(const std::string& name) {
@@ -47,26 +49,19 @@ std::string content_of(const fs::path& path) {
 
 }  // namespace
 
-KeepFolder::KeepFolder(const fs::path& path, KeepUse use, const std::string& settings)
+KeepFolder::KeepFolder(const fs::path& path, KeepUse use)
     : path_(fs::absolute(path).lexically_normal()) {
   if (!path_.has_filename()) path_ = path_.parent_path();
   make(use);
   lock();
-  if (fs::exists(path_ / kSettingsFile)) {
-    if (use == KeepUse::kBegin) {
-      refuse(path_,
-             "holds what an earlier run has kept; go on with it by --from, or delete the folder");
-    }
-    check_settings(settings);
-    return;
+  const bool holds_something = fs::exists(path_ / kSettingsFile);
+  if (holds_something && use == KeepUse::kBegin) {
+    refuse(path_,
+           "holds what an earlier run has kept; go on with it by --from, or delete the folder");
   }
-  if (use == KeepUse::kUpdate) {
+  if (!holds_something && use == KeepUse::kUpdate) {
     refuse(path_, "holds nothing that a run has kept; begin it by --keep");
   }
-  for (const char* name : {kWindowsFile, kVersionsFile, kLabelsFile}) fs::remove(path_ / name);
-  io::AtomicFile file(path_ / kSettingsFile);
-  file.append(settings);
-  file.commit();
 }
 
 void KeepFolder::make(KeepUse use) const {
@@ -99,7 +94,14 @@ void KeepFolder::lock() {
   refuse(path_, "another mwmesh is at work here; wait for it or give another folder");
 }
 
-void KeepFolder::check_settings(const std::string& settings) const {
+void KeepFolder::settle(const std::string& settings) const {
+  if (!fs::exists(path_ / kSettingsFile)) {
+    for (const char* name : {kWindowsFile, kVersionsFile, kLabelsFile}) fs::remove(path_ / name);
+    io::AtomicFile file(path_ / kSettingsFile);
+    file.append(settings);
+    file.commit();
+    return;
+  }
   const std::string before = content_of(path_ / kSettingsFile);
   if (before == settings) return;
   const std::string different = differences(before, settings);
@@ -108,6 +110,35 @@ void KeepFolder::check_settings(const std::string& settings) const {
   }
   refuse(path_, "is of another run: " + different +
                     "; give the same settings, or delete the folder and begin it by --keep");
+}
+
+std::string KeepFolder::text(const char* name) const {
+  return content_of(path_ / name);
+}
+
+void KeepFolder::put_text(const char* name, const std::string& text) const {
+  io::AtomicFile file(path_ / name);
+  file.append(text);
+  file.commit();
+}
+
+std::vector<Box3> KeepFolder::begin_change(const std::vector<Box3>& boxes) const {
+  std::vector<Box3> all = boxes;
+  std::istringstream before(content_of(path_ / kChangingFile));
+  for (Box3 box; before >> box.lo.x >> box.lo.y >> box.lo.z >> box.hi.x >> box.hi.y >> box.hi.z;) {
+    all.push_back(box);
+  }
+  io::AtomicFile file(path_ / kChangingFile);
+  for (const Box3& b : all) {
+    file.append(
+        io::text(b.lo.x, " ", b.lo.y, " ", b.lo.z, " ", b.hi.x, " ", b.hi.y, " ", b.hi.z, "\n"));
+  }
+  file.commit();
+  return all;
+}
+
+void KeepFolder::end_change() const {
+  fs::remove(path_ / kChangingFile);
 }
 
 std::unique_ptr<WorkFile> KeepFolder::open(const std::string& name) {

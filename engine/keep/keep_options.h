@@ -6,13 +6,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "kernels/core/index.h"
 
 namespace mw::engine {
+
+class KeepFolder;
 
 enum class KeepUse {
   kBegin,   ///< the folder holds nothing yet
@@ -21,16 +23,15 @@ enum class KeepUse {
 };
 
 struct KeepOptions {
-  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
-
   std::filesystem::path folder;  ///< empty: nothing is kept
   KeepUse use = KeepUse::kBegin;
-  /// Boxes of the lattice outside of which the labels are those of the run that used the folder
-  /// last; empty: anything may have changed.
+  /// Boxes of the volume's voxels outside of which the labels are those of the run that was
+  /// complete last; empty: anything may have changed.  For mesh() (engine/job/mesh_job.h).
   std::vector<Box3> changed;
-  std::uint64_t max_bytes = kUnlimited;  ///< of the folder, once the run is done
   /// What else two runs must have in common: lines "name = value".
   std::string identity;
+  /// The folder, where it is open already; null: it is opened.
+  std::shared_ptr<KeepFolder> opened;
   /// Optional: told, in a line each, what a user should know.
   std::function<void(const std::string&)> say;
 };
@@ -42,7 +43,7 @@ struct KeepFacts {
     std::uint64_t skipped = 0;
   };
   std::vector<March> marches;
-  std::uint64_t tiles_read = 0;     ///< of labels
+  std::uint64_t voxels_read = 0;    ///< of labels, from the volume and not from the folder
   std::uint64_t bytes_kept = 0;     ///< in the folder, at the end
   std::uint64_t bytes_written = 0;  ///< of blocks
 };

@@ -48,6 +48,13 @@ std::uint32_t sum_of(const io::ContentDigest& digest) {
   return static_cast<std::uint32_t>(digest.first);
 }
 
+std::shared_ptr<KeepFolder> opened(const KeepOptions& options, const std::string& settings) {
+  std::shared_ptr<KeepFolder> folder = options.opened;
+  if (folder == nullptr) folder = std::make_shared<KeepFolder>(options.folder, options.use);
+  folder->settle(settings);
+  return folder;
+}
+
 }  // namespace
 
 WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
@@ -55,12 +62,12 @@ WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
     : layout_(layout),
       options_(options),
       keys_(table),
-      folder_(options.folder, options.use, settings),
+      folder_(opened(options, settings)),
       room_(budget.reserve(Purpose::kIndex, index_bytes_of(layout))),
       versions_(layout.slots()),
-      bytes_(folder_.open(kVersionsFile)),
+      bytes_(folder_->open(kVersionsFile)),
       record_at_(layout.windows(), 0),
-      log_(std::make_unique<RecordLog>(folder_.open(kWindowsFile))) {
+      log_(std::make_unique<RecordLog>(folder_->open(kWindowsFile))) {
   facts_.marches.resize(layout.marches());
   replay();
 }
@@ -103,8 +110,16 @@ std::optional<WindowRecord> WindowKeep::record_of(std::uint64_t window) const {
 void WindowKeep::begin(const PreparedLabels& labels, const MeshSettings& settings,
                        double inner_quality, int threads) {
   digests_.emplace(labels, keys_, settings, layout_.grid(0), threads);
+  // Nothing was ever made with another choice, so no fact fits.
+  const std::string chosen = io::text("inner-quality = ", inner_quality, "\n");
+  const std::string before = folder_->text(kChosenFile);
+  if (!before.empty() && before != chosen && options_.say) {
+    options_.say(folder_->path().string() + ": this volume has another inner-quality (auto), now " +
+                 io::text(inner_quality) + ": all windows are visited again");
+  }
+  if (before != chosen) folder_->put_text(kChosenFile, chosen);
   io::DigestMaker scope;
-  scope.add(io::text("inner quality = ", inner_quality));
+  scope.add(chosen);
   scope_ = scope.finish();
 }
 
@@ -289,10 +304,10 @@ void WindowKeep::save() {
 
 /// Most records are of windows that have newer ones: the others alone are written again.
 void WindowKeep::compact_log() {
-  const std::filesystem::path file = folder_.path() / kCompactedFile;
+  const std::filesystem::path file = folder_->path() / kCompactedFile;
   std::filesystem::remove(file);
   {
-    RecordLog compacted(folder_.open(kCompactedFile));
+    RecordLog compacted(folder_->open(kCompactedFile));
     for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
       if (record_at_[window] == 0) continue;
       log_->read(record_at_[window] - 1, [&](std::span<const std::byte> bytes) {
@@ -301,14 +316,14 @@ void WindowKeep::compact_log() {
     }
     compacted.sync();
   }
-  std::filesystem::rename(file, folder_.path() / kWindowsFile);
+  std::filesystem::rename(file, folder_->path() / kWindowsFile);
 }
 
 void WindowKeep::finish() {
   const std::lock_guard turn(saving_);
   write_group();
   if (records_ > 2 * live_) compact_log();
-  facts_.bytes_kept = folder_.bytes();
+  facts_.bytes_kept = folder_->bytes();
 }
 
 bool WindowKeep::has_facts() const {

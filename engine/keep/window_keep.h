@@ -64,7 +64,7 @@ class WindowKeep : public BlockKeeper {
   [[nodiscard]] bool has_facts() const;
 
   [[nodiscard]] KeepFacts facts() const;
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_->path(); }
 
  private:
   struct Known {
@@ -86,7 +86,7 @@ class WindowKeep : public BlockKeeper {
   const RunLayout& layout_;
   KeepOptions options_;
   LabelKeys keys_;
-  KeepFolder folder_;
+  std::shared_ptr<KeepFolder> folder_;
   MemoryBudget::Reservation room_;
   std::optional<LabelDigests> digests_;
   io::ContentDigest scope_;            ///< of what is settled for the run

@@ -96,7 +96,7 @@ Json rank_json(const engine::ProcessFacts& rank) {
 }
 
 Json keep_json(const engine::KeepFacts& keep) {
-  Json out{{"tiles_read", keep.tiles_read},
+  Json out{{"voxels_read", keep.voxels_read},
            {"bytes_written", keep.bytes_written},
            {"folder_bytes", keep.bytes_kept}};
   for (const engine::KeepFacts::March& march : keep.marches) {

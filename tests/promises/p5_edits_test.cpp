@@ -87,13 +87,13 @@ void run_chain(Trial trial, std::mt19937& random, int edits, Chain& chain) {
 TEST(Promise5SameBytes, AfterEditsFromWhatWasKept) {
   std::mt19937 random(3501);
   Chain chain;
-  for (std::uint32_t i = 0; i < 24 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{18 + below(random, 20)}; };
+  for (std::uint32_t i = 0; i < 16 && !HasFailure(); ++i) {
+    const auto edge = [&] { return std::int64_t{12 + below(random, 12)}; };
     const auto x = edge(), y = edge(), z = edge();
     const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
     Trial trial = random_trial(
         random, test::with_room(random_volume_of(random, kind, {x, y, z}, 2 + below(random, 120))));
-    constexpr std::array<int, 3> kWindows{4, 8, 12};
+    constexpr std::array<int, 3> kWindows{4, 6, 8};
     trial.settings.window = kWindows[below(random, 3)];
     trial.settings.marches = static_cast<int>(1 + below(random, 2));
     trial.settings.order = Order::kColour;

@@ -62,6 +62,7 @@ struct MeshFiles {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
+    if (!request.delta.empty()) delta.emplace(request.delta);
     if (has_no_sink(shared)) return;
     counted.emplace(*sink, tets);
     if (!request.job.is_measured) return;
@@ -85,6 +86,7 @@ struct MeshFiles {
   std::optional<io::TeeSink> counted;
   std::optional<io::AtomicFile> report;
   std::optional<io::AtomicFile> html;
+  std::optional<io::AtomicFile> delta;
   std::optional<io::DigestSink> digest;  ///< for report and page; it waits beside the output
   std::optional<io::TeeSink> both;
   std::optional<io::GroupedSink> grouped;  ///< for the page, the same
@@ -160,6 +162,15 @@ void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
   }
 }
 
+void tell_keep(const engine::KeepFacts& keep) {
+  std::uint64_t visited = 0, skipped = 0;
+  for (const engine::KeepFacts::March& march : keep.marches) {
+    visited += march.visited;
+    skipped += march.skipped;
+  }
+  std::cout << "windows     " << visited << " visited, " << skipped << " as they were\n";
+}
+
 /// As many of the threads asked for as the system gives.
 int threads_at_hand(int asked) {
   engine::save_address_space();
@@ -203,6 +214,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   if (files.trace) files.trace->finish();
   if (!run_processes().speaks()) return kExitDone;
   tell_resume(request, run.engine.store);
+  if (run.engine.keep) tell_keep(*run.engine.keep);
   run.resources = meter.read();
   print_summary(run, request, files.tets);
   print_writers(files.shared);
@@ -214,6 +226,10 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
   }
   if (files.report) report::write_run_report(*files.report, run, request.output, options.json());
+  if (files.delta) {
+    files.delta->append(run.delta.value().dump_indented() + "\n");
+    files.delta->commit();
+  }
   if (files.html) write_page(request, run, files, options.json());
   return kExitDone;
 }
@@ -223,6 +239,10 @@ int run_mesh(MeshRequest& request, const OptionSet& options) {
     request.size_tables.push_back(std::move(file));
   }
   check_mesh_request(request);
+  if (runs_are_divided() && !request.job.run.keep.folder.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "--keep: what is kept is that of one process; run mwmesh instead of mwmesh-mpi");
+  }
   start_log(run_processes().speaks() ? request.log_level : "off");
   take_part(request);
   int& threads = request.job.run.threads;

@@ -38,8 +38,10 @@ void require_output_apart(const MeshRequest& request) {
 void require_names_used_once(const MeshRequest& request) {
   std::vector<fs::path> taken{request.volume.path, request.volume.names, request.output};
   taken.insert(taken.end(), request.size_tables.begin(), request.size_tables.end());
-  const std::pair<const char*, fs::path> written[] = {
-      {"--report", request.report}, {"--trace", request.trace}, {"--html", request.html}};
+  const std::pair<const char*, fs::path> written[] = {{"--report", request.report},
+                                                      {"--trace", request.trace},
+                                                      {"--html", request.html},
+                                                      {"--delta", request.delta}};
   for (const auto& output : written) {
     const fs::path& path = output.second;
     if (path.empty()) continue;

@@ -78,13 +78,12 @@ void add_keep_options(OptionSet& options, MeshRequest& request) {
                .listed = Listed::kInHelpAll,
                .repeats = true,
                .assign = into(request.job.run.keep.changed, parse_boxes)});
-  options.add({.name = "keep-bytes",
-               .value = "SIZE",
-               .help = "of FOLDER at most, once the run is done; the rest is made again",
+  options.add({.name = "delta",
+               .value = "FILE.json",
+               .help = "with --from: writes what the edit did to labels, contacts and mesh",
                .group = kRunGroup,
-               .kind = ValueKind::kSize,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.job.run.keep.max_bytes, parse_bytes)});
+               .assign = into(request.delta)});
 }
 
 void add_run_options(OptionSet& options, MeshRequest& request) {
@@ -219,11 +218,17 @@ void settle_keep(MeshRequest& request) {
                 "--keep: --from updates the folder that it names, give one of the two");
   }
   if (request.keep.empty() && request.from.empty()) {
-    if (keep.changed.empty() && keep.max_bytes == engine::KeepOptions::kUnlimited) return;
-    throw Error(ErrorKind::kUsage, keep.changed.empty()
-                                       ? "--keep-bytes: give --keep or --from as well"
-                                       : "--changed: says what changed since a run, give --from");
+    if (keep.changed.empty() && request.delta.empty()) return;
+    throw Error(ErrorKind::kUsage, std::string(keep.changed.empty() ? "--delta" : "--changed") +
+                                       ": says what changed since a run, give --from as well");
   }
+  if (request.from.empty() && !keep.changed.empty()) {
+    throw Error(ErrorKind::kUsage, "--changed: goes with --from");
+  }
+  if (request.from.empty() && !request.delta.empty()) {
+    throw Error(ErrorKind::kUsage, "--delta: says what changed since a run, give --from as well");
+  }
+  request.job.wants_delta = !request.delta.empty();
   keep.folder = request.from.empty() ? request.keep : request.from;
   keep.use = !request.from.empty()          ? engine::KeepUse::kUpdate
              : request.job.run.store.resume ? engine::KeepUse::kGoOn
