@@ -14,8 +14,6 @@
 namespace mw::engine {
 namespace {
 
-constexpr std::uint64_t kMaxGroup = 1 << 12;
-constexpr std::chrono::seconds kMaxGroupAge{10};
 constexpr int kPackLevel = 1;
 constexpr const char* kCompactedFile = ".windows.partial-compacted";
 
@@ -58,9 +56,11 @@ std::shared_ptr<KeepFolder> opened(const KeepOptions& options, const std::string
 }  // namespace
 
 WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
-                       const RunLayout& layout, MemoryBudget& budget, const io::LabelTable& table)
+                       const RunLayout& layout, MemoryBudget& budget, const io::LabelTable& table,
+                       const GroupCommit& limits)
     : layout_(layout),
       options_(options),
+      limits_(limits),
       keys_(table),
       folder_(opened(options, settings)),
       room_(budget.reserve(Purpose::kIndex, index_bytes_of(layout))),
@@ -251,7 +251,7 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
     group_.push_back(record);
     ++facts_.marches[key.march].visited;
     facts_.bytes_written += packed.size();
-    full = group_.size() >= kMaxGroup || Clock::now() - group_since_ >= kMaxGroupAge;
+    full = group_.size() >= limits_.windows || Clock::now() - group_since_ >= limits_.age;
   }
   leave(key, record);
   if (full) {

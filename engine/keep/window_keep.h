@@ -18,6 +18,7 @@
 #include "engine/keep/window_records.h"
 #include "engine/store/block_keeper.h"
 #include "engine/store/memory_budget.h"
+#include "engine/store/run_store.h"
 #include "engine/store/table/segment_file.h"
 
 namespace mw::engine {
@@ -35,11 +36,12 @@ namespace mw::engine {
 /// Thread safety: windows that share no block may be asked for and kept at the same time.
 class WindowKeep : public BlockKeeper {
  public:
-  /// settings: what every fact depends on, lines "name = value".  The references outlive it.
+  /// settings: what every fact depends on, lines "name = value".  limits: when facts become
+  /// durable.  The references outlive it.
   /// ERRORS: those of KeepFolder; DamagedWork; mw::Error(kResource) when the index exceeds the
   /// budget.
   WindowKeep(const KeepOptions& options, const std::string& settings, const RunLayout& layout,
-             MemoryBudget& budget, const io::LabelTable& table);
+             MemoryBudget& budget, const io::LabelTable& table, const GroupCommit& limits);
 
   /// Before the first march.  inner_quality: that is kept to (MeshSettings).  labels outlive it.
   void begin(const PreparedLabels& labels, const MeshSettings& settings, double inner_quality,
@@ -85,6 +87,7 @@ class WindowKeep : public BlockKeeper {
 
   const RunLayout& layout_;
   KeepOptions options_;
+  GroupCommit limits_;
   LabelKeys keys_;
   std::shared_ptr<KeepFolder> folder_;
   MemoryBudget::Reservation room_;

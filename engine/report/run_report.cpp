@@ -205,21 +205,23 @@ void for_each_volume(const FinishedRun& run,
 }
 
 Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json settings) {
-  return {{"version", engine::version()},
-          {"settings", std::move(settings)},
-          {"input", input_json(run)},
-          {"specks", specks_json(run.specks)},
-          {"lattice", lattice_json(run.engine.lattice)},
-          {"output", output_json(run, mesh)},
-          {"quality", quality_json(run.engine.quality.value())},
-          {"shape", shape_json(run)},
-          {"size", size_json(run)},
-          {"distance", distance_json(run)},
-          {"topology", topology_json(run)},
-          {"certificate", certificate_json(run)},
-          {"performance", performance_json(run)},
-          {"engine", engine_json(run)},
-          {"digest", run.digest.empty() ? Json() : Json(run.digest)}};
+  Json out{{"version", engine::version()},
+           {"settings", std::move(settings)},
+           {"input", input_json(run)},
+           {"specks", specks_json(run.specks)},
+           {"lattice", lattice_json(run.engine.lattice)},
+           {"output", output_json(run, mesh)},
+           {"quality", quality_json(run.engine.quality.value())},
+           {"shape", shape_json(run)},
+           {"size", size_json(run)},
+           {"distance", distance_json(run)},
+           {"topology", topology_json(run)},
+           {"certificate", certificate_json(run)},
+           {"performance", performance_json(run)},
+           {"engine", engine_json(run)},
+           {"digest", run.digest.empty() ? Json() : Json(run.digest)}};
+  if (run.delta) out["delta"] = *run.delta;
+  return out;
 }
 
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json settings,

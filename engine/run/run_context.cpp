@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/keep/results_id.h"
 #include "engine/settings/promises.h"
 #include "engine/store/journal/workdir.h"
 #include "engine/window/window_memory.h"
@@ -85,8 +86,10 @@ std::unique_ptr<RunPart> take_part(RunContext& run, const io::VolumeInfo& info) 
 std::unique_ptr<WindowKeep> open_keep(RunContext& run, const io::VolumeInfo& info) {
   const KeepOptions& options = run.hooks.keep;
   if (options.folder.empty()) return nullptr;
-  return std::make_unique<WindowKeep>(options, options.identity + identity_text(info, run.settings),
-                                      run.layout, run.budget, run.lattice.labels().table());
+  const std::string settings =
+      options.identity + "results = " + results_id() + "\n" + identity_text(info, run.settings);
+  return std::make_unique<WindowKeep>(options, settings, run.layout, run.budget,
+                                      run.lattice.labels().table(), run.hooks.store.group);
 }
 
 RunReport begun_report(const RunContext& run) {
