@@ -61,7 +61,7 @@ OptionTexts implied_by_keep(const std::string& folder) {
 void add_keep_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "keep",
                .value = "FOLDER",
-               .help = "keeps there what --from meshes an edited volume with; sets --order colour",
+               .help = "keeps what --from needs after an edit; sets --order colour",
                .group = kRunGroup,
                .assign = into(request.keep),
                .implied = implied_by_keep});
@@ -73,7 +73,7 @@ void add_keep_options(OptionSet& options, MeshRequest& request) {
                .implied = implied_by_keep});
   options.add({.name = "changed",
                .value = "X0,Y0,Z0,X1,Y1,Z1",
-               .help = "with --from: where voxels changed since, repeatable [anywhere]",
+               .help = "with --from: where INPUT has changed, repeatable [anywhere]",
                .group = kRunGroup,
                .listed = Listed::kInHelpAll,
                .repeats = true,
@@ -229,6 +229,8 @@ void settle_keep(MeshRequest& request) {
     throw Error(ErrorKind::kUsage, "--delta: says what changed since a run, give --from as well");
   }
   request.job.wants_delta = !request.delta.empty();
+  const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
+  for (Box3& box : keep.changed) box = {box.lo - first, box.hi - first};
   keep.folder = request.from.empty() ? request.keep : request.from;
   keep.use = !request.from.empty()          ? engine::KeepUse::kUpdate
              : request.job.run.store.resume ? engine::KeepUse::kGoOn

@@ -76,7 +76,7 @@ class Keep(unittest.TestCase):
         rng = random.Random(5)
         for step in range(5):
             x, y, z = (rng.randrange(n - 3) for n in (30, 26, 22))
-            label = int(self.volume[z, y, x]) + step % 2  # every second one is new
+            label = (int(self.volume[z, y, x]) + 10) % 200 + step % 2  # every second one is new
             self.volume[z:z + 3, y:y + 3, x:x + 3] = label
             self.save()
             self.mesh("--from", "k", "--changed", f"{x},{y},{z},{x + 3},{y + 3},{z + 3}",
