@@ -215,6 +215,16 @@ struct Options {
   /// neither.  The folder is made, and removed after success.
   std::filesystem::path workdir;
   bool resume = false;
+  /// A folder in which the run keeps what later runs of the volume, edited, need not do again, in
+  /// the place of a workdir; empty: nothing is kept.  Needs the setting order=colour.
+  std::filesystem::path keep;
+  /// An earlier run of the same settings has kept something there: only windows that the edit
+  /// reaches are meshed again.  The mesh is that of a run that begins afresh; the report tells what
+  /// the edit did ("delta").
+  bool from_kept = false;
+  /// With from_kept: boxes of voxels that have all changes since the run before, which alone are
+  /// read; empty: everything may have changed.
+  std::vector<Box> changed;
   Certify certify = Certify::kAuto;
   bool report = true;  ///< false: quality and shape are not measured, and reports are empty
 };

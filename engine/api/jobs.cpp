@@ -34,6 +34,12 @@ engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& 
   out.store.memory = memory_of(options);
   out.store.workdir = checked_path(options.workdir, "workdir");
   out.store.resume = options.resume;
+  out.keep.folder = checked_path(options.keep, "keep");
+  out.keep.use = options.from_kept ? engine::KeepUse::kUpdate : engine::KeepUse::kBegin;
+  for (const mwmesh::Box& box : options.changed) {
+    out.keep.changed.push_back(
+        {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}});
+  }
   if (hooks.progress) {
     out.progress = [&hooks](const engine::RunProgress& at) {
       hooks.progress({.done = at.done, .total = at.total, .seconds_left = at.seconds_left});
@@ -82,6 +88,9 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
   if (options.resume && options.workdir.empty()) {
     throw Error(ErrorKind::kUsage, "--resume: needs the --workdir of the run that ended early");
   }
+  if (options.keep.empty() && (options.from_kept || !options.changed.empty())) {
+    throw Error(ErrorKind::kUsage, "--from: needs the folder that a run has kept something in");
+  }
   engine::MeshSettings values = mesh_settings(settings);
   std::shared_ptr<const io::LabelVolume> sizes;
   if (const std::string& image = values.sizes.rules.image; !image.empty()) {
@@ -93,6 +102,7 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
           .choice = label_choice(options),
           .certify = certify_of(options.certify),
           .is_measured = options.report,
+          .wants_delta = options.from_kept && options.report,
           .folder = io::scratch_folder(),
           .run = run_hooks(options, hooks),
           .stop = stop_function(hooks)};

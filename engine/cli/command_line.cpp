@@ -78,6 +78,9 @@ class Reader {
     const std::string names = option.flags.empty() ? "--" + option.name : option.flags;
     flag.parsed =
         flag.is_switch() ? app_.add_flag(names, flag.is_on) : app_.add_option(names, flag.text);
+    if (option.repeats) {
+      flag.parsed->multi_option_policy(CLI::MultiOptionPolicy::Join)->delimiter(';');
+    }
   }
 
   [[nodiscard]] std::string explain(const CLI::ParseError& error) const {

@@ -34,6 +34,10 @@ std::string obstacle(const MeshJob& job) {
            "on, "
            "or verify the file";
   }
+  if (job.certify == Certify::kAuto && job.run.keep.use == KeepUse::kUpdate) {
+    return "the mesh is, byte for byte, that of a run that begins afresh: give --certify on, or "
+           "verify the file";
+  }
   if (job.run.store.memory / 4 < kShared + kPerThread) {
     return "needs --memory " + report::format_bytes(4 * (kShared + kPerThread)) + " or more";
   }

@@ -3,7 +3,13 @@
 // The steps of the main job in their order.
 #include "engine/job/mesh_job.h"
 
+#include <atomic>
+#include <sstream>
+
 #include "engine/job/certificate.h"
+#include "engine/job/volume_delta.h"
+#include "engine/keep/keep_folder.h"
+#include "engine/keep/kept_labels.h"
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/size_image.h"
@@ -34,6 +40,94 @@ class StoppableVolume : public io::VolumeView {
   std::function<void()> stop_;
 };
 
+/// Counts voxels that are read.
+class CountedVolume : public io::VolumeView {
+ public:
+  using VolumeView::VolumeView;
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    below().read(box, out);
+    voxels_ += static_cast<std::uint64_t>(box.voxels());
+  }
+  [[nodiscard]] std::uint64_t voxels() const { return voxels_; }
+
+ private:
+  mutable std::atomic<std::uint64_t> voxels_ = 0;
+};
+
+/// The labels of a run that keeps something, and those that it leaves for the next one.
+class KeptInput {
+ public:
+  /// ERRORS: those of KeepFolder and KeptLabels; mw::Error(kUsage) when a delta is wanted and there
+  /// is nothing before.
+  KeptInput(const io::LabelVolume& opened, const MeshJob& job) : counted_(opened) {
+    const KeepOptions& options = job.run.keep;
+    if (options.folder.empty()) return;
+    folder_ = std::make_shared<KeepFolder>(options.folder, options.use);
+    open_before(job);
+    std::vector<Box3> changed{{{0, 0, 0}, opened.info().shape}};
+    const bool is_patched = before_ && !options.changed.empty();
+    if (is_patched) changed = options.changed;
+    changed = folder_->begin_change(changed);
+    if (is_patched) patched_.emplace(counted_, *before_, std::move(changed));
+    after_ = std::make_unique<io::AtomicFile>(folder_->path() / kLabelsFile);
+    write_kept_labels(volume(), *after_);
+  }
+
+  [[nodiscard]] const io::LabelVolume& volume() const {
+    return patched_ ? static_cast<const io::LabelVolume&>(*patched_) : counted_;
+  }
+  [[nodiscard]] const std::shared_ptr<KeepFolder>& folder() const { return folder_; }
+  [[nodiscard]] std::uint64_t voxels_read() const { return counted_.voxels(); }
+
+  /// What the edit did to the volume `after`, which the steps of the job were applied to, and to
+  /// the mesh.
+  [[nodiscard]] io::Json delta(const io::LabelVolume& after, const MeshJob& job,
+                               const MeshSize& size) const {
+    const PatchedVolume unpatched(counted_, *before_, {});
+    const io::PreparedInput before(unpatched, job.steps);
+    const VerifyTask task{.options = {},
+                          .threads = thread_count(job.run.threads),
+                          .folder = folder_->path(),
+                          .between = job.stop};
+    MeshSize old_size;
+    std::istringstream text(folder_->text(kMeshFile));
+    const bool is_known = !(text >> old_size.vertices >> old_size.tets).fail();
+    return delta_json(delta_of(before.volume(), after, task),
+                      is_known ? std::optional(old_size) : std::nullopt, size);
+  }
+
+  /// The run is complete.
+  void finish(const MeshSize& size) {
+    if (folder_ == nullptr) return;
+    after_->commit();
+    folder_->put_text(kMeshFile, io::text(size.vertices, " ", size.tets, "\n"));
+    folder_->end_change();
+  }
+
+ private:
+  void open_before(const MeshJob& job) {
+    const KeepOptions& options = job.run.keep;
+    if (options.changed.empty() && !job.wants_delta) return;
+    before_ = KeptLabels::open(folder_->path() / kLabelsFile, counted_.info().shape);
+    if (before_) return;
+    const std::string folder = folder_->path().string();
+    if (job.wants_delta) {
+      throw Error(ErrorKind::kUsage,
+                  "--delta: no run was complete in " + folder + ", there is nothing before");
+    }
+    if (options.say) {
+      options.say(folder +
+                  ": no run was complete here, so all labels are read, not only --changed");
+    }
+  }
+
+  CountedVolume counted_;
+  std::shared_ptr<KeepFolder> folder_;
+  std::optional<KeptLabels> before_;
+  std::optional<PatchedVolume> patched_;
+  std::unique_ptr<io::AtomicFile> after_;
+};
+
 /// By dense label, as OutputOptions has them.
 std::vector<double> edge_sizes(const SizeRules& rules, const io::LabelTable& table) {
   std::vector<double> out(rules.any() ? table.size() : 0);
@@ -50,6 +144,7 @@ RunHooks run_hooks(const MeshJob& job, const io::LabelTable& table, const std::s
   out.store.memory = memory;
   out.store.identity =
       std::string("version = ") + version() + "\nlabel fingerprint = " + fingerprint + "\n";
+  out.keep.identity = std::string("version = ") + version() + "\n";
   out.progress = [&job](const RunProgress& at) {
     job.stop();
     if (job.run.progress) job.run.progress(at);
@@ -75,7 +170,8 @@ RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink&
                 RunHooks run) {
   std::string work;
   run.store.kept = [&] {
-    work = "; the work so far is in " + run.store.workdir.string() + ", add --resume to go on";
+    const auto& folder = run.keep.folder.empty() ? run.store.workdir : run.keep.folder;
+    work = "; the work so far is in " + folder.string() + ", add --resume to go on";
     if (job.run.store.kept) job.run.store.kept();
   };
   try {
@@ -102,7 +198,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   check(opened.info(), job.settings);
   check_unpacking(opened, job.settings, job.run);
   const std::optional<SizeImage> sizes = size_image(opened.info(), job);
-  const StoppableVolume stoppable(opened, job.stop);
+  const StoppableVolume from_file(opened, job.stop);
+  KeptInput kept(from_file, job);
+  const io::LabelVolume& stoppable = kept.volume();
   const io::PreparedInput input(stoppable, job.steps,
                                 io::SpeckLimits::of_budget(job.run.store.memory));
   return_free_memory_above(0);  // the search for specks has let go of more than is held
@@ -123,6 +221,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   try {
     RunHooks hooks = run_hooks(job, run.labels, run.fingerprint, memory);
     hooks.sizes = sizes ? &*sizes : nullptr;
+    hooks.keep.opened = kept.folder();
     run.engine = march(labels, job, certifier ? certifier->sink() : sink, std::move(hooks));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kCheckFailed) {
@@ -130,6 +229,10 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
     }
     throw;
   }
+  const MeshSize size{run.engine.vertices, run.engine.tets};
+  if (job.wants_delta) run.delta = kept.delta(input.volume(), job, size);
+  kept.finish(size);
+  if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
   run.why_no_certificate = plan.why_not;
   run.why_no_volumes = why_no_volumes(promises_of(job.settings));
   if (certifier) run.certificate = certifier->report();

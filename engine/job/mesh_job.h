@@ -27,6 +27,7 @@ struct MeshJob {
   LabelChoice choice;
   Certify certify = Certify::kAuto;
   bool is_measured = false;      ///< whether quality and shape are measured, for a report
+  bool wants_delta = false;      ///< what changed since the run that run.keep goes on from
   std::filesystem::path folder;  ///< of the certificate's temporary files
   /// Threads, memory, work folder, other processes and callbacks.  mesh() sets what is written and
   /// the identity of the run.

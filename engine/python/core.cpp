@@ -183,6 +183,13 @@ void add_options(py::module_& module) {
       .def_property("workdir", nullptr,
                     [](Options& o, const std::string& path) { o.workdir = path; })
       .def_readwrite("resume", &Options::resume)
+      .def_property("keep", nullptr, [](Options& o, const std::string& path) { o.keep = path; })
+      .def_readwrite("from_kept", &Options::from_kept)
+      .def_property("changed", nullptr,
+                    [](Options& o, const std::vector<std::pair<Index, Index>>& boxes) {
+                      o.changed.clear();
+                      for (const auto& [lo, hi] : boxes) o.changed.push_back({lo, hi});
+                    })
       .def_readwrite("certify", &Options::certify)
       .def_readwrite("report", &Options::report);
   module.def("bytes_of_text", &bytes_of_text);

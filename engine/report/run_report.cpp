@@ -95,6 +95,16 @@ Json rank_json(const engine::ProcessFacts& rank) {
           {"peak_bytes_by_purpose", purposes_json(rank.peak_bytes_by_purpose)}};
 }
 
+Json keep_json(const engine::KeepFacts& keep) {
+  Json out{{"voxels_read", keep.voxels_read},
+           {"bytes_written", keep.bytes_written},
+           {"folder_bytes", keep.bytes_kept}};
+  for (const engine::KeepFacts::March& march : keep.marches) {
+    out["marches"].push_back({{"visited", march.visited}, {"skipped", march.skipped}});
+  }
+  return out;
+}
+
 Json engine_json(const FinishedRun& run) {
   const engine::StoreFacts& store = run.engine.store;
   Json out{{"windows", run.engine.windows},
@@ -111,6 +121,7 @@ Json engine_json(const FinishedRun& run) {
     out["ranks"].push_back(rank_json(rank));
   if (!run.engine.processes.empty())
     out["written_by"] = run.engine.written_together ? "all" : "first";
+  if (run.engine.keep) out["remesh"] = keep_json(*run.engine.keep);
   if (run.engine.workers) out["codt"] = codt_json(run.engine);
   return out;
 }
@@ -194,21 +205,23 @@ void for_each_volume(const FinishedRun& run,
 }
 
 Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json settings) {
-  return {{"version", engine::version()},
-          {"settings", std::move(settings)},
-          {"input", input_json(run)},
-          {"specks", specks_json(run.specks)},
-          {"lattice", lattice_json(run.engine.lattice)},
-          {"output", output_json(run, mesh)},
-          {"quality", quality_json(run.engine.quality.value())},
-          {"shape", shape_json(run)},
-          {"size", size_json(run)},
-          {"distance", run_distance_json(run)},
-          {"topology", topology_json(run)},
-          {"certificate", certificate_json(run)},
-          {"performance", performance_json(run)},
-          {"engine", engine_json(run)},
-          {"digest", run.digest.empty() ? Json() : Json(run.digest)}};
+  Json out{{"version", engine::version()},
+           {"settings", std::move(settings)},
+           {"input", input_json(run)},
+           {"specks", specks_json(run.specks)},
+           {"lattice", lattice_json(run.engine.lattice)},
+           {"output", output_json(run, mesh)},
+           {"quality", quality_json(run.engine.quality.value())},
+           {"shape", shape_json(run)},
+           {"size", size_json(run)},
+           {"distance", run_distance_json(run)},
+           {"topology", topology_json(run)},
+           {"certificate", certificate_json(run)},
+           {"performance", performance_json(run)},
+           {"engine", engine_json(run)},
+           {"digest", run.digest.empty() ? Json() : Json(run.digest)}};
+  if (run.delta) out["delta"] = *run.delta;
+  return out;
 }
 
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json settings,

@@ -29,6 +29,7 @@ struct FinishedRun {
   std::string digest;         ///< empty: it was not made
   std::string fingerprint;    ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty: none was made
+  std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
   std::string why_no_certificate;
   std::string why_no_volumes;  ///< empty: the run promises volumes of labels (P8)
 };

@@ -27,6 +27,19 @@ std::uint64_t Marches::own_windows() const {
   return count;
 }
 
+/// Whether an earlier run has left what a visit of the window would.
+bool Marches::recalls(const WindowKey& key) const {
+  return run_.keep != nullptr && run_.keep->recalls(key);
+}
+
+bool Marches::adopt(const WindowKey& key) const {
+  if (run_.keep == nullptr) return false;
+  const auto places = run_.keep->recalled(key);
+  if (!places) return false;
+  run_.store.adopt(key, *places);
+  return true;
+}
+
 AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,
                                const WindowVisitor& visitor) const {
   const std::uint64_t budget = run_.hooks.store.memory;
@@ -53,12 +66,17 @@ void Marches::visit_all(std::uint32_t march_number, const WindowVisitor& visitor
   forecast_.begin_march([&](Index3 w) {
     return !run_.part->visits({march_number, w}) || is_done(w);
   });
-  const AdmitWindow admit = admission(order, store, visitor);
+  const AdmitWindow admit_visit = admission(order, store, visitor);
+  const AdmitWindow admit = [&](Index3 window) -> Admission {
+    if (recalls({march_number, window})) return std::make_shared<Index3>(window);
+    return admit_visit(window);
+  };
   // Once a window has failed nobody will ask for the results of others.
   std::atomic<bool> failed = false;
   const VisitWindow visit = [&](Index3 window) {
     if (failed) return;
     try {
+      if (adopt({march_number, window})) return;
       if (run_.hooks.before_visit) run_.hooks.before_visit(window);
       add(visitor.visit(window));
     } catch (...) {

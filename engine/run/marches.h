@@ -27,6 +27,9 @@ class Marches {
   [[nodiscard]] std::uint64_t own_windows() const;
   [[nodiscard]] AdmitWindow admission(const WindowOrder& order, BlockStore& store,
                                       const WindowVisitor& visitor) const;
+  [[nodiscard]] bool recalls(const WindowKey& key) const;
+  /// True when the window is done by what an earlier run has left.
+  [[nodiscard]] bool adopt(const WindowKey& key) const;
   void add(const VisitStats& visit);
   void note(std::uint32_t march, const Visited& v);
 

@@ -63,6 +63,7 @@ void prepare(RunContext& run, ReadyLabels& out) {
   out.room = run.store.reserve(Purpose::kLabels, prepared_bytes(labels, run.settings, need));
   const LabelReaders readers(labels, run.settings, run.hooks, run.store);
   std::filesystem::path folder = run.part->work_folder();
+  if (folder.empty() && run.keep != nullptr) folder = run.keep->folder();
   if (folder.empty()) folder = io::scratch_folder();
   if (need == nullptr) {
     out.prepared.emplace(labels, run.settings, readers.threads, folder, run.hooks.sizes);
@@ -89,6 +90,9 @@ std::uint64_t march(RunContext& run, const ReadyLabels& labels, RunForecast& for
   run.report.inner_quality = *settings.inner_quality;
   const Metric metric(run.lattice.info().space.spacing);
   run.part->begin_marches(run.store);
+  if (run.keep != nullptr) {
+    run.keep->begin(*labels.prepared, settings, run.report.inner_quality, run.hooks.threads);
+  }
   Marches marches(run, forecast);
   for (std::uint32_t i = 0; i < run.layout.marches(); ++i) {
     const WindowVisitor visitor(*labels.prepared, metric, settings, run.layout.grid(i),
@@ -167,6 +171,10 @@ void go(RunContext& run) {
   RunForecast forecast(labels.counts().faces, run.layout, run.settings, run.hooks.threads);
   const std::uint64_t windows = march(run, labels, forecast);
   write(run, labels.counts(), forecast);
+  if (run.keep != nullptr) {
+    run.keep->finish();
+    run.report.keep = run.keep->facts();
+  }
   run.report.processes = run.part->end(facts_of(run.budget, windows));
   run.report.memory_budget_bytes = run.budget.limit();
   run.report.peak_accounted_bytes = run.budget.peak();
@@ -190,16 +198,19 @@ void keep_work(RunContext& run, const std::exception_ptr& error) {
   const bool damaged = is_damage(error);
   try {
     if (!damaged) run.store.save();
+    if (!damaged && run.keep != nullptr) run.keep->save();
   } catch (...) {
     // The disk is full or broken, or memory is out: what was saved before remains.
   }
-  const bool can_go_on = run.part->keep_work(run.store);
+  const bool has_facts = run.keep != nullptr && run.keep->has_facts();
+  const bool can_go_on = run.part->keep_work(run.store) || has_facts;
   if (can_go_on && run.hooks.store.kept && !damaged) run.hooks.store.kept();
 }
 
 /// The error with the way out of damaged work.
-[[noreturn]] void explain(const DamagedWork& damage, const StoreOptions& store) {
-  throw Error(damage.kind(), io::text(damage.what(), "; the disk or ", store.workdir.string(),
+[[noreturn]] void explain(const DamagedWork& damage, const RunHooks& hooks) {
+  const auto& folder = hooks.keep.folder.empty() ? hooks.store.workdir : hooks.keep.folder;
+  throw Error(damage.kind(), io::text(damage.what(), "; the disk or ", folder.string(),
                                       " is damaged: delete that folder and start again"));
 }
 
@@ -216,7 +227,7 @@ RunReport run_and_explain(const io::DenseVolume& volume, const MeshSettings& set
     }
     return std::move(run.report);
   } catch (const DamagedWork& damage) {
-    explain(damage, hooks.store);
+    explain(damage, hooks);
   }
 }
 

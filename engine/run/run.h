@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "engine/codt/worker_pool.h"
+#include "engine/keep/keep_options.h"
 #include "engine/march/march.h"
 #include "engine/output/finish.h"
 #include "engine/run/processes.h"
@@ -48,6 +49,7 @@ struct RunReport : VisitStats {
   std::uint64_t peak_accounted_bytes = 0;
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
   StoreFacts store;
+  std::optional<KeepFacts> keep;           ///< where something is kept
   std::vector<ProcessFacts> processes;     ///< empty: there is only one
   bool written_together = false;           ///< by all of them, not by one alone
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
@@ -86,6 +88,9 @@ struct RunHooks {
   OutputOptions output;
   const SizeImage* sizes = nullptr;  ///< of SizeRules::image; outlives the run
   StoreOptions store;                ///< memory and disk
+  /// With a folder there is no work folder: what memory does not hold, and what a later run can go
+  /// on from, is there.  REQUIRES: then Order::kColour and one process.
+  KeepOptions keep;
   codt::PoolOptions workers;         ///< of Optimizer::kTetgen
   /// The processes that the run is divided among; null if it is this one alone.  All of them call
   /// mesh_volume() with the same volume and settings; only the one that speaks uses its sink, and

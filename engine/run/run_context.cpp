@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/keep/results_id.h"
 #include "engine/settings/promises.h"
 #include "engine/store/journal/workdir.h"
 #include "engine/window/window_memory.h"
@@ -18,11 +19,26 @@ const MeshSettings& checked(const io::DenseVolume& volume, const MeshSettings& s
   return settings;
 }
 
+/// ERRORS: mw::Error(kUsage) where nothing can be kept.
+void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
+  if (settings.order != Order::kColour) {
+    throw Error(ErrorKind::kUsage,
+                "keep: needs order colour: in raster order an edit changes what all later windows "
+                "see, so nothing could be used again");
+  }
+  if (hooks.processes->count() > 1) {
+    throw Error(ErrorKind::kUsage, "keep: works in one process only, run mwmesh without mpirun");
+  }
+}
+
 RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {
   hooks.output.promises = promises_of(settings);
   hooks.output.layers = layers;
   hooks.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   if (hooks.processes == nullptr) hooks.processes = &one_process();
+  if (hooks.keep.folder.empty()) return hooks;
+  check_keep(hooks, settings);
+  hooks.store.workdir.clear();
   return hooks;
 }
 
@@ -65,6 +81,15 @@ std::optional<codt::WorkerPool> start_workers(const RunContext& run) {
 std::unique_ptr<RunPart> take_part(RunContext& run, const io::VolumeInfo& info) {
   const std::string identity = run.hooks.store.identity + identity_text(info, run.settings);
   return run.hooks.processes->take_part(run.layout, run.hooks, identity);
+}
+
+std::unique_ptr<WindowKeep> open_keep(RunContext& run, const io::VolumeInfo& info) {
+  const KeepOptions& options = run.hooks.keep;
+  if (options.folder.empty()) return nullptr;
+  const std::string settings =
+      options.identity + "results = " + results_id() + "\n" + identity_text(info, run.settings);
+  return std::make_unique<WindowKeep>(options, settings, run.layout, run.budget,
+                                      run.lattice.labels().table(), run.hooks.store.group);
 }
 
 RunReport begun_report(const RunContext& run) {
@@ -120,7 +145,8 @@ RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted
       program_room(reserve_program(*this)),
       workers(start_workers(*this)),
       part(take_part(*this, volume.info())),
-      store(layout, budget, part->work_files(), hooks.store.group, part->router()),
+      keep(open_keep(*this, volume.info())),
+      store(layout, budget, part->work_files(), hooks.store.group, part->router(), keep.get()),
       attached(part->attach(store)),
       report(begun_report(*this)) {}
 

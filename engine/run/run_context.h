@@ -3,6 +3,7 @@
 // What the steps of a run work on and with.
 #pragma once
 
+#include "engine/keep/window_keep.h"
 #include "engine/labels/label_need.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/run/run.h"
@@ -49,6 +50,7 @@ struct RunContext {
   MemoryBudget::Reservation program_room;
   std::optional<codt::WorkerPool> workers;  ///< with Optimizer::kTetgen
   std::unique_ptr<RunPart> part;
+  std::unique_ptr<WindowKeep> keep;  ///< null: nothing is kept
   RunStore store;
   std::shared_ptr<void> attached;  ///< blocks come in as long as it lives
   RunReport report;

@@ -18,6 +18,21 @@ namespace {
 /// Beside its bytes: the block, its place in the table, and the allocator's heads of these.
 constexpr std::uint64_t kBytesPerBlock = sizeof(EncodedBlock) + 144;
 
+/// The voxels that a block's vertices touch.
+Box3 voxels_of(const BlockMesh& mesh) {
+  Box3 out;
+  for (const BlockVertex& v : mesh.vertices) {
+    const auto floor_voxel = [](std::int32_t u) { return std::int64_t{u} / kUnitsPerVoxel; };
+    const Index3 at{floor_voxel(v.position.x), floor_voxel(v.position.y),
+                    floor_voxel(v.position.z)};
+    if (&v == mesh.vertices.data()) out = {at, at};
+    out = {{std::min(out.lo.x, at.x), std::min(out.lo.y, at.y), std::min(out.lo.z, at.z)},
+           {std::max(out.hi.x, at.x), std::max(out.hi.y, at.y), std::max(out.hi.z, at.z)}};
+  }
+  if (!mesh.vertices.empty()) out.hi = out.hi + Index3{1, 1, 1};
+  return out;
+}
+
 std::unique_ptr<SegmentFile> open_disk(WorkFiles* files) {
   if (files == nullptr) return nullptr;
   return std::make_unique<SegmentFile>(files->open(kBlocksFile));
@@ -31,6 +46,7 @@ struct RunStore::Source {
   BlockPin cached;
   Extent extent;
   std::uint32_t sum = 0;
+  std::optional<KeptPlace> kept = std::nullopt;  ///< in the place of the extent
 };
 
 /// What one march sees.
@@ -67,11 +83,12 @@ class RunStore::March : public BlockStore {
 };
 
 RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* files,
-                   const GroupCommit& group, BlockRouter* router)
+                   const GroupCommit& group, BlockRouter* router, BlockKeeper* keeper)
     : layout_(layout),
       budget_(budget),
       limits_(group),
       router_(router),
+      keeper_(keeper),
       index_room_(budget.reserve(
           Purpose::kIndex, router == nullptr ? index_bytes(layout) : least_index_bytes(layout))),
       done_(layout.windows()),
@@ -120,6 +137,7 @@ void RunStore::find(const BlockKey& key, std::vector<Source>& out) const {
   const StoredBlock& block = table_.at(layout_.slot(key));
   if (!block.empty()) {
     out.push_back({key, block.cached, block.extent(), block.sum});
+    if (block.kept) out.back().kept = block.place();
   } else if (key.march > 0) {
     for (const BlockKey& part : layout_.parts(key)) find(part, out);
   }
@@ -127,6 +145,10 @@ void RunStore::find(const BlockKey& key, std::vector<Source>& out) const {
 
 BlockMesh RunStore::read(const Source& source) const {
   if (source.cached != nullptr) return decode_block(source.key, source.cached->bytes);
+  if (source.kept) {
+    bytes_read_ += source.kept->size;
+    return decode_block(source.key, keeper_->read(source.key, *source.kept));
+  }
   BlockMesh mesh;
   disk_->read(source.extent, [&](std::span<const std::byte> bytes) {
     if (bytes.size() < 8 || sum_of(bytes) != source.sum) {
@@ -265,15 +287,21 @@ void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
     if (admitted != in_flight_.end()) room = std::move(admitted->second);
   }
   std::vector<BlockPin> pins;
+  std::vector<LeftBlock> left;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     pins.push_back(encode(keys[i], blocks[i], room));
+    if (keeper_ != nullptr) {
+      left.push_back({pins[i]->bytes, pins[i]->memory_bytes, voxels_of(blocks[i])});
+    }
     blocks[i] = {};
   }
+  std::vector<KeptPlace> places;
+  if (keeper_ != nullptr) places = keeper_->keep(key, left);
   room = {};
   bool full = false;
   {
     const std::lock_guard lock(mutex_);
-    replace(key, keys, pins);
+    replace(key, keys, pins, places);
     in_flight_.erase(layout_.window(key));  // now all that it held can be spilled
     full = router_ == nullptr && group_is_full();
   }
@@ -286,7 +314,7 @@ void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
 /// The blocks leave the table under their old turns, the window is done, and those whose next user
 /// is here enter it again.
 void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
-                       std::vector<BlockPin>& pins) {
+                       std::vector<BlockPin>& pins, std::span<const KeptPlace> places) {
   std::vector<std::uint64_t> slots;
   for (const BlockKey& block : blocks) {
     slots.push_back(layout_.slot(block));
@@ -300,11 +328,23 @@ void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
   }
   done_.insert(layout_.window(key));
   for (std::size_t i = 0; i < slots.size(); ++i) {
-    if (stays(key, blocks[i])) table_.put(slots[i], std::move(pins[i]));
+    if (!places.empty()) {
+      table_.put_kept(slots[i], places[i], pins.empty() ? nullptr : std::move(pins[i]));
+    } else if (stays(key, blocks[i])) {
+      table_.put(slots[i], std::move(pins[i]));
+    }
   }
   if (journal_ == nullptr) return;
   group_.windows.push_back(layout_.window(key));
   group_.slots.insert(group_.slots.end(), slots.begin(), slots.end());
+}
+
+void RunStore::adopt(const WindowKey& key, std::span<const KeptPlace> places) {
+  const std::vector<BlockKey> keys = blocks_of(key);
+  MW_ASSERT(places.size() == keys.size());
+  std::vector<BlockPin> none;
+  const std::lock_guard lock(mutex_);
+  replace(key, keys, none, places);
 }
 
 /// pins: null of those that are in the table.

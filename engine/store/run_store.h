@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string>
 
+#include "engine/store/block_keeper.h"
 #include "engine/store/journal/journal.h"
 #include "engine/store/memory_budget.h"
 #include "engine/store/table/block_table.h"
@@ -60,11 +61,14 @@ class RunStore {
   /// Goes on from what the journal among `files` holds.
   /// router: null where all windows are visited here.  With one, work becomes
   /// durable by checkpoint() alone.
-  /// REQUIRES: layout, budget, files (null: none) and router outlive it.
+  /// keeper: null: nothing is kept.  With one there are no files and no router: what memory does
+  /// not hold is read again from what is kept.
+  /// REQUIRES: layout, budget, files (null: none), router and keeper outlive it.
   /// ERRORS: mw::Error(kResource) when the index alone exceeds the budget; kInput when the journal
   /// is damaged.
   RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* files,
-           const GroupCommit& group = {}, BlockRouter* router = nullptr);
+           const GroupCommit& group = {}, BlockRouter* router = nullptr,
+           BlockKeeper* keeper = nullptr);
   ~RunStore();
 
   /// Returns the store as the windows of one march see it.  It lives as long as this.
@@ -94,6 +98,10 @@ class RunStore {
   /// Notes a window that an earlier run has done.  is_own: it is visited here, so the next record
   /// names it.  REQUIRES: nothing was committed.
   void note_done(const WindowKey& key, bool is_own);
+
+  /// The window is done without a visit: its blocks, in their order, are those at these places.
+  /// REQUIRES: a keeper; as for a visit of the window.
+  void adopt(const WindowKey& key, std::span<const KeptPlace> places);
 
   /// Makes durable what is finished.  Does nothing without a work folder, or after an error in an
   /// earlier group.
@@ -130,7 +138,9 @@ class RunStore {
   /// Encodes a block, whose memory comes out of `room` if it fits there.
   [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh,
                                 MemoryBudget::Reservation& room);
-  void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin>& pins);
+  /// places: empty: nothing is kept.  pins: empty: nothing is in memory.
+  void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin>& pins,
+               std::span<const KeptPlace> places);
   [[nodiscard]] BlockPin hold(std::vector<std::byte> bytes, std::uint64_t memory_bytes,
                               MemoryBudget::Reservation& room);
   [[nodiscard]] bool stays(const WindowKey& key, const BlockKey& block) const {
@@ -148,6 +158,7 @@ class RunStore {
   MemoryBudget& budget_;
   const GroupCommit limits_;
   BlockRouter* router_;
+  BlockKeeper* keeper_;
   MemoryBudget::Reservation index_room_;
   std::vector<std::unique_ptr<March>> marches_;
 

@@ -39,7 +39,7 @@ void InterfaceFan::collect_of_any(const TetMesh& mesh, LocalVertex v,
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior) continue;
     // Both labels of an interface triangle lie at each of its corners.
-    const std::uint64_t others = one_bit_each ? all & ~TetMesh::label_bit(t.label) : all;
+    const std::uint64_t others = one_bit_each ? all & ~mesh.label_bit(t.label) : all;
     const std::uint64_t at_a = others & mesh.label_signature(t.a),
                         at_b = others & mesh.label_signature(t.b),
                         at_c = others & mesh.label_signature(t.c);
@@ -60,7 +60,7 @@ void InterfaceFan::collect_of_two(const TetMesh& mesh, LocalVertex v,
   const auto of_first = static_cast<std::size_t>(std::count_if(star.begin(), star.end(), is_first));
   const bool takes_first = 2 * of_first <= star.size();
   const Label label = takes_first ? first : second, other = takes_first ? second : first;
-  const std::uint64_t bit = TetMesh::label_bit(other);
+  const std::uint64_t bit = mesh.label_bit(other);
   opened_.clear();
   for (const LinkTriangle& t : star) {
     if (t.label != label) continue;

@@ -45,7 +45,7 @@ unsigned NearTriangle::sides_of(Point p) const {
 bool NearTriangle::may_be_at(const TetMesh& mesh, LocalVertex v,
                              const std::array<LocalVertex, 2>& without,
                              const Wanted& wanted) const {
-  const std::uint64_t both = TetMesh::label_bit(wanted.low) | TetMesh::label_bit(wanted.high);
+  const std::uint64_t both = mesh.label_bit(wanted.low) | mesh.label_bit(wanted.high);
   // Both labels of an interface triangle lie at each of its corners.
   const auto may_have = [&](LocalVertex w) {
     return (mesh.label_signature(w) & both) == both && w != without[0] && w != without[1];

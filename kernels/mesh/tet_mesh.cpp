@@ -19,10 +19,20 @@ BoxPlanes planes_of(Point p, Point box) {
   return static_cast<BoxPlanes>(planes);
 }
 
+LabelBits bits_of(std::span<const BlockTet> tets) {
+  std::vector<Label> labels{kExterior};
+  for (const BlockTet& t : tets) {
+    if (t.label != labels.back()) labels.push_back(t.label);
+  }
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return LabelBits(labels);
+}
+
 }  // namespace
 
 TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box)
-    : marks_(vertices.size() + 1) {
+    : bits_(bits_of(tets)), marks_(vertices.size() + 1) {
   points_.reserve(vertices.size());
   ids_.reserve(vertices.size());
   quadrics_.reserve(vertices.size());

@@ -12,6 +12,7 @@
 #include "kernels/core/label.h"
 #include "kernels/core/lattice.h"
 #include "kernels/mesh/block_mesh.h"
+#include "kernels/mesh/label_bits.h"
 #include "kernels/quadric/quadric.h"
 
 namespace mw {
@@ -108,11 +109,10 @@ class TetMesh {
   /// Number of distinct labels at v, exterior included (the paper's order, Sec 5.3.1).
   /// REQUIRES: v free (a fixed vertex may have labels that are not loaded).
   [[nodiscard]] int order(LocalVertex v) const { return orders_[v]; }
-  /// One bit a label (hashed) at v; all bits at a fixed vertex, whose labels may not all be loaded.
+  /// The bits of the labels at v; all bits at a fixed vertex, whose labels may not all be loaded.
   [[nodiscard]] std::uint64_t label_signature(LocalVertex v) const { return signatures_[v]; }
-  [[nodiscard]] static std::uint64_t label_bit(Label label) {
-    return std::uint64_t{1} << (label * 0x9E3779B1U >> 26);
-  }
+  /// See LabelBits; several of more than 64 labels share a bit.
+  [[nodiscard]] std::uint64_t label_bit(Label label) const { return bits_.of(label); }
   /// True when v lies between two labels of the volume (not merely on the box).
   [[nodiscard]] bool on_interface(LocalVertex v) const {
     return orders_[v] > (planes_[v] != 0 ? 2 : 1);
@@ -160,6 +160,7 @@ class TetMesh {
   std::vector<BoxPlanes> planes_;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> orders_;
+  LabelBits bits_;  ///< of all labels, the exterior among them
   std::vector<std::uint64_t> signatures_;
   std::vector<std::uint32_t> versions_;
   std::vector<Star> stars_;

@@ -61,14 +61,14 @@ class CandidateFinder {
           edge_labels_[w] = 0;
           if (w != mesh_.infinity()) neighbours_.push_back(w);
         }
-        edge_labels_[w] |= TetMesh::label_bit(t.label);
+        edge_labels_[w] |= mesh_.label_bit(t.label);
       }
     }
   }
 
   /// The part of the topology test that label signatures decide: a label at both ends must lie
-  /// around the edge, and an edge inside one label never joins two boundary vertices.  Hash
-  /// collisions can only refuse.
+  /// around the edge, and an edge inside one label never joins two boundary vertices.  Labels
+  /// that share a bit can only be a reason to refuse.
   [[nodiscard]] bool labels_allow(LocalVertex v, LocalVertex w) const {
     const std::uint64_t edge = edge_labels_[w];
     if ((mesh_.label_signature(v) & mesh_.label_signature(w) & ~edge) != 0) return false;

@@ -69,6 +69,12 @@ class SizeField {
   [[nodiscard]] double at(Point p) const {
     return values_[row(cube_at(p.x, cubes_.x), cube_at(p.y, cubes_.y), cube_at(p.z, cubes_.z))];
   }
+  /// Appends the limits of all cubes that a box meets, in raster order.
+  /// REQUIRES: the box is inside the volume and not empty.
+  void append_limits(const Box3& box, std::vector<float>& out) const {
+    for_each_index(cells_of(box, {cube_, cube_, cube_}),
+                   [&](Index3 c) { out.push_back(values_[row(c.x, c.y, c.z)]); });
+  }
   [[nodiscard]] double of_label(Label label) const {
     return label < label_limits_.size() ? label_limits_[label] : kNoLimit;
   }

@@ -293,6 +293,49 @@ class Case:
                 raise Failed(f"{name} has other bytes than that of the undisturbed run")
         self.remove_work()
 
+    # Edits ----------------------------------------------------------------------------------------
+
+    def edited_runs(self):
+        """A chain of edits, meshed from what the runs before have kept, some of them killed: the
+        files are those of runs that begin afresh."""
+        path, flags = self.folder / self.volume.file, self.settings.flags
+        named = self.settings.chosen or self.settings.merged or "size" in flags
+        if named or flags.get("order") == "raster" or path.suffix == ".gz":
+            return  # labels that are named may vanish
+        before = path.read_bytes()
+        if b"gzip" in before[:400]:
+            return
+        flags["order"] = "colour"
+        kept, volume = ["--keep=kept"], self.volume
+        for folder in ("e", "f"):
+            (self.folder / folder).mkdir()
+        for _ in range(self.random.randint(2, 4)):
+            if kept[0] == "--from=kept" and self.random.random() < 0.3:
+                self.killed_run(kept)
+            self.run(self.mesh_arguments("e/" + self.settings.output, [*self.schedule(), *kept]))
+            self.run(self.mesh_arguments("f/" + self.settings.output, ["--threads=1"]))
+            if self.files("e") != self.files("f"):
+                raise Failed("after an edit the mesh is another one than that of a fresh run")
+            volume, lo, hi = volumes.edited(self.random, volume)
+            labels = volumes.packed(volume)
+            path.write_bytes(before[:len(before) - len(labels)] + labels)
+            kept = ["--from=kept"]
+            if self.random.random() < 0.5:
+                kept.append("--changed=" + ",".join(map(str, lo + hi)))
+        path.write_bytes(before)
+        self.did.append("edited")
+
+    def killed_run(self, kept):
+        process = self.start(self.mesh_arguments("e/" + self.settings.output,
+                                                 ["--save-every=0", *kept]))
+        try:
+            process.wait(self.random.uniform(0, 1.1) * self.seconds)
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+        code, text = self.end(process)
+        if code not in (0, -9):
+            raise Failed(f"exit code {code} after SIGKILL\n{text}")
+
     # All of it ------------------------------------------------------------------------------------
 
     def check(self):
@@ -305,6 +348,8 @@ class Case:
         self.check_report()
         self.judged(self.converted())
         self.disturbed_run()
+        if self.random.random() < 0.5:
+            self.edited_runs()
         self.did.append("meshed")
         return self.did
 

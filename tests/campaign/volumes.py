@@ -170,6 +170,21 @@ def changed(random, volume):
     return volume.with_labels([table[label] for label in labels])
 
 
+def edited(random, volume):
+    """A box of the volume gets one of its labels, or another one.  Returns volume, lo, hi."""
+    bits, signed = int(volume.dtype[1:]), volume.dtype[0] == "i"
+    least = -(2 ** (bits - 1)) if signed else 0
+    lo = [random.randrange(n) for n in volume.shape]
+    hi = [random.randint(l + 1, min(n, l + 5)) for l, n in zip(lo, volume.shape)]
+    new = random.choice(volume.labels) if random.random() < 0.6 else least + random.randrange(2**bits)
+    labels, (nx, ny, _) = list(volume.labels), volume.shape
+    for z in range(lo[2], hi[2]):
+        for y in range(lo[1], hi[1]):
+            for x in range(lo[0], hi[0]):
+                labels[(z * ny + y) * nx + x] = new
+    return volume.with_labels(labels), lo, hi
+
+
 def draw_spacing(random):
     way = random.random()
     if way < 0.45:

@@ -62,6 +62,7 @@ struct MeshFiles {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
+    if (!request.delta.empty()) delta.emplace(request.delta);
     if (has_no_sink(shared)) return;
     counted.emplace(*sink, tets);
     if (!request.job.is_measured) return;
@@ -85,6 +86,7 @@ struct MeshFiles {
   std::optional<io::TeeSink> counted;
   std::optional<io::AtomicFile> report;
   std::optional<io::AtomicFile> html;
+  std::optional<io::AtomicFile> delta;
   std::optional<io::DigestSink> digest;  ///< for report and page; it waits beside the output
   std::optional<io::TeeSink> both;
   std::optional<io::GroupedSink> grouped;  ///< for the page, the same
@@ -110,12 +112,14 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   job.size_image = open_sizes(request);
   job.labels_known = [](std::size_t labels) { log_info(io::text("meshing ", labels, " labels")); };
   engine::RunHooks& run = job.run;
+  run.keep.say = [](const std::string& line) { log_warning(line); };
   run.together = files.shared.mesh.get();
   run.stop_after_save = is_save_requested;
   run.progress = [&](const engine::RunProgress& at) { progress.show(at); };
   if (files.trace) run.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
   run.store.kept = [&] {
-    work = "the work so far is in " + run.store.workdir.string() + ", add --resume to go on";
+    const auto& folder = run.keep.folder.empty() ? run.store.workdir : run.keep.folder;
+    work = "the work so far is in " + folder.string() + ", add --resume to go on";
   };
   try {
     return engine::mesh(volume, job, files.all());
@@ -150,13 +154,22 @@ void log_processes(const engine::RunReport& run) {
 }
 
 void tell_resume(const MeshRequest& request, const engine::StoreFacts& facts) {
-  if (!request.job.run.store.resume) return;
+  if (!request.job.run.store.resume || !request.job.run.keep.folder.empty()) return;
   if (facts.resumed_windows == 0) {
     log_warning(io::text(request.job.run.store.workdir.string(),
                          ": no saved work to resume, started from the beginning"));
   } else {
     log_info(io::text(facts.resumed_windows, " windows were done before"));
   }
+}
+
+void tell_keep(const engine::KeepFacts& keep) {
+  std::uint64_t visited = 0, skipped = 0;
+  for (const engine::KeepFacts::March& march : keep.marches) {
+    visited += march.visited;
+    skipped += march.skipped;
+  }
+  std::cout << "windows     " << visited << " visited, " << skipped << " as they were\n";
 }
 
 /// Returns how many of the threads asked for the system gives, and warns when they are fewer.
@@ -202,6 +215,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   if (files.trace) files.trace->finish();
   if (!run_processes().speaks()) return kExitDone;
   tell_resume(request, run.engine.store);
+  if (run.engine.keep) tell_keep(*run.engine.keep);
   run.resources = meter.read();
   print_summary(run, request, files.tets);
   print_writers(files.shared);
@@ -213,6 +227,10 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
   }
   if (files.report) report::write_run_report(*files.report, run, request.output, options.json());
+  if (files.delta) {
+    files.delta->append(run.delta.value().dump_indented() + "\n");
+    files.delta->commit();
+  }
   if (files.html) write_page(request, run, files, options.json());
   return kExitDone;
 }
@@ -222,6 +240,10 @@ int run_mesh(MeshRequest& request, const OptionSet& options) {
     request.size_tables.push_back(std::move(file));
   }
   check_mesh_request(request);
+  if (runs_are_divided() && !request.job.run.keep.folder.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "--keep: what is kept is that of one process; run mwmesh instead of mwmesh-mpi");
+  }
   start_log(run_processes().speaks() ? request.log_level : "off");
   take_part(request);
   int& threads = request.job.run.threads;

@@ -38,8 +38,10 @@ void require_output_apart(const MeshRequest& request) {
 void require_names_used_once(const MeshRequest& request) {
   std::vector<fs::path> taken{request.volume.path, request.volume.names, request.output};
   taken.insert(taken.end(), request.size_tables.begin(), request.size_tables.end());
-  const std::pair<const char*, fs::path> written[] = {
-      {"--report", request.report}, {"--trace", request.trace}, {"--html", request.html}};
+  const std::pair<const char*, fs::path> written[] = {{"--report", request.report},
+                                                      {"--trace", request.trace},
+                                                      {"--html", request.html},
+                                                      {"--delta", request.delta}};
   for (const auto& output : written) {
     const fs::path& path = output.second;
     if (path.empty()) continue;
@@ -84,8 +86,9 @@ bool is_input_around_all(const fs::path& file, const MeshRequest& request) {
   return file == whole_path(request.volume.path) && is_at_or_in(whole_path(request.output), file);
 }
 
-void require_workdir_apart(const MeshRequest& request) {
-  const fs::path workdir = whole_path(request.job.run.store.workdir);
+void require_folder_apart(const MeshRequest& request, const std::string& flag,
+                          const fs::path& folder) {
+  const fs::path workdir = whole_path(folder);
   for (const auto& [name, file] : files_of(request)) {
     const fs::path whole = whole_path(file);
     const bool is_in_file = is_at_or_in(workdir, whole), has_file = is_at_or_in(whole, workdir);
@@ -93,7 +96,7 @@ void require_workdir_apart(const MeshRequest& request) {
     const std::string why = is_in_file && has_file ? "this is " + name
                             : is_in_file           ? "lies in " + file.string() + ", " + name
                                                    : "has " + file.string() + " in it, " + name;
-    refuse("--workdir", request.job.run.store.workdir, why + "; give a folder of its own");
+    refuse(flag, folder, why + "; give a folder of its own");
   }
 }
 
@@ -128,7 +131,12 @@ void require_own_output(const fs::path& output) {
 void require_paths_apart(const MeshRequest& request) {
   require_output_apart(request);
   require_names_used_once(request);
-  require_workdir_apart(request);
+  const fs::path& kept = request.job.run.keep.folder;
+  if (kept.empty()) {
+    require_folder_apart(request, "--workdir", request.job.run.store.workdir);
+  } else {
+    require_folder_apart(request, request.from.empty() ? "--keep" : "--from", kept);
+  }
 }
 
 }  // namespace mw::cli

@@ -41,6 +41,51 @@ void add_size_file_option(OptionSet& options, MeshRequest& request) {
        }});
 }
 
+/// "X0,Y0,Z0,X1,Y1,Z1;..."
+std::vector<Box3> parse_boxes(const std::string& text) {
+  std::vector<Box3> out;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    out.push_back(parse_box(std::string_view(text).substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return out;
+}
+
+/// Nothing else could be used again in another order.
+OptionTexts implied_by_keep(const std::string& folder) {
+  if (folder.empty()) return {};
+  return {{"order", "colour"}};
+}
+
+void add_keep_options(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "keep",
+               .value = "FOLDER",
+               .help = "keeps what --from needs after an edit; sets --order colour",
+               .group = kRunGroup,
+               .assign = into(request.keep),
+               .implied = implied_by_keep});
+  options.add({.name = "from",
+               .value = "FOLDER",
+               .help = "only windows that an edit reaches, to the same mesh; updates FOLDER",
+               .group = kRunGroup,
+               .assign = into(request.from),
+               .implied = implied_by_keep});
+  options.add({.name = "changed",
+               .value = "X0,Y0,Z0,X1,Y1,Z1",
+               .help = "with --from: where INPUT has changed, repeatable [anywhere]",
+               .group = kRunGroup,
+               .listed = Listed::kInHelpAll,
+               .repeats = true,
+               .assign = into(request.job.run.keep.changed, parse_boxes)});
+  options.add({.name = "delta",
+               .value = "FILE.json",
+               .help = "with --from: writes what the edit did to labels, contacts and mesh",
+               .group = kRunGroup,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.delta)});
+}
+
 void add_run_options(OptionSet& options, MeshRequest& request) {
   add_resource_options(options, request.job.run.threads, request.memory, "bound for the process");
   options.add({.name = "resume",
@@ -49,6 +94,7 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .kind = ValueKind::kSwitch,
                .fallback = "false",
                .assign = into(request.job.run.store.resume)});
+  add_keep_options(options, request);
   options.add({.name = "workdir",
                .value = "DIR",
                .help = "work that memory does not hold, removed after success [OUTPUT.work]",
@@ -163,6 +209,38 @@ void check_sizes(const engine::MeshSettings& settings) {
               "--inner-vertices, or set --optimizer local");
 }
 
+/// A folder that an earlier run has used is updated; one that a run was killed over is gone on
+/// with.
+void settle_keep(MeshRequest& request) {
+  engine::KeepOptions& keep = request.job.run.keep;
+  if (!request.keep.empty() && !request.from.empty() && request.keep != request.from) {
+    throw Error(ErrorKind::kUsage,
+                "--keep: --from updates the folder that it names, give one of the two");
+  }
+  if (request.keep.empty() && request.from.empty()) {
+    if (keep.changed.empty() && request.delta.empty()) return;
+    throw Error(ErrorKind::kUsage, std::string(keep.changed.empty() ? "--delta" : "--changed") +
+                                       ": says what changed since a run, give --from as well");
+  }
+  if (request.from.empty() && !keep.changed.empty()) {
+    throw Error(ErrorKind::kUsage, "--changed: goes with --from");
+  }
+  if (request.from.empty() && !request.delta.empty()) {
+    throw Error(ErrorKind::kUsage, "--delta: says what changed since a run, give --from as well");
+  }
+  request.job.wants_delta = !request.delta.empty();
+  const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
+  for (Box3& box : keep.changed) box = {box.lo - first, box.hi - first};
+  keep.folder = request.from.empty() ? request.keep : request.from;
+  keep.use = !request.from.empty()          ? engine::KeepUse::kUpdate
+             : request.job.run.store.resume ? engine::KeepUse::kGoOn
+                                            : engine::KeepUse::kBegin;
+  if (request.job.settings.order == engine::Order::kColour) return;
+  throw Error(ErrorKind::kUsage,
+              "--keep: leave out --order raster: there an edit reaches all windows behind it, so "
+              "that nothing could be used again");
+}
+
 /// What follows from other values.
 void settle_job(MeshRequest& request) {
   engine::MeshJob& job = request.job;
@@ -191,6 +269,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
 
 void check_mesh_request(MeshRequest& request) {
   settle_job(request);
+  settle_keep(request);
   (void)open_options(request.volume);
   engine::check_choice(request.job.choice);
   require_paths_apart(request);

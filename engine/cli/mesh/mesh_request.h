@@ -24,6 +24,9 @@ struct MeshRequest {
   std::filesystem::path trace;           ///< empty: none
   std::vector<std::string> size_tables;  ///< files that sizes come from
   std::optional<std::uint64_t> memory;   ///< bytes, as asked for
+  std::filesystem::path keep;            ///< empty: nothing new is kept
+  std::filesystem::path from;            ///< empty: no earlier run is used
+  std::filesystem::path delta;           ///< empty: none
   /// What the engine is asked to do; complete after check_mesh_request().
   engine::MeshJob job;
   ProgressKind progress = ProgressKind::kNone;

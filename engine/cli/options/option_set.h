@@ -53,6 +53,7 @@ struct Option {
   Listed listed = Listed::kInHelp;
   bool required = false;
   bool only_flag = false;   ///< neither a key nor a variable has it
+  bool repeats = false;     ///< may be given several times: the texts are joined by ';'
   bool has_labels = false;  ///< of another kind than kLabels, but with labels in it
   /// Takes the value over.  ERRORS: mw::Error(kUsage) for one that is not allowed.
   std::function<void(const std::string&)> assign;

@@ -23,13 +23,14 @@ from ._errors import (CancelledError, CheckFailedError, Error, InputError, Inter
 from ._mesh import Mesh, Surface, Verdict
 from ._values import (count, label, naming, numbers, path_bytes, switch, text, unexpected,
                       whole)
+from ._session import Session
 from ._volume import PLACE, as_volume
 
 __version__ = _core.__version__
 __all__ = [
     "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Mesh",
     "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
-    "read", "settings", "synth",
+    "Session", "read", "settings", "synth",
 ]
 
 
@@ -57,7 +58,8 @@ def _size_place(volume, key):
 
 
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
-             drop_specks=None, workdir=None, resume=False, certify="auto", report=True):
+             drop_specks=None, workdir=None, resume=False, keep=None, from_kept=False,
+             changed=(), certify="auto", report=True):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:
@@ -80,12 +82,21 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.specks_joined_by_corners = corners == 26
     options.workdir = path_bytes(workdir, "workdir") if workdir is not None else ""
     options.resume = switch(resume, "resume")
+    options.keep = path_bytes(keep, "keep") if keep is not None else ""
+    options.from_kept = switch(from_kept, "from_kept")
+    options.changed = [_box(box, "changed") for box in changed]
     known = {"auto": _core.Certify.auto, "on": _core.Certify.on, "off": _core.Certify.off}
     if not isinstance(certify, str) or certify not in known:
         raise unexpected("certify", "auto, on or off", certify)
     options.certify = known[certify]
     options.report = switch(report, "report")
     return options
+
+
+def _box(box, name):
+    """((x0, y0, z0), (x1, y1, z1)), whole numbers."""
+    corners = numbers(box, name, "((x0, y0, z0), (x1, y1, z1))", (2, 3))
+    return tuple([whole(n, name) for n in corner] for corner in corners)
 
 
 class _Bar:
@@ -119,7 +130,7 @@ def _progress(wanted):
 
 
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
-            "resume", "certify", "report")
+            "resume", "keep", "from_kept", "changed", "certify", "report")
 
 
 def _check_known(arguments):
@@ -178,6 +189,10 @@ def mesh(volume, *, progress=None, **arguments):
         volume and mesh (half of what is free by default).
     workdir, resume
         a folder for spilled blocks and checkpoints; whether to go on from the checkpoint in it.
+    keep, from_kept, changed
+        a folder that holds what a later run of the volume, edited, need not do again (set
+        order="colour"); whether one has left something there; and a list of boxes
+        ((x0, y0, z0), (x1, y1, z1)) that have all changes since.  :class:`Session` does it all.
     certify
         "auto", "on" or "off": the mesh is checked before it is returned, see CheckFailedError.
     report

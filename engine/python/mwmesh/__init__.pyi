@@ -3,7 +3,7 @@
 # The types of the package's functions and classes.
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Literal, NamedTuple, Protocol, TypeAlias
+from typing import Any, Literal, NamedTuple, Protocol, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,7 @@ __version__: str
 __all__ = [
     "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Mesh",
     "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
-    "read", "settings", "synth",
+    "Session", "read", "settings", "synth",
 ]
 
 _Path: TypeAlias = str | os.PathLike[str]
@@ -157,10 +157,26 @@ def mesh(
     drop_specks: _Specks | None = ...,
     workdir: _Path | None = ...,
     resume: bool = ...,
+    keep: _Path | None = ...,
+    from_kept: bool = ...,
+    changed: Sequence[_Box] = ...,
     certify: _Certify = ...,
     report: bool = ...,
     **settings: _Setting,
 ) -> Mesh: ...
+class Session:
+    def __init__(self, array: npt.NDArray[Any], *, keep: _Path | None = ...,
+                 **settings: Any) -> None: ...
+    @property
+    def array(self) -> npt.NDArray[Any]: ...
+    @property
+    def mesh(self) -> Mesh: ...
+    @overload
+    def update(self, array: npt.NDArray[Any], /) -> tuple[Mesh, dict[str, Any]]: ...
+    @overload
+    def update(self, box: _Box, values: int | npt.NDArray[Any], /) -> tuple[
+        Mesh, dict[str, Any]]: ...
+
 def mesh_to_file(
     volume: _Source,
     path: _Path,

@@ -94,6 +94,8 @@ class ByteReader {
     return value;
   }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
+  /// What was not read yet.
+  [[nodiscard]] std::span<const std::byte> rest() const { return rest_; }
 
  private:
   std::byte next() {

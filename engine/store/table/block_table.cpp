@@ -66,8 +66,9 @@ BlockTable::Turn BlockTable::turn(std::uint64_t slot) const {
 void BlockTable::remove(std::uint64_t slot) {
   const StoredBlock& block = at(slot);
   if (block.cached != nullptr) cached_.erase(turn(slot));
-  if (block.size > 0 && block.recorded) retired_.push_back(block.extent());
-  if (block.size > 0 && !block.recorded) disk_->release(block.extent());
+  const bool on_disk = block.size > 0 && !block.kept;
+  if (on_disk && block.recorded) retired_.push_back(block.extent());
+  if (on_disk && !block.recorded) disk_->release(block.extent());
   clear(slot);
 }
 
@@ -78,6 +79,17 @@ void BlockTable::put(std::uint64_t slot, BlockPin pin) {
   block.memory_kib = static_cast<std::uint32_t>((pin->memory_bytes + 1023) / 1024);
   block.cached = std::move(pin);
   cached_.insert(turn(slot));
+}
+
+void BlockTable::put_kept(std::uint64_t slot, const KeptPlace& place, BlockPin pin) {
+  MW_ASSERT(at(slot).empty());
+  fresh(slot) = {.cached = std::move(pin),
+                 .offset = place.offset,
+                 .size = place.size,
+                 .sum = place.sum,
+                 .memory_kib = place.memory_kib,
+                 .kept = true};
+  if (at(slot).cached != nullptr) cached_.insert(turn(slot));
 }
 
 void BlockTable::restore(const JournalBlock& from) {
@@ -118,9 +130,10 @@ void BlockTable::write(StoredBlock& block) {
 }
 
 bool BlockTable::evict_one() {
-  if (disk_ == nullptr || cached_.empty()) return false;
+  if (cached_.empty()) return false;
   const auto last = std::prev(cached_.end());
   StoredBlock& block = held(last->second);
+  if (disk_ == nullptr && !block.kept) return false;
   if (block.size == 0) ++evicted_;
   write(block);
   block.cached = nullptr;
@@ -129,7 +142,7 @@ bool BlockTable::evict_one() {
 }
 
 JournalBlock BlockTable::record(std::uint64_t slot) {
-  MW_ASSERT(!at(slot).empty());
+  MW_ASSERT(!at(slot).empty() && !at(slot).kept);
   StoredBlock& block = held(slot);
   write(block);
   block.recorded = true;

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/store/block_keeper.h"
 #include "engine/store/journal/journal.h"
 #include "engine/store/memory_budget.h"
 #include "engine/store/run_layout.h"
@@ -33,8 +34,11 @@ struct StoredBlock {
   std::uint32_t sum = 0;
   std::uint32_t memory_kib = 0;
   bool recorded = false;  ///< a record of the journal, written or being written, points to it
+  bool kept = false;      ///< offset, size and sum are those of a KeptPlace
 
   [[nodiscard]] Extent extent() const { return {offset, size}; }
+  /// REQUIRES: kept.
+  [[nodiscard]] KeptPlace place() const { return {offset, size, sum, memory_kib}; }
   [[nodiscard]] bool empty() const { return cached == nullptr && size == 0; }
 };
 
@@ -48,8 +52,8 @@ using TableRoom = std::function<MemoryBudget::Reservation(std::uint64_t bytes)>;
 /// time.
 class BlockTable {
  public:
-  /// Without a disk nothing can be evicted.  room: asked for each page; null: there is room for all
-  /// of them.  The references outlive it.
+  /// Without a disk only blocks that are kept can be evicted.  room: asked for each page; null:
+  /// there is room for all of them.  The references outlive it.
   BlockTable(const RunLayout& layout, const DoneWindows& done, SegmentFile* disk,
              TableRoom room = {});
 
@@ -59,6 +63,8 @@ class BlockTable {
   void remove(std::uint64_t slot);
   /// REQUIRES: no block there.  ERRORS: those of the room; then nothing has changed.
   void put(std::uint64_t slot, BlockPin block);
+  /// The same of a block that is kept; it is in memory, too, unless the pin is null.
+  void put_kept(std::uint64_t slot, const KeptPlace& place, BlockPin block = nullptr);
   /// A block that the journal tells of replaces the one that is there; the extents are not yet
   /// taken.  ERRORS: those of the room.
   void restore(const JournalBlock& block);
@@ -67,9 +73,10 @@ class BlockTable {
   void take_extents();
 
   /// Drops from memory the block that is needed last, writing it first if it is not on disk.
-  /// ENSURES: false when there is none, or no disk.
+  /// ENSURES: false when there is none, or no place for it.
   bool evict_one();
-  /// Writes the block if it is not on disk, and what a record says of it.  REQUIRES: a disk.
+  /// Writes the block if it is not on disk, and what a record says of it.  REQUIRES: a disk; the
+  /// block is not kept.
   [[nodiscard]] JournalBlock record(std::uint64_t slot);
   /// Extents that no block has any more but some record points to.  They may be released when the
   /// next record is durable.

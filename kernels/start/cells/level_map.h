@@ -52,6 +52,11 @@ class LevelMap {
   /// REQUIRES: level 3 or 4; known there.
   [[nodiscard]] bool is_allowed(Index3 voxel, int level) const;
 
+  /// All that is known of a cube, as a number.  REQUIRES: held.
+  [[nodiscard]] std::uint64_t bits_of(Index3 cube) const {
+    return std::uint64_t{eighths_[row(cube)]} | std::uint64_t{whole_[row(cube)]} << 8U;
+  }
+
  private:
   [[nodiscard]] std::size_t row(Index3 cube) const {
     return static_cast<std::size_t>(held_.offset(cube));

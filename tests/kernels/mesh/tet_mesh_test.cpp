@@ -222,7 +222,7 @@ TEST(Sec531Order, CountsTheDistinctLabelsAtAVertex) {
       if (mesh.planes(v) != 0) labels[v].insert(kExterior);
       EXPECT_EQ(mesh.order(v), static_cast<int>(labels[v].size()));
       std::uint64_t signature = 0;
-      for (Label l : labels[v]) signature |= TetMesh::label_bit(l);
+      for (Label l : labels[v]) signature |= mesh.label_bit(l);
       EXPECT_EQ(mesh.label_signature(v), signature);
     }
   }

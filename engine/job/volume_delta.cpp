@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/job/volume_delta.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "engine/labels/label_scan.h"
+#include "engine/labels/reading_tiles.h"
+#include "engine/verify/tile_grid.h"
+#include "engine/verify/volume_stage.h"
+#include "io/labels/label_table.h"
+#include "kernels/core/index.h"
+
+namespace mw::engine {
+namespace {
+
+Box3 with(const Box3& box, Index3 voxel) {
+  if (box == Box3{}) return {voxel, voxel + Index3{1, 1, 1}};
+  return {{std::min(box.lo.x, voxel.x), std::min(box.lo.y, voxel.y), std::min(box.lo.z, voxel.z)},
+          {std::max(box.hi.x, voxel.x + 1), std::max(box.hi.y, voxel.y + 1),
+           std::max(box.hi.z, voxel.z + 1)}};
+}
+
+/// Returns the labels of voxels that changed, both of before and after.
+std::set<RawLabel> compare(const io::LabelVolume& before, const io::LabelVolume& after,
+                           VolumeDelta& out) {
+  std::set<RawLabel> touched;
+  const ReadingTiles tiles(after.info());
+  std::vector<RawLabel> old_labels, new_labels;
+  for_each_index(tiles.count(), [&](Index3 tile) {
+    const Box3 box = tiles.box(tile);
+    old_labels.resize(static_cast<std::size_t>(box.voxels()));
+    new_labels.resize(old_labels.size());
+    before.read(box, old_labels);
+    after.read(box, new_labels);
+    if (old_labels == new_labels) return;
+    std::size_t at = 0;
+    for_each_index(box, [&](Index3 voxel) {
+      const RawLabel was = old_labels[at], is = new_labels[at];
+      ++at;
+      if (was == is) return;
+      ++out.voxels;
+      out.box = with(out.box, voxel);
+      touched.insert({was, is});
+    });
+  });
+  return touched;
+}
+
+using FactsByLabel = std::map<RawLabel, LabelFacts>;
+
+FactsByLabel facts_of(const io::LabelVolume& volume, const std::set<RawLabel>& wanted,
+                      const VerifyTask& task) {
+  const io::LabelTable table = collect_labels(volume, task.threads);
+  const io::DenseVolume labels(volume, table);
+  const VolumeFindings found =
+      look_at_volume(labels, TileGrid(volume.info().shape, {1, 1, 1}), task, {});
+  FactsByLabel out;
+  for (const RawLabel label : wanted) {
+    const Label dense = table.find(label);
+    if (dense == kExterior) continue;
+    out[label] = {found.voxels[dense].voxels, found.betti[dense]};
+  }
+  return out;
+}
+
+std::optional<LabelFacts> fact(const FactsByLabel& facts, RawLabel label) {
+  const auto found = facts.find(label);
+  return found == facts.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<ContactChange> contact_changes(const io::LabelVolume& before,
+                                           const io::LabelVolume& after) {
+  std::map<std::pair<RawLabel, RawLabel>, ContactChange> all;
+  for (const LabelContact& c : label_contacts(before)) {
+    all[{c.first, c.second}] = {c.first, c.second, c.faces, {}};
+  }
+  for (const LabelContact& c : label_contacts(after)) {
+    ContactChange& change = all[{c.first, c.second}];
+    change.first = c.first;
+    change.second = c.second;
+    change.after = c.faces;
+  }
+  std::vector<ContactChange> out;
+  for (const auto& [pair, change] : all) {
+    if (change.before != change.after) out.push_back(change);
+  }
+  return out;
+}
+
+io::Json label_json(RawLabel label, bool is_signed) {
+  if (is_signed) return static_cast<std::int64_t>(label);
+  return label;
+}
+
+io::Json betti_json(const audit::Betti& betti) {
+  io::Json out;
+  for (const std::int64_t b : {betti.b0, betti.b1, betti.b2}) out.push_back(b);
+  return out;
+}
+
+io::Json facts_json(const std::optional<LabelFacts>& facts) {
+  if (!facts) return nullptr;
+  return {{"voxels", facts->voxels},
+          {"betti_closed", betti_json(facts->betti.closed)},
+          {"betti_open", betti_json(facts->betti.open)}};
+}
+
+io::Json faces_json(const std::array<std::uint64_t, 3>& faces) {
+  io::Json out;
+  for (const std::uint64_t n : faces) out.push_back(n);
+  return out;
+}
+
+io::Json index_json(Index3 at) {
+  io::Json out;
+  for (const std::int64_t v : {at.x, at.y, at.z}) out.push_back(v);
+  return out;
+}
+
+io::Json size_json(const MeshSize& size) {
+  return {{"vertices", size.vertices}, {"tets", size.tets}};
+}
+
+}  // namespace
+
+VolumeDelta delta_of(const io::LabelVolume& before, const io::LabelVolume& after,
+                     const VerifyTask& task) {
+  VolumeDelta out;
+  out.labels_signed = has_signed_labels(after.info());
+  const std::set<RawLabel> touched = compare(before, after, out);
+  if (touched.empty()) return out;
+  const FactsByLabel was = facts_of(before, touched, task), is = facts_of(after, touched, task);
+  for (const RawLabel label : touched) {
+    out.labels.push_back({label, fact(was, label), fact(is, label)});
+  }
+  out.contacts = contact_changes(before, after);
+  return out;
+}
+
+io::Json delta_json(const VolumeDelta& delta, const std::optional<MeshSize>& before,
+                    const MeshSize& after) {
+  io::Json out = io::Json::object();
+  out["voxels_changed"] = delta.voxels;
+  out["box"] = nullptr;
+  if (delta.voxels > 0) {
+    out["box"] = {{"from", index_json(delta.box.lo)}, {"to", index_json(delta.box.hi)}};
+  }
+  out["labels"] = io::Json::array();
+  for (const LabelChange& change : delta.labels) {
+    out["labels"].push_back({{"label", label_json(change.label, delta.labels_signed)},
+                             {"before", facts_json(change.before)},
+                             {"after", facts_json(change.after)}});
+  }
+  out["contacts"] = io::Json::array();
+  for (const ContactChange& change : delta.contacts) {
+    io::Json labels;
+    for (const RawLabel label : {change.first, change.second}) {
+      labels.push_back(label_json(label, delta.labels_signed));
+    }
+    out["contacts"].push_back({{"labels", labels},
+                               {"faces_before", faces_json(change.before)},
+                               {"faces_after", faces_json(change.after)}});
+  }
+  out["mesh"] = {{"before", nullptr}, {"after", size_json(after)}};
+  if (before) out["mesh"]["before"] = size_json(*before);
+  return out;
+}
+
+}  // namespace mw::engine

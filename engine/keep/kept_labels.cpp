@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/keep/kept_labels.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+
+#include "engine/store/journal/work_file.h"
+#include "engine/window/window_grid.h"
+#include "io/codec/checksums.h"
+#include "io/codec/codec.h"
+#include "io/codec/pack_zstd.h"
+#include "io/file/byte_order.h"
+#include "kernels/core/index.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr std::uint64_t kMagic = 0x534C4542414C574DU;  // "MWLABELS"
+constexpr std::uint64_t kVersion = 1;
+constexpr std::size_t kHeadNumbers = 10;
+constexpr int kPackLevel = 1;
+
+[[noreturn]] void fail_damaged(const char* reason) {
+  throw DamagedWork("labels", reason);
+}
+
+std::vector<std::byte> bytes_of(const std::vector<std::uint64_t>& numbers) {
+  std::vector<std::byte> out(numbers.size() * sizeof(std::uint64_t));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    io::store_little(numbers[i], out.data() + i * sizeof(std::uint64_t));
+  }
+  return out;
+}
+
+std::vector<std::uint64_t> numbers_in(std::span<const std::byte> bytes) {
+  std::vector<std::uint64_t> out(bytes.size() / sizeof(std::uint64_t));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] =
+        io::load<std::uint64_t>(bytes.data() + i * sizeof(std::uint64_t), io::ByteOrder::kLittle);
+  }
+  return out;
+}
+
+std::vector<std::uint64_t> read_numbers(int file, std::uint64_t offset, std::size_t count) {
+  std::vector<std::byte> bytes(count * sizeof(std::uint64_t));
+  if (io::read_all(file, offset, bytes).bytes != bytes.size()) fail_damaged("it ends too early");
+  return numbers_in(bytes);
+}
+
+bool do_meet(const Box3& a, const Box3& b) {
+  const Box3 both = intersection(a, b);
+  return both.lo.x < both.hi.x && both.lo.y < both.hi.y && both.lo.z < both.hi.z;
+}
+
+/// Copies the voxels of `part` from one box to another, both x fastest.
+void copy_box(const Box3& part, const Box3& from_box, std::span<const RawLabel> from,
+              const Box3& to_box, std::span<RawLabel> to) {
+  const auto row = static_cast<std::size_t>(part.shape().x);
+  for (Index3 v = part.lo; v.z < part.hi.z; ++v.z) {
+    for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
+      std::copy_n(from.data() + from_box.offset(v), row, to.data() + to_box.offset(v));
+    }
+  }
+}
+
+io::VolumeInfo layout_of(const std::vector<std::uint64_t>& head) {
+  const auto number = [&](std::size_t i) { return static_cast<std::int64_t>(head[i]); };
+  io::VolumeInfo info;
+  info.shape = {number(2), number(3), number(4)};
+  info.chunk = {number(5), number(6), number(7)};
+  info.z_fastest = head[8] != 0;
+  return info;
+}
+
+}  // namespace
+
+std::optional<KeptLabels> KeptLabels::open(const std::filesystem::path& path, Index3 shape) {
+  io::FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.valid()) return std::nullopt;
+  std::vector<std::uint64_t> head = read_numbers(file.get(), 0, kHeadNumbers);
+  if (head[0] != kMagic || head[1] != kVersion) fail_damaged("it begins as another file");
+  const io::VolumeInfo info = layout_of(head);
+  if (!(info.shape == shape)) return std::nullopt;
+  const std::uint64_t tiles = head[9];
+  if (tiles != static_cast<std::uint64_t>(ReadingTiles(info).count().product())) {
+    fail_damaged("its number of tiles is wrong");
+  }
+  const std::vector<std::uint64_t> index = read_numbers(
+      file.get(), kHeadNumbers * sizeof(std::uint64_t), static_cast<std::size_t>(2 * tiles + 1));
+  head.insert(head.end(), index.begin(), index.end() - 1);
+  if (io::checksum(bytes_of(head)) != index.back()) fail_damaged("its checksum is wrong");
+  std::vector<Place> places;
+  for (std::size_t i = 0; i + 1 < index.size(); i += 2) places.push_back({index[i], index[i + 1]});
+  return KeptLabels(std::move(file), info, std::move(places));
+}
+
+std::vector<RawLabel> KeptLabels::read(Index3 tile) const {
+  const Place place = places_[raster(tile, tiles_.count())];
+  std::vector<std::byte> packed(place.size);
+  if (io::read_all(file_.get(), place.offset, packed).bytes != packed.size()) {
+    fail_damaged("it ends too early");
+  }
+  const auto voxels = static_cast<std::size_t>(tiles_.box(tile).voxels());
+  try {
+    const std::vector<std::byte> bytes =
+        io::unpack_zstd(packed, voxels * sizeof(RawLabel), "labels");
+    if (bytes.size() == voxels * sizeof(RawLabel)) return numbers_in(bytes);
+  } catch (const Error&) {
+    // told below
+  }
+  fail_damaged("a tile cannot be unpacked");
+}
+
+void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
+  const io::VolumeInfo& info = volume.info();
+  const ReadingTiles tiles(info);
+  const auto number = [](std::int64_t v) { return static_cast<std::uint64_t>(v); };
+  const std::uint64_t count = number(tiles.count().product());
+  std::vector<std::uint64_t> head{kMagic,
+                                  kVersion,
+                                  number(info.shape.x),
+                                  number(info.shape.y),
+                                  number(info.shape.z),
+                                  number(info.chunk.x),
+                                  number(info.chunk.y),
+                                  number(info.chunk.z),
+                                  std::uint64_t{info.z_fastest},
+                                  count};
+  const std::size_t head_bytes = (kHeadNumbers + 2 * count + 1) * sizeof(std::uint64_t);
+  file.append(std::vector<std::byte>(head_bytes));
+  io::ZstdPacker packer(kPackLevel);
+  std::vector<RawLabel> labels;
+  std::vector<std::byte> packed;
+  for_each_index(tiles.count(), [&](Index3 tile) {
+    const Box3 box = tiles.box(tile);
+    labels.resize(static_cast<std::size_t>(box.voxels()));
+    volume.read(box, labels);
+    packed.clear();
+    packer.append(bytes_of(labels), packed);
+    head.push_back(file.appended());
+    head.push_back(packed.size());
+    file.append(packed);
+  });
+  head.push_back(io::checksum(bytes_of(head)));
+  file.write_at(0, bytes_of(head));
+}
+
+void PatchedVolume::read(const Box3& box, std::span<RawLabel> out) const {
+  const Box3 over = kept_.tiles().over(box);
+  std::vector<RawLabel> labels;
+  for_each_index(over, [&](Index3 tile) {
+    const Box3 tile_box = kept_.tiles().box(tile), part = intersection(tile_box, box);
+    const bool has_changed = std::any_of(changed_.begin(), changed_.end(),
+                                         [&](const Box3& c) { return do_meet(c, tile_box); });
+    if (!has_changed) return copy_box(part, tile_box, kept_.read(tile), box, out);
+    labels.resize(static_cast<std::size_t>(part.voxels()));
+    below().read(part, labels);
+    copy_box(part, part, labels, box, out);
+  });
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The labels of a run, packed, so that a later one need only read what has changed.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "engine/labels/reading_tiles.h"
+#include "io/file/file_descriptor.h"
+#include "io/file/sink/atomic_file.h"
+#include "io/volume/label_volume.h"
+
+namespace mw::engine {
+
+/// Raw labels by tiles (ReadingTiles), each packed on its own.
+///
+///     "MWLABELS", version 1; x y z of the shape and of ReadingTiles' chunk, and whether z is
+///     fastest; tiles; each tile's offset and size; CRC-32 of all that: numbers of 8 bytes
+///     tiles, frames of Zstandard of 8 bytes a voxel
+class KeptLabels {
+ public:
+  /// Nothing where there is no such file, or one of another shape.
+  /// ERRORS: DamagedWork.
+  [[nodiscard]] static std::optional<KeptLabels> open(const std::filesystem::path& file,
+                                                      Index3 shape);
+
+  [[nodiscard]] const ReadingTiles& tiles() const { return tiles_; }
+  /// The labels of a tile, x fastest.  Thread-safe.  ERRORS: DamagedWork.
+  [[nodiscard]] std::vector<RawLabel> read(Index3 tile) const;
+
+ private:
+  friend void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
+  struct Place {
+    std::uint64_t offset = 0;
+    std::uint64_t size = 0;
+  };
+
+  KeptLabels(io::FileDescriptor file, const io::VolumeInfo& info, std::vector<Place> places)
+      : file_(std::move(file)), tiles_(info), places_(std::move(places)) {}
+
+  io::FileDescriptor file_;
+  ReadingTiles tiles_;
+  std::vector<Place> places_;
+};
+
+/// Reads the volume once.  Memory: two tiles.
+void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
+
+/// A volume that is read in some boxes only; everywhere else the labels are those that were kept.
+/// Thread safety: as LabelVolume.
+class PatchedVolume : public io::VolumeView {
+ public:
+  /// changed: boxes of voxels, which may reach out of the volume.  REQUIRES: kept has the volume's
+  /// shape.  volume and kept outlive it.
+  PatchedVolume(const io::LabelVolume& volume, const KeptLabels& kept, std::vector<Box3> changed)
+      : VolumeView(volume), kept_(kept), changed_(std::move(changed)) {}
+
+  void read(const Box3& box, std::span<RawLabel> out) const override;
+
+ private:
+  const KeptLabels& kept_;
+  std::vector<Box3> changed_;
+};
+
+}  // namespace mw::engine

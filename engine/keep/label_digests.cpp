@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/keep/label_digests.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "engine/system/tbb_for.h"
+#include "io/labels/brick_volume.h"
+#include "kernels/core/index.h"
+#include "kernels/distance/label_reach.h"
+#include "kernels/start/graded_start.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
+constexpr Index3 kBrickShape{kBrick, kBrick, kBrick};
+/// In the place of a label's key; what follows it says that it is none (add_voxels).
+constexpr std::uint64_t kOutside = 0;
+/// Limits on edges are looked up so far around what is seen, in voxels: at the ends of edges and of
+/// cells of the start mesh.
+constexpr std::int64_t kLimitHalo = 8;
+/// Allowed cells are looked up so far around a block that is made from voxels.
+constexpr std::int64_t kCellHalo = 2;
+
+bool is_empty(const Box3& box) {
+  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
+}
+
+bool is_uniform(const std::vector<Label>& labels) {
+  return std::all_of(labels.begin(), labels.end(), [&](Label l) { return l == labels[0]; });
+}
+
+}  // namespace
+
+LabelDigests::LabelDigests(const PreparedLabels& labels, const LabelKeys& keys,
+                           const MeshSettings& settings, const WindowGrid& grid, int threads)
+    : labels_(labels),
+      keys_(keys),
+      grid_(grid),
+      bricks_(cells_of({{0, 0, 0}, grid.volume()}, kBrickShape).hi),
+      uniform_(static_cast<std::size_t>(bricks_.product()), 1) {
+  if (settings.max_distance) reach_ = LabelReach::search_reach(*settings.max_distance);
+  original_ = digests_of(false, threads, uniform_);
+  if (labels_.is_coarse()) coarse_ = digests_of(true, threads, uniform_);
+}
+
+LabelDigests::Digests LabelDigests::digests_of(bool coarse, int threads,
+                                               std::vector<std::uint8_t>& uniform) const {
+  Digests out(uniform.size());
+  tbb_for_each_index(threads, bricks_, [&](Index3 brick) {
+    const Index3 lo{brick.x * kBrick, brick.y * kBrick, brick.z * kBrick};
+    const Box3 box = intersection({lo, lo + kBrickShape}, {{0, 0, 0}, grid_.volume()});
+    const LabelBox voxels = coarse ? labels_.shape(box) : labels_.original(box);
+    io::DigestMaker maker;
+    add_voxels(voxels, maker);
+    const std::size_t at = raster(brick, bricks_);
+    out[at] = maker.finish();
+    if (!is_uniform(voxels.labels)) uniform[at] = 0;
+  });
+  return out;
+}
+
+/// Labels that the distance bound looks at (WindowVisitor); empty: none.
+Box3 LabelDigests::around(const Box3& content) const {
+  if (!reach_ || is_empty(content)) return {};
+  return intersection(grown(content, *reach_), {{0, 0, 0}, grid_.volume()});
+}
+
+/// Runs of one label: each as the label's key and where the run ends.
+void LabelDigests::add_voxels(const LabelBox& labels, io::DigestMaker& to) const {
+  std::vector<std::uint64_t> runs;
+  const std::vector<Label>& all = labels.labels;
+  for (auto run = all.begin(); run != all.end();) {
+    const auto end = std::find_if(run, all.end(), [&](Label l) { return l != *run; });
+    runs.push_back(*run == kExterior ? kOutside : keys_.key(*run));
+    const auto place = static_cast<std::uint64_t>(end - all.begin()) * 2;
+    runs.push_back(place + (*run == kExterior ? 1 : 0));
+    run = end;
+  }
+  to.add(std::as_bytes(std::span(runs)));
+}
+
+void LabelDigests::add_bricks(const Digests& digests, const Box3& voxels,
+                              io::DigestMaker& to) const {
+  const Box3 inside = intersection(voxels, {{0, 0, 0}, grid_.volume()});
+  if (is_empty(inside)) return;
+  for_each_index(cells_of(inside, kBrickShape),
+                 [&](Index3 brick) { to.add(digests[raster(brick, bricks_)]); });
+}
+
+/// Which large cells the start mesh of a block may have.
+void LabelDigests::add_cells(const Box3& block, io::DigestMaker& to) const {
+  const LevelMap& levels = labels_.levels();
+  if (levels.cubes() == Index3{}) return;
+  const Box3 box = intersection(grown(block, kCellHalo), {{0, 0, 0}, grid_.volume()});
+  for_each_index(cells_of(box, kBrickShape), [&](Index3 c) { to.add(levels.bits_of(c)); });
+}
+
+void LabelDigests::add_limits(const Box3& voxels, io::DigestMaker& to) const {
+  if (labels_.sizes() == nullptr || is_empty(voxels)) return;
+  std::vector<float> limits;
+  labels_.sizes()->append_limits(
+      intersection(grown(voxels, kLimitHalo), {{0, 0, 0}, grid_.volume()}), limits);
+  std::vector<std::uint32_t> bits;
+  for (const float limit : limits) bits.push_back(std::bit_cast<std::uint32_t>(limit));
+  to.add(std::as_bytes(std::span(bits)));
+}
+
+bool LabelDigests::all_uniform(const Box3& voxels) const {
+  const Box3 inside = intersection(voxels, {{0, 0, 0}, grid_.volume()});
+  bool all = true;
+  if (is_empty(inside)) return all;
+  for_each_index(cells_of(inside, kBrickShape),
+                 [&](Index3 brick) { all = all && uniform_[raster(brick, bricks_)] != 0; });
+  return all;
+}
+
+io::ContentDigest LabelDigests::of_bricks(const SeenLabels& seen) const {
+  io::DigestMaker maker;
+  for (const Index3 block : seen.starts) {
+    const Box3 box = grid_.block_box(block), wide = grown(box, kStartHalo);
+    add_bricks(original_, wide, maker);
+    if (labels_.is_coarse()) add_bricks(coarse_, wide, maker);
+    add_cells(box, maker);
+  }
+  add_bricks(original_, around(seen.content), maker);
+  add_limits(seen.content, maker);
+  return maker.finish();
+}
+
+/// Where all bricks have one label each their digests say as much, and are at hand.
+io::ContentDigest LabelDigests::exact(const SeenLabels& seen) const {
+  const Box3 looked_at = around(seen.content);
+  const auto is_plain = [&](Index3 block) {
+    return all_uniform(grown(grid_.block_box(block), kStartHalo));
+  };
+  if (all_uniform(looked_at) && std::all_of(seen.starts.begin(), seen.starts.end(), is_plain)) {
+    return of_bricks(seen);
+  }
+  io::DigestMaker maker;
+  for (const Index3 block : seen.starts) {
+    const Box3 box = grid_.block_box(block), wide = grown(box, kStartHalo);
+    add_voxels(labels_.original(wide), maker);
+    if (labels_.is_coarse()) add_voxels(labels_.shape(wide), maker);
+    add_cells(box, maker);
+  }
+  if (!is_empty(looked_at)) add_voxels(labels_.original(looked_at), maker);
+  add_limits(seen.content, maker);
+  return maker.finish();
+}
+
+std::uint64_t label_digest_bytes(Index3 shape) {
+  const Index3 bricks = cells_of({{0, 0, 0}, shape}, kBrickShape).hi;
+  return static_cast<std::uint64_t>(bricks.product()) * (2 * sizeof(io::ContentDigest) + 2);
+}
+
+}  // namespace mw::engine

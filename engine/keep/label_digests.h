@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Names for the labels that visits see, which tell whether a later volume has the same there.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/keep/kept_block.h"
+#include "engine/labels/prepared_labels.h"
+#include "engine/settings/settings.h"
+#include "engine/window/window_grid.h"
+#include "io/codec/content_digest.h"
+
+namespace mw::engine {
+
+/// What a visit looks at beside the blocks that are stored.
+struct SeenLabels {
+  std::vector<Index3> starts;  ///< blocks of the first march that are made from voxels
+  Box3 content;                ///< voxels that the content of the window touches
+};
+
+/// Digests of prepared labels by their own numbers, of each brick of 16^3 voxels and of what visits
+/// see.  Thread safety: const members may be called from many threads.
+/// Memory: label_digest_bytes().
+class LabelDigests {
+ public:
+  /// grid: of the first march.  threads: they change nothing.  The references outlive it.
+  LabelDigests(const PreparedLabels& labels, const LabelKeys& keys, const MeshSettings& settings,
+               const WindowGrid& grid, int threads);
+
+  /// Of the bricks that have what is seen.  ENSURES: where two volumes agree in it, exact() is the
+  /// same, and so is everything that the visit sees.
+  [[nodiscard]] io::ContentDigest of_bricks(const SeenLabels& seen) const;
+  /// Of the very voxels that are seen.  ENSURES: where two volumes agree in it, so is
+  /// everything that the visit sees.  Cost: some 10 ns a voxel.
+  [[nodiscard]] io::ContentDigest exact(const SeenLabels& seen) const;
+
+ private:
+  using Digests = std::vector<io::ContentDigest>;
+
+  /// Of all bricks; uniform: set to 0 for those with several labels.
+  [[nodiscard]] Digests digests_of(bool coarse, int threads,
+                                   std::vector<std::uint8_t>& uniform) const;
+  [[nodiscard]] Box3 around(const Box3& content) const;
+  void add_bricks(const Digests& digests, const Box3& voxels, io::DigestMaker& to) const;
+  void add_voxels(const LabelBox& labels, io::DigestMaker& to) const;
+  void add_cells(const Box3& block, io::DigestMaker& to) const;
+  void add_limits(const Box3& voxels, io::DigestMaker& to) const;
+  [[nodiscard]] bool all_uniform(const Box3& voxels) const;
+
+  const PreparedLabels& labels_;
+  const LabelKeys& keys_;
+  const WindowGrid& grid_;
+  std::optional<std::int64_t> reach_;  ///< of the distance bound; none: there is none
+  Index3 bricks_;
+  Digests original_;
+  Digests coarse_;                     ///< empty where labels are not coarsened
+  std::vector<std::uint8_t> uniform_;  ///< by brick: one label, before and after coarsening
+};
+
+/// Memory that they take for a volume of this shape.
+[[nodiscard]] std::uint64_t label_digest_bytes(Index3 shape);
+
+}  // namespace mw::engine

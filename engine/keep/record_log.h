@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A file of records that only grows; a kill leaves whole records.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "engine/store/journal/work_file.h"
+
+namespace mw::engine {
+
+/// 8 bytes that say what the file is, then records: length and CRC-32 in 4 bytes each, and so many
+/// bytes.  What is not whole ends the log: it was never there.  Zeros may follow.
+/// Thread safety: read() may run beside everything, the others one at a time.
+class RecordLog {
+ public:
+  using UseRecord = std::function<void(std::uint64_t at, std::span<const std::byte> record)>;
+
+  /// Begins an empty file.
+  /// ERRORS: DamagedWork when the file begins as another one.
+  explicit RecordLog(std::unique_ptr<WorkFile> file);
+
+  /// Calls use for all records in their order, and cuts off what is not whole behind them.
+  /// REQUIRES: called once, before append().
+  void replay(const UseRecord& use);
+  /// Returns where the record is; durable after sync().
+  std::uint64_t append(std::span<const std::byte> record);
+  void sync() { file_->sync(); }
+  /// REQUIRES: a place that replay() or append() told.
+  void read(std::uint64_t at, const UseBytes& use) const;
+
+  /// Bytes of all records.
+  [[nodiscard]] std::uint64_t bytes() const { return end_; }
+
+ private:
+  std::unique_ptr<WorkFile> file_;
+  std::uint64_t end_ = 0;
+};
+
+}  // namespace mw::engine

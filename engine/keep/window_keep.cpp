@@ -1,0 +1,339 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/keep/window_keep.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "io/codec/codec.h"
+#include "io/codec/pack_zstd.h"
+#include "io/file/errors.h"
+#include "kernels/core/assert.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr int kPackLevel = 1;
+constexpr const char* kCompactedFile = ".windows.partial-compacted";
+
+std::uint64_t index_bytes_of(const RunLayout& layout) {
+  return layout.slots() * sizeof(KeptVersion) + layout.windows() * sizeof(std::uint64_t) +
+         label_digest_bytes(layout.grid(0).volume());
+}
+
+/// The smallest box with both; an empty one adds nothing.
+Box3 joined(const Box3& a, const Box3& b) {
+  if (a.lo.x >= a.hi.x) return b;
+  if (b.lo.x >= b.hi.x) return a;
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
+std::array<std::int32_t, 6> numbers_of(const Box3& box) {
+  const auto number = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
+  return {number(box.lo.x), number(box.lo.y), number(box.lo.z),
+          number(box.hi.x), number(box.hi.y), number(box.hi.z)};
+}
+
+/// More than any block of this size in memory takes as it is kept.
+std::size_t max_kept_bytes(std::uint32_t memory_kib) {
+  constexpr std::size_t kSmall = 1 << 16;
+  return kSmall + std::size_t{memory_kib} * 2048;
+}
+
+std::uint32_t sum_of(const io::ContentDigest& digest) {
+  return static_cast<std::uint32_t>(digest.first);
+}
+
+std::shared_ptr<KeepFolder> opened(const KeepOptions& options, const std::string& settings) {
+  std::shared_ptr<KeepFolder> folder = options.opened;
+  if (folder == nullptr) folder = std::make_shared<KeepFolder>(options.folder, options.use);
+  folder->settle(settings);
+  return folder;
+}
+
+}  // namespace
+
+WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
+                       const RunLayout& layout, MemoryBudget& budget, const io::LabelTable& table,
+                       const GroupCommit& limits)
+    : layout_(layout),
+      options_(options),
+      limits_(limits),
+      keys_(table),
+      folder_(opened(options, settings)),
+      room_(budget.reserve(Purpose::kIndex, index_bytes_of(layout))),
+      versions_(layout.slots()),
+      bytes_(folder_->open(kVersionsFile)),
+      record_at_(layout.windows(), 0),
+      log_(std::make_unique<RecordLog>(folder_->open(kWindowsFile))) {
+  facts_.marches.resize(layout.marches());
+  replay();
+}
+
+/// The last fact of each window counts.
+void WindowKeep::replay() {
+  log_->replay([&](std::uint64_t at, std::span<const std::byte> bytes) {
+    try {
+      const WindowRecord record = decode_window_record(bytes);
+      if (record.window >= record_at_.size()) throw BadBytes{"there is no such window"};
+      record_at_[record.window] = at + 1;
+      ++records_;
+    } catch (const BadBytes& bad) {
+      throw DamagedWork("records of windows", bad.reason);
+    }
+  });
+  for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
+    const std::optional<WindowRecord> record = record_of(window);
+    if (!record) continue;
+    ++live_;
+    if (record->extent.size > 0 && !bytes_.take(record->extent)) {
+      throw DamagedWork("records of windows", "two point to the same bytes, or to none");
+    }
+  }
+}
+
+std::optional<WindowRecord> WindowKeep::record_of(std::uint64_t window) const {
+  if (record_at_[window] == 0) return std::nullopt;
+  std::optional<WindowRecord> out;
+  log_->read(record_at_[window] - 1, [&](std::span<const std::byte> bytes) {
+    try {
+      out = decode_window_record(bytes);
+    } catch (const BadBytes& bad) {
+      throw DamagedWork("records of windows", bad.reason);
+    }
+  });
+  return out;
+}
+
+void WindowKeep::begin(const PreparedLabels& labels, const MeshSettings& settings,
+                       double inner_quality, int threads) {
+  digests_.emplace(labels, keys_, settings, layout_.grid(0), threads);
+  // Nothing was ever made with another choice, so no fact fits.
+  const std::string chosen = io::text("inner-quality = ", inner_quality, "\n");
+  const std::string before = folder_->text(kChosenFile);
+  if (!before.empty() && before != chosen && options_.say) {
+    options_.say(folder_->path().string() + ": this volume has another inner-quality (auto), now " +
+                 io::text(inner_quality) + ": all windows are visited again");
+  }
+  if (before != chosen) folder_->put_text(kChosenFile, chosen);
+  io::DigestMaker scope;
+  scope.add(chosen);
+  scope_ = scope.finish();
+}
+
+std::vector<BlockKey> WindowKeep::blocks_of(const WindowKey& key) const {
+  std::vector<BlockKey> out;
+  for (Index3 block : layout_.grid(key.march).blocks_of(key.window)) {
+    out.push_back({key.march, block});
+  }
+  return out;
+}
+
+WindowKeep::Known WindowKeep::look_up(const WindowKey& key) const {
+  Known out;
+  io::DigestMaker blocks;
+  blocks.add(scope_);
+  blocks.add(layout_.window(key));
+  const auto add = [&](const BlockKey& block) {
+    const KeptVersion& version = versions_[layout_.slot(block)];
+    if (version.digest.is_none()) return false;
+    blocks.add(version.digest);
+    out.seen.content = joined(out.seen.content, version.box());
+    return true;
+  };
+  for (const BlockKey& block : blocks_of(key)) {
+    if (add(block)) continue;
+    blocks.add(std::uint64_t{block.march > 0});
+    if (block.march > 0) {
+      for (const BlockKey& part : layout_.parts(block)) {
+        if (!add(part)) blocks.add(std::uint64_t{0});
+      }
+      continue;
+    }
+    out.seen.starts.push_back(block.block);
+    Box3 box = layout_.grid(0).block_box(block.block);
+    box.hi = box.hi + Index3{1, 1, 1};  // vertices lie on its far sides, too
+    out.seen.content = joined(out.seen.content, box);
+  }
+  out.input.blocks = blocks.finish();
+  out.input.bricks = digests_->of_bricks(out.seen);
+  const std::optional<WindowRecord> record = record_of(layout_.window(key));
+  if (!record || !(record->input.blocks == out.input.blocks)) return out;
+  if (!(record->input.bricks == out.input.bricks)) {
+    out.input.labels = digests_->exact(out.seen);
+    if (!(record->input.labels == out.input.labels)) return out;
+  }
+  out.record = record;
+  return out;
+}
+
+bool WindowKeep::recalls(const WindowKey& key) {
+  const std::uint64_t window = layout_.window(key);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = known_.find(window);
+    if (known != known_.end()) return known->second.record.has_value();
+  }
+  Known known = look_up(key);
+  const bool out = known.record.has_value();
+  const std::lock_guard lock(mutex_);
+  known_.emplace(window, std::move(known));
+  return out;
+}
+
+std::optional<std::vector<KeptPlace>> WindowKeep::recalled(const WindowKey& key) {
+  std::optional<WindowRecord> record;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = known_.find(layout_.window(key));
+    if (known == known_.end() || !known->second.record) return std::nullopt;
+    record = std::move(known->second.record);
+    known_.erase(known);
+    ++facts_.marches[key.march].skipped;
+  }
+  leave(key, *record);
+  return places_of(*record);
+}
+
+/// What the window left is there now.
+void WindowKeep::leave(const WindowKey& key, const WindowRecord& record) {
+  const std::vector<BlockKey> blocks = blocks_of(key);
+  if (blocks.size() != record.blocks.size()) {
+    throw DamagedWork("records of windows", "one has another number of blocks");
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    versions_[layout_.slot(blocks[i])] = record.blocks[i].version;
+  }
+}
+
+std::vector<KeptPlace> WindowKeep::places_of(const WindowRecord& record) {
+  std::vector<KeptPlace> out;
+  std::uint64_t offset = record.extent.offset;
+  for (const KeptBlock& block : record.blocks) {
+    out.push_back({offset, block.size, sum_of(block.version.digest), block.memory_kib});
+    offset += block.size;
+  }
+  return out;
+}
+
+std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const LeftBlock> blocks) {
+  WindowRecord record{.window = layout_.window(key), .input = {}, .extent = {}, .blocks = {}};
+  SeenLabels seen;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = known_.find(record.window);
+    MW_ASSERT(known != known_.end());
+    record.input = known->second.input;
+    seen = std::move(known->second.seen);
+    known_.erase(known);
+  }
+  if (record.input.labels.is_none()) record.input.labels = digests_->exact(seen);
+  std::vector<std::byte> packed;
+  io::ZstdPacker packer(kPackLevel);
+  for (const LeftBlock& block : blocks) {
+    const std::vector<std::byte> kept = to_kept(block.bytes, keys_);
+    const std::size_t before = packed.size();
+    packer.append(kept, packed);
+    record.blocks.push_back(
+        {.version = {io::content_digest(kept), numbers_of(block.voxels)},
+         .size = static_cast<std::uint32_t>(packed.size() - before),
+         .memory_kib = static_cast<std::uint32_t>((block.memory_bytes + 1023) / 1024)});
+  }
+  bool full = false;
+  {
+    const std::optional<WindowRecord> old = record_of(record.window);
+    const std::lock_guard lock(mutex_);
+    record.extent = bytes_.write(packed);
+    if (old && old->extent.size > 0) superseded_.push_back(old->extent);
+    if (!old) ++live_;
+    group_.push_back(record);
+    ++facts_.marches[key.march].visited;
+    facts_.bytes_written += packed.size();
+    full = group_.size() >= limits_.windows || Clock::now() - group_since_ >= limits_.age;
+  }
+  leave(key, record);
+  if (full) {
+    const std::unique_lock turn(saving_, std::try_to_lock);  // else another thread is at it
+    if (turn.owns_lock()) write_group();
+  }
+  return places_of(record);
+}
+
+std::vector<std::byte> WindowKeep::read(const BlockKey& key, const KeptPlace& place) const {
+  std::vector<std::byte> kept;
+  bytes_.read({place.offset, place.size}, [&](std::span<const std::byte> packed) {
+    try {
+      kept = io::unpack_zstd(packed, max_kept_bytes(place.memory_kib), "versions");
+    } catch (const Error& error) {
+      throw DamagedWork(name(key), error.what());
+    }
+  });
+  if (sum_of(io::content_digest(kept)) != place.sum) {
+    throw DamagedWork(name(key), "these are not the bytes that were kept");
+  }
+  return from_kept(key, kept, keys_);
+}
+
+/// Bytes first, then the records that point to them; then what these replace is free.
+void WindowKeep::write_group() {
+  std::vector<WindowRecord> group;
+  std::vector<Extent> superseded;
+  {
+    const std::lock_guard lock(mutex_);
+    group = std::exchange(group_, {});
+    superseded = std::exchange(superseded_, {});
+    group_since_ = Clock::now();
+  }
+  if (group.empty()) return;
+  bytes_.sync();
+  std::vector<std::uint64_t> places;
+  for (const WindowRecord& record : group) places.push_back(log_->append(encode(record).written()));
+  log_->sync();
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < group.size(); ++i) record_at_[group[i].window] = places[i] + 1;
+  records_ += group.size();
+  for (const Extent& extent : superseded) bytes_.release(extent);
+}
+
+void WindowKeep::save() {
+  const std::lock_guard turn(saving_);
+  write_group();
+}
+
+/// Most records are of windows that have newer ones: the others alone are written again.
+void WindowKeep::compact_log() {
+  const std::filesystem::path file = folder_->path() / kCompactedFile;
+  std::filesystem::remove(file);
+  {
+    RecordLog compacted(folder_->open(kCompactedFile));
+    for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
+      if (record_at_[window] == 0) continue;
+      log_->read(record_at_[window] - 1, [&](std::span<const std::byte> bytes) {
+        static_cast<void>(compacted.append(bytes));
+      });
+    }
+    compacted.sync();
+  }
+  std::filesystem::rename(file, folder_->path() / kWindowsFile);
+}
+
+void WindowKeep::finish() {
+  const std::lock_guard turn(saving_);
+  write_group();
+  if (records_ > 2 * live_) compact_log();
+  facts_.bytes_kept = folder_->bytes();
+}
+
+bool WindowKeep::has_facts() const {
+  const std::lock_guard lock(mutex_);
+  return live_ > 0;
+}
+
+KeepFacts WindowKeep::facts() const {
+  const std::lock_guard lock(mutex_);
+  return facts_;
+}
+
+}  // namespace mw::engine

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Visits that were made before are not made again.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/keep/keep_folder.h"
+#include "engine/keep/keep_options.h"
+#include "engine/keep/kept_block.h"
+#include "engine/keep/label_digests.h"
+#include "engine/keep/record_log.h"
+#include "engine/keep/window_records.h"
+#include "engine/store/block_keeper.h"
+#include "engine/store/memory_budget.h"
+#include "engine/store/run_store.h"
+#include "engine/store/table/segment_file.h"
+
+namespace mw::engine {
+
+/// Remembers, across runs, what visits made of what.
+///
+/// A visit is a function of its blocks, of the labels that it sees, and of settings.  The folder
+/// holds such facts, the last one of each window; so nothing in it is ever wrong, whatever happened
+/// to the volume or the run.  A window whose input is that of its fact is not visited: its blocks
+/// are those that came out then, by reference.
+///
+/// Blocks and labels are digested by the labels' own numbers, and visits depend on nothing but the
+/// order of these (kernels/README.md, "Determinism").
+///
+/// Thread safety: windows that share no block may be asked for and kept at the same time.
+class WindowKeep : public BlockKeeper {
+ public:
+  /// settings: what every fact depends on, lines "name = value".  limits: when facts become
+  /// durable.  The references outlive it.
+  /// ERRORS: those of KeepFolder; DamagedWork; mw::Error(kResource) when the index exceeds the
+  /// budget.
+  WindowKeep(const KeepOptions& options, const std::string& settings, const RunLayout& layout,
+             MemoryBudget& budget, const io::LabelTable& table, const GroupCommit& limits);
+
+  /// Before the first march.  inner_quality: that is kept to (MeshSettings).  labels outlive it.
+  void begin(const PreparedLabels& labels, const MeshSettings& settings, double inner_quality,
+             int threads);
+
+  /// Whether the window need not be visited.  REQUIRES: its predecessors are done.
+  [[nodiscard]] bool recalls(const WindowKey& key);
+  /// The blocks of a window that need not be visited, which is done then; nothing for another.
+  /// REQUIRES: recalls() was asked, and nothing that it depends on has changed since.
+  [[nodiscard]] std::optional<std::vector<KeptPlace>> recalled(const WindowKey& key);
+
+  [[nodiscard]] std::vector<KeptPlace> keep(const WindowKey& window,
+                                            std::span<const LeftBlock> blocks) override;
+  [[nodiscard]] std::vector<std::byte> read(const BlockKey& key,
+                                            const KeptPlace& place) const override;
+
+  /// What was kept so far survives a power cut.
+  void save();
+  /// The run is complete.
+  void finish();
+  /// Whether a later run finds anything.
+  [[nodiscard]] bool has_facts() const;
+
+  [[nodiscard]] KeepFacts facts() const;
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_->path(); }
+
+ private:
+  struct Known {
+    VisitInput input;
+    SeenLabels seen;
+    std::optional<WindowRecord> record;  ///< the fact that tells the outcome
+  };
+  using Clock = std::chrono::steady_clock;
+
+  void replay();
+  [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
+  [[nodiscard]] Known look_up(const WindowKey& key) const;
+  [[nodiscard]] std::optional<WindowRecord> record_of(std::uint64_t window) const;
+  void leave(const WindowKey& key, const WindowRecord& record);
+  [[nodiscard]] static std::vector<KeptPlace> places_of(const WindowRecord& record);
+  void write_group();
+  void compact_log();
+
+  const RunLayout& layout_;
+  KeepOptions options_;
+  GroupCommit limits_;
+  LabelKeys keys_;
+  std::shared_ptr<KeepFolder> folder_;
+  MemoryBudget::Reservation room_;
+  std::optional<LabelDigests> digests_;
+  io::ContentDigest scope_;            ///< of what is settled for the run
+  std::vector<KeptVersion> versions_;  ///< by slot: those that are there now
+
+  mutable std::mutex mutex_;  ///< guards the next lines
+  SegmentFile bytes_;
+  std::vector<std::uint64_t> record_at_;  ///< by window, 1 more than where its fact is; 0: none
+  std::map<std::uint64_t, Known> known_;  ///< of windows that are asked for and not done
+  std::vector<WindowRecord> group_;       ///< not durable yet
+  std::vector<Extent> superseded_;        ///< by what is in the group
+  Clock::time_point group_since_ = Clock::now();
+  std::uint64_t live_ = 0;  ///< windows with a fact
+  KeepFacts facts_;
+
+  std::mutex saving_;  ///< taken before mutex_; guards the log's end
+  std::unique_ptr<RecordLog> log_;
+  std::uint64_t records_ = 0;  ///< in the log
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""One volume, edited again and again."""
+
+import tempfile
+
+import numpy as np
+
+from ._errors import UsageError
+from ._values import numbers, unexpected, whole
+
+
+def _extent(mask):
+    """The corners of the smallest box that has all True of an array, or None."""
+    if not mask.any():
+        return None
+    spans = []
+    for axis in range(mask.ndim):
+        others = tuple(a for a in range(mask.ndim) if a != axis)
+        where = np.flatnonzero(mask.any(axis=others))
+        spans.append((int(where[0]), int(where[-1]) + 1))
+    return spans
+
+
+class Session:
+    """A volume and its mesh, which follow edits at the cost of what an edit reaches.
+
+    array
+        labels, as :func:`mesh` takes them; the session works on a copy.
+    keep
+        a new folder for what is kept, which stays afterwards and is also that of ``mwmesh mesh
+        --from``; None: a temporary one, which goes with the session.
+    settings
+        everything else that :func:`mesh` takes, but for report and the order of windows.
+
+    Each mesh is, byte for byte, the one that ``mesh(array, order="colour", **settings)`` would give.
+
+    >>> import mwmesh
+    >>> session = mwmesh.Session(mwmesh.synth("voronoi", (20, 16, 12), labels=5, seed=1), window=8)
+    >>> mesh, delta = session.update(((3, 3, 3), (6, 6, 6)), 2)
+    >>> delta["box"]["to"]
+    [6, 6, 6]
+    """
+
+    def __init__(self, array, *, keep=None, **settings):
+        if not isinstance(array, np.ndarray) or array.ndim != 3:
+            raise unexpected("array", "a numpy array of three axes", type(array).__name__)
+        for name in ("from_kept", "changed", "report", "workdir", "resume", "order"):
+            if name in settings:
+                raise UsageError(f"{name}: a session settles that itself")
+        self._array = np.array(array, order="C")
+        self._settings = settings
+        self._folder = None
+        if keep is None:
+            self._folder = tempfile.TemporaryDirectory(prefix="mwmesh-session-")
+            keep = self._folder.name
+        self._keep = keep
+        usual = "xyz" if "affine" in settings else "zyx"
+        self._is_zyx = settings.get("axes", usual) == "zyx"
+        self._last = self._run()
+
+    @property
+    def array(self):
+        """The labels as they are now; a view that cannot be written."""
+        view = self._array.view()
+        view.flags.writeable = False
+        return view
+
+    @property
+    def mesh(self):
+        """The :class:`Mesh` of the labels as they are now."""
+        return self._last
+
+    def update(self, *edit):
+        """update(box, values) writes values (a label, or an array indexed as the session's) into
+        box, ((x0, y0, z0), (x1, y1, z1)); update(array) replaces all labels.
+
+        Returns the new :class:`Mesh` and the delta, a dict: "box" and "voxels_changed"; "labels"
+        that gained or lost voxels, with voxels and Betti numbers before and after; "contacts" whose
+        faces changed in number; and the size of the "mesh".
+        """
+        before = self._array
+        after = self._edited(*edit)
+        spans = _extent(before != after)
+        box = [(0, 0), (0, 0), (0, 0)] if spans is None else spans
+        if self._is_zyx:
+            box = box[::-1]
+        changed = (tuple(lo for lo, _ in box), tuple(hi for _, hi in box))
+        self._array = after
+        try:
+            self._last = self._run(from_kept=True, changed=[changed])
+        except BaseException:
+            self._array = before
+            raise
+        return self._last, self._last.report["delta"]
+
+    def _run(self, **arguments):
+        from . import mesh
+        return mesh(self._array, keep=self._keep, order="colour", **arguments, **self._settings)
+
+    def _edited(self, *edit):
+        if len(edit) == 1:
+            array = np.array(edit[0], order="C")
+            if array.shape != self._array.shape or array.dtype != self._array.dtype:
+                raise unexpected("array", f"shape {self._array.shape} of {self._array.dtype}",
+                                 f"{array.shape} of {array.dtype}")
+            return array
+        if len(edit) != 2:
+            raise UsageError("update: expected a box and values, or an array")
+        corners = numbers(edit[0], "box", "((x0, y0, z0), (x1, y1, z1))", (2, 3))
+        lo, hi = ([whole(n, "box") for n in corner] for corner in corners)
+        if self._is_zyx:
+            lo, hi = lo[::-1], hi[::-1]
+        for first, end, extent in zip(lo, hi, self._array.shape):
+            if not 0 <= first <= end <= extent:
+                raise unexpected("box", "corners inside the array, the lower first", edit[0])
+        array = self._array.copy()
+        array[tuple(slice(a, b) for a, b in zip(lo, hi))] = edit[1]
+        return array

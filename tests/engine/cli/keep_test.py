@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshing again after edits: the same bytes, what is read and skipped, kills in between, refusals."""
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    print("skipped: no numpy")
+    sys.exit(77)
+
+PROGRAM = os.environ["MW_PROGRAM"]
+SETTINGS = ("--window", "8")
+
+
+def call(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
+
+
+def content_of(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+class Keep(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        os.chdir(folder.name)
+        self.done("synth", "voronoi", "--shape", "30,26,22", "--labels", "20", "--seed", "1", "-o",
+                  "v.npy")
+        self.volume = np.load("v.npy").astype(np.uint16) * 10
+        np.save("v.npy", self.volume)
+
+    def done(self, *arguments):
+        result = call(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def refused(self, code, said, *arguments):
+        result = call(*arguments)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        self.assertIn(said, result.stderr)
+
+    def mesh(self, *options):
+        return self.done("mesh", "v.npy", "-o", "m.vtu", "--report", "r.json", *SETTINGS, *options)
+
+    def save(self):
+        np.save("v.npy", self.volume)
+
+    def expect_fresh(self):
+        """m.vtu is what a run that begins afresh writes."""
+        self.done("mesh", "v.npy", "-o", "fresh.vtu", "--order", "colour", *SETTINGS)
+        self.assertEqual(content_of("m.vtu"), content_of("fresh.vtu"))
+
+    def remesh(self):
+        with open("r.json", encoding="utf-8") as file:
+            return json.load(file)["engine"]["remesh"]
+
+    def visited(self):
+        return sum(march["visited"] for march in self.remesh()["marches"])
+
+    def test_chain_of_edits(self):
+        self.mesh("--keep", "k")
+        self.expect_fresh()
+        everything = self.visited()
+        rng = random.Random(5)
+        for step in range(5):
+            x, y, z = (rng.randrange(n - 3) for n in (30, 26, 22))
+            label = (int(self.volume[z, y, x]) + 10) % 200 + step % 2  # every second one is new
+            self.volume[z:z + 3, y:y + 3, x:x + 3] = label
+            self.save()
+            self.mesh("--from", "k", "--changed", f"{x},{y},{z},{x + 3},{y + 3},{z + 3}",
+                      "--threads", str(1 + step % 3))
+            self.expect_fresh()
+            self.assertGreater(self.visited(), 0)
+            self.assertLess(self.visited(), everything)
+        self.mesh("--from", "k")
+        self.assertEqual(self.visited(), 0)
+        self.expect_fresh()
+
+    def test_several_boxes_and_a_small_budget(self):
+        self.mesh("--keep", "k")
+        self.volume[2, 3, 4] = 7
+        self.volume[20:, 20:, 20:] = 11
+        self.save()
+        self.mesh("--from", "k", "--changed", "4,3,2,5,4,3", "--changed", "20,20,20,30,26,22",
+                  "--memory", "80MiB", "--threads", "4")
+        self.expect_fresh()
+
+    def test_what_is_not_told_is_not_seen(self):
+        """Counter-test: windows that are skipped wrongly give another mesh, which these tests see."""
+        self.mesh("--keep", "k")
+        before = content_of("m.vtu")
+        self.volume[10:14, 10:14, 10:14] = 5
+        self.save()
+        self.mesh("--from", "k", "--changed", "0,0,0,0,0,0")
+        self.assertEqual(content_of("m.vtu"), before)
+        with self.assertRaises(AssertionError):
+            self.expect_fresh()
+
+    def test_delta(self):
+        self.mesh("--keep", "k")
+        old = self.volume.copy()
+        self.volume[5:8, 6:9, 7:10] = 3
+        self.save()
+        self.mesh("--from", "k", "--delta", "d.json")
+        with open("d.json", encoding="utf-8") as file:
+            delta = json.load(file)
+        changed = old != self.volume
+        self.assertEqual(delta["voxels_changed"], int(changed.sum()))
+        self.assertEqual(delta["box"], {"from": [7, 6, 5], "to": [10, 9, 8]})
+        touched = sorted(set(old[changed]) | set(self.volume[changed]))
+        self.assertEqual([row["label"] for row in delta["labels"]], touched)
+        for row in delta["labels"]:
+            for side, volume in (("before", old), ("after", self.volume)):
+                voxels = int((volume == row["label"]).sum())
+                self.assertEqual((row[side] or {"voxels": 0})["voxels"], voxels)
+        new = delta["labels"][touched.index(3)]
+        self.assertIsNone(new["before"])
+        self.assertEqual(new["after"]["betti_closed"], [1, 0, 0])
+        for row in delta["contacts"]:
+            for side, volume in (("faces_before", old), ("faces_after", self.volume)):
+                a, b = row["labels"]
+                faces = []
+                for axis in (2, 1, 0):
+                    low = np.delete(volume, -1, axis)
+                    high = np.delete(volume, 0, axis)
+                    faces.append(int(((low == a) & (high == b) | (low == b) & (high == a)).sum()))
+                self.assertEqual(row[side], faces)
+        with open("r.json", encoding="utf-8") as file:
+            mesh = json.load(file)["output"]
+        self.assertEqual(delta["mesh"]["after"]["tets"], mesh["tets"])
+
+    def test_kills_in_between(self):
+        rng = random.Random(7)
+        start = time.monotonic()
+        self.mesh("--keep", "whole")
+        seconds = time.monotonic() - start
+        kept = ["--keep", "k", "--resume"]
+        killed = 0
+        for step in range(8):
+            x, y, z = (rng.randrange(n - 4) for n in (30, 26, 22))
+            self.volume[z:z + 4, y:y + 4, x:x + 4] = 10 * rng.randrange(20) + rng.randrange(2)
+            self.save()
+            box = f"{x},{y},{z},{x + 4},{y + 4},{z + 4}"
+            with subprocess.Popen([PROGRAM, "mesh", "v.npy", "-o", "m.vtu", "--save-every", "0",
+                                   *SETTINGS, *kept, *(["--changed", box] if step > 1 and
+                                                       kept[0] == "--from" else [])],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
+                time.sleep(rng.random() * seconds * 1.1)
+                run.send_signal(signal.SIGKILL)
+            killed += run.returncode == -signal.SIGKILL
+            if step % 2 == 0:
+                self.mesh(*kept, *(["--changed", box] if kept[0] == "--from" else []))
+                self.expect_fresh()
+                kept = ["--from", "k"]
+        self.assertGreater(killed, 2)
+
+    def test_refusals(self):
+        self.refused(2, "begin it by --keep", "mesh", "v.npy", "-o", "m.vtu", "--from", "k")
+        self.refused(2, "--order raster", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k", "--order",
+                     "raster")
+        self.refused(2, "give --from", "mesh", "v.npy", "-o", "m.vtu", "--changed", "0,0,0,1,1,1")
+        self.refused(2, "give one of the two", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k",
+                     "--from", "l")
+        self.mesh("--keep", "k")
+        self.refused(2, "go on with it by --from", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS,
+                     "--keep", "k")
+        self.refused(2, "max-distance was 1.5 and is 2", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS,
+                     "--from", "k", "--max-distance", "2")
+        np.save("v.npy", self.volume[1:])
+        self.refused(2, "shape was 30,26,22 and is 30,26,21", "mesh", "v.npy", "-o", "m.vtu",
+                     *SETTINGS, "--from", "k")
+
+    def test_damage_is_told(self):
+        self.mesh("--keep", "k")
+        with open("k/versions", "r+b") as file:
+            content = file.read()
+            file.seek(0)
+            file.write(bytes(len(content)))
+        self.volume[3, 3, 3] = 99
+        self.save()
+        self.refused(3, "delete that folder", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from",
+                     "k")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A log that is cut anywhere holds the records before the cut.
+#include "engine/keep/record_log.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "engine/store/journal/mapped_file.h"
+#include "tests/oracle/small_volumes.h"
+#include "tests/temp_folder.h"
+
+namespace mw::engine {
+namespace {
+
+using audit::test::below;
+using mw::test::TempFolder;
+using Records = std::vector<std::vector<std::byte>>;
+
+RecordLog open(const std::filesystem::path& path) {
+  return RecordLog(std::make_unique<MappedFile>(path));
+}
+
+Records replayed(RecordLog& log) {
+  Records out;
+  log.replay([&](std::uint64_t, std::span<const std::byte> record) {
+    out.emplace_back(record.begin(), record.end());
+  });
+  return out;
+}
+
+Records random_records(std::mt19937& random) {
+  Records out(1 + below(random, 20));
+  for (auto& record : out) {
+    record.resize(1 + below(random, 300));
+    for (std::byte& b : record) b = static_cast<std::byte>(below(random, 256));
+  }
+  return out;
+}
+
+TEST(RecordLog, HoldsWhatIsWholeAfterEveryCut) {
+  std::mt19937 random(3510);
+  for (int i = 0; i < 40; ++i) {
+    const TempFolder folder;
+    const auto path = folder.path() / "log";
+    const Records records = random_records(random);
+    std::vector<std::uint64_t> ends;
+    {
+      RecordLog log = open(path);
+      EXPECT_TRUE(replayed(log).empty());
+      for (const auto& record : records) {
+        const std::uint64_t at = log.append(record);
+        log.read(at, [&](std::span<const std::byte> read) {
+          EXPECT_TRUE(std::equal(read.begin(), read.end(), record.begin(), record.end()));
+        });
+        ends.push_back(log.bytes());
+      }
+    }
+    const std::uint64_t cut = 8 + below(random, static_cast<std::uint32_t>(ends.back() - 7));
+    std::filesystem::resize_file(path, cut);
+    const auto whole = static_cast<std::size_t>(
+        std::count_if(ends.begin(), ends.end(), [&](std::uint64_t end) { return end <= cut; }));
+    RecordLog log = open(path);
+    EXPECT_EQ(replayed(log),
+              Records(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(whole)));
+    // What comes behind the cut is read again, and nothing old with it.
+    static_cast<void>(log.append(records[0]));
+    RecordLog again = open(path);
+    EXPECT_EQ(replayed(again).size(), whole + 1);
+  }
+}
+
+TEST(RecordLog, RefusesAnotherFile) {
+  const TempFolder folder;
+  const auto path = folder.path() / "log";
+  std::ofstream(path) << "something else entirely";
+  EXPECT_THROW(open(path), DamagedWork);
+}
+
+}  // namespace
+}  // namespace mw::engine
