@@ -24,6 +24,10 @@ struct NeededBricks {
 /// Whether start meshes take their shape from coarsened labels.
 [[nodiscard]] bool is_coarsened(const MeshSettings& settings);
 
+/// Whether interfaces are fitted to a SourceSurface: where edges have sizes.  Voxel faces are good
+/// enough for triangles that are large beside them.
+[[nodiscard]] bool wants_source(const MeshSettings& settings);
+
 [[nodiscard]] NeededBricks bricks_of(Index3 volume);
 /// With limits on edges all bricks: such a limit reaches as far as its gradation lets it, and how
 /// far that is only the labels of the whole volume tell.

@@ -46,7 +46,9 @@ inline constexpr double kNormalSteps = 2047.0;
     v = (1.0 - std::abs(u)) * sign_of(v);
     u = folded;
   }
-  const auto bits = [](std::int32_t x, unsigned mask) { return static_cast<std::uint32_t>(x) & mask; };
+  const auto bits = [](std::int32_t x, unsigned mask) {
+    return static_cast<std::uint32_t>(x) & mask;
+  };
   return bits(rounded(plane.height * kHeightSteps), 0xffU) << 24 |
          bits(rounded(u * kNormalSteps), 0xfffU) << 12 | bits(rounded(v * kNormalSteps), 0xfffU);
 }

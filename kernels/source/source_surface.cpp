@@ -12,9 +12,10 @@ namespace mw {
 namespace {
 
 /// Steps of the filter; a voxel is this many units in it.
-constexpr int kSteps = 8;
+constexpr int kSteps = 7;
 constexpr std::int32_t kUnit = 1 << 20;
-static_assert(2 * kSteps < kSourceHalo);
+// A step looks at faces an edge away, an edge at the voxels beside the face.
+static_assert(2 * kSteps + 2 <= kSourceHalo);
 
 using Units = std::array<std::int32_t, 3>;
 
@@ -143,38 +144,109 @@ Vec3 vector_of(const Units& u) {
   return {static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
 }
 
+/// Places after kSteps and after twice as many, normals after these.
+struct Filtered {
+  std::vector<Units> places;
+  std::vector<FaceState> states;
+};
+
+Filtered filter(const FaceGraph& graph) {
+  const std::vector<Face>& faces = graph.faces();
+  Filtered out{std::vector<Units>(faces.size()), std::vector<FaceState>(faces.size())};
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    out.states[i].normal[faces[i].axis] = faces[i].low_is_lower ? kUnit : -kUnit;
+  }
+  std::vector<FaceState> next(faces.size());
+  for (int step = 0; step < 2 * kSteps; ++step) {
+    if (step == kSteps) {
+      for (std::size_t i = 0; i < faces.size(); ++i) out.places[i] = out.states[i].place;
+    }
+    diffuse(graph, out.states, next);
+    out.states.swap(next);
+  }
+  return out;
+}
+
+/// Faces of one direction cancel others when the surface turns more than the filter can tell.
+double trust_of(const Vec3& normal) {
+  constexpr double kNone = 0.6, kFull = 0.8;
+  const double same_way = normal.lpNorm<1>() / kUnit;
+  return std::clamp((same_way - kNone) / (kFull - kNone), 0.0, 1.0);
+}
+
+SourcePlane plane_of(const Face& face, const Units& once, const FaceState& twice) {
+  const Vec3 place = (2.0 * vector_of(once) - vector_of(twice.place)) / kUnit;
+  const Vec3 towards_high = vector_of(twice.normal);
+  const double length = towards_high.norm(), sign = face.low_is_lower ? 1.0 : -1.0;
+  if (!(length > 0.0)) return {Vec3::Unit(static_cast<int>(face.axis)), 0.0};
+  const Vec3 normal = sign / length * towards_high;
+  const double height = trust_of(towards_high) * normal.dot(place);
+  return {normal, std::clamp(height, -kMaxSourceHeight, kMaxSourceHeight)};
+}
+
 }  // namespace
 
-SourceSurface::SourceSurface(const LabelBox& labels, const Box3& box) : box_(box) {
-  planes_.resize(3 * static_cast<std::size_t>(box.voxels()));
+SourceSurface::SourceSurface(const LabelBox& labels, const Box3& box)
+    : box_(box), entries_(static_cast<std::size_t>(box.voxels())) {
   const FaceGraph graph(labels);
-  const std::vector<Face>& faces = graph.faces();
-  std::vector<FaceState> one(faces.size()), two(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    one[i].normal[faces[i].axis] = faces[i].low_is_lower ? kUnit : -kUnit;
+  const Filtered filtered = filter(graph);
+  for (std::size_t i = 0; i < graph.faces().size(); ++i) {
+    const Face& f = graph.faces()[i];
+    if (!box.contains(f.lower)) continue;
+    entries_[static_cast<std::size_t>(box.offset(f.lower))] |= 1U << f.axis;
+    planes_.push_back(pack(plane_of(f, filtered.places[i], filtered.states[i])));
   }
-  const auto run = [&] {
-    for (int step = 0; step < kSteps; step += 2) {
-      diffuse(graph, one, two);
-      diffuse(graph, two, one);
+  count_up();
+}
+
+/// Gives each voxel the row of its first plane, once its faces are known.
+void SourceSurface::count_up() {
+  std::uint32_t row = 0;
+  for (std::uint32_t& entry : entries_) {
+    const std::uint32_t faces = entry;
+    entry |= row << kAxisBits;
+    row += static_cast<std::uint32_t>(std::popcount(faces));
+  }
+}
+
+SourceSurface::SourceSurface(const Box3& box, std::span<const Part> parts)
+    : box_(box), entries_(static_cast<std::size_t>(box.voxels())) {
+  const auto each_voxel = [&](auto visit) {
+    for (const Part& part : parts) {
+      std::size_t voxel = 0, plane = 0;
+      for_each_index(part.box, [&](Index3 v) {
+        const UpperFaces faces = part.faces[voxel++];
+        if (faces == 0) return;
+        if (box.contains(v)) {
+          visit(entries_[static_cast<std::size_t>(box.offset(v))], faces,
+                part.planes.data() + plane);
+        }
+        plane += static_cast<std::size_t>(std::popcount(faces));
+      });
     }
   };
-  run();
-  std::vector<Units> first(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) first[i] = one[i].place;
-  run();
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const Face& f = faces[i];
-    if (!box.contains(f.lower)) continue;
-    const Vec3 place = (2.0 * vector_of(first[i]) - vector_of(one[i].place)) / kUnit;
-    Vec3 normal = vector_of(one[i].normal);
-    if (!f.low_is_lower) normal = -normal;
-    const double length = normal.norm();
-    normal = length > 0.0 ? Vec3(normal / length) : Vec3(Vec3::Unit(static_cast<int>(f.axis)));
-    const double height =
-        std::clamp(normal.dot(place), -kMaxSourceHeight, kMaxSourceHeight);
-    planes_[3 * static_cast<std::size_t>(box.offset(f.lower)) + f.axis] = pack({normal, height});
-  }
+  std::size_t count = 0;
+  each_voxel([&](std::uint32_t& entry, UpperFaces faces, const PackedPlane*) {
+    entry = faces;
+    count += static_cast<std::size_t>(std::popcount(faces));
+  });
+  count_up();
+  planes_.resize(count);
+  each_voxel([&](std::uint32_t entry, UpperFaces faces, const PackedPlane* planes) {
+    std::copy_n(planes, std::popcount(faces), planes_.begin() + (entry >> kAxisBits));
+  });
+}
+
+SourceSurface::Part SourceSurface::part(const Box3& box) const {
+  Part out{.box = box};
+  for_each_index(box, [&](Index3 v) {
+    const std::uint32_t entry = entries_[static_cast<std::size_t>(box_.offset(v))];
+    const auto faces = static_cast<UpperFaces>(entry & ((1U << kAxisBits) - 1U));
+    out.faces.push_back(faces);
+    const auto first = planes_.begin() + (entry >> kAxisBits);
+    out.planes.insert(out.planes.end(), first, first + std::popcount(faces));
+  });
+  return out;
 }
 
 }  // namespace mw

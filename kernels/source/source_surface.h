@@ -3,35 +3,77 @@
 // The smooth surface that voxels were sampled from, face by face.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "kernels/core/assert.h"
 #include "kernels/core/label.h"
 #include "kernels/source/source_plane.h"
 
 namespace mw {
 
 /// How far around a voxel labels have a say in the planes of its faces, in voxels.
-inline constexpr std::int64_t kSourceHalo = 17;
+inline constexpr std::int64_t kSourceHalo = 16;
 
-/// For each voxel of a box the planes of the faces on its upper sides.
+/// The axes, one bit each, across which a voxel has an interface face on its upper side.
+using UpperFaces = std::uint8_t;
+
+/// Planes of the interface faces of a box of voxels.  A face belongs to the voxel on its lower
+/// side.
+///
+/// Faces of one pair of labels that share an edge are neighbours, unless all four faces at the edge
+/// are of that pair.  On this graph the places of faces (their centres, to begin with) and their
+/// normals are diffused: a step takes each three quarters of the way to the mean of its neighbours,
+/// where an edge without a neighbour counts as the face itself.  With G the result of kSteps steps,
+/// the plane goes through 2 G - G^2 of the places, whose bias is of fourth order, and has the
+/// normal G^2 of the normals.  On voxels of a half-space both average to its plane, as faces of
+/// each direction lie around it evenly, in numbers that are proportional to the normal.  Nothing
+/// crosses from one side of a thin sheet to the other, or from one pair of labels to the next.
+///
+/// All sums are of whole numbers, so that a face's plane is a function of the labels around it.
+/// Where the interface is flat and across an axis planes are exactly those of the faces.
 class SourceSurface {
  public:
+  /// Nothing.
   SourceSurface() = default;
-
-  /// Finds the planes of all faces between two labels whose lower voxel is in `box`.
+  /// Finds the planes of all faces between two labels in a box.
   /// labels: of the box and kSourceHalo around it; voxels outside the volume are kExterior, where
   /// the surface ends.
+  /// Cost: about a microsecond a face of `labels`, and a few nanoseconds a voxel.
   SourceSurface(const LabelBox& labels, const Box3& box);
 
+  /// A box of faces that is known already.
+  struct Part {
+    Box3 box;
+    std::vector<UpperFaces> faces;    ///< by voxel, x fastest
+    std::vector<PackedPlane> planes;  ///< by voxel, then by axis
+  };
+  /// The faces of a box, put together.
+  /// REQUIRES: no voxel is in two parts; parts may reach out of the box.
+  SourceSurface(const Box3& box, std::span<const Part> parts);
+  /// REQUIRES: within box().
+  [[nodiscard]] Part part(const Box3& box) const;
+
   [[nodiscard]] const Box3& box() const { return box_; }
-  /// REQUIRES: a face between two labels, whose lower voxel is in box().
+  /// REQUIRES: a face between two labels that belongs to a voxel of box().
   [[nodiscard]] PackedPlane at(Index3 lower, unsigned axis) const {
     MW_ASSERT(box_.contains(lower));
-    return planes_[3 * static_cast<std::size_t>(box_.offset(lower)) + axis];
+    const std::uint32_t entry = entries_[static_cast<std::size_t>(box_.offset(lower))];
+    MW_ASSERT((entry >> axis & 1U) != 0);
+    const std::uint32_t before = entry & ((1U << axis) - 1U);
+    return planes_[(entry >> kAxisBits) + static_cast<std::uint32_t>(std::popcount(before))];
   }
 
  private:
+  static constexpr unsigned kAxisBits = 3;
+
+  void count_up();
+
   Box3 box_;
+  /// By voxel: UpperFaces, and above them the row of its first plane.
+  std::vector<std::uint32_t> entries_;
   std::vector<PackedPlane> planes_;
 };
 
