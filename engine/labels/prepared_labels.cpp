@@ -11,6 +11,7 @@
 #include "engine/labels/reading_tiles.h"
 #include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
+#include "kernels/source/face_graph.h"
 #include "kernels/start/carrier_faces.h"
 #include "kernels/start/cells/cell.h"
 #include "kernels/start/coarsen/coarsen.h"
@@ -21,6 +22,8 @@ namespace {
 constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 /// Bricks along an axis of a tile that is coarsened at once; the halo is one brick.
 constexpr std::int64_t kBricksPerTile = 4;
+/// Faces of a tile whose source surface is found at once.
+constexpr std::size_t kMostSourceFaces = 400'000;
 
 Box3 clipped(const Box3& box, Index3 shape) {
   return intersection(box, {{0, 0, 0}, shape});
@@ -225,14 +228,22 @@ SourceSurface PreparedLabels::source(const Box3& box) const {
 void PreparedLabels::find_source(int threads) {
   tbb_for_each_index(threads, tiles_of(original_.bricks()), [&](Index3 t) {
     const Index3 lo = scaled(t, kBricksPerTile);
-    const Box3 bricks =
-        intersection({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, {{0, 0, 0}, original_.bricks()});
-    if (has_one_label(original_, grown(bricks, 1))) return;
-    const Box3 tile =
-        clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
-    const SourceSurface surface(read(original_, grown(tile, kSourceHalo)), tile);
-    for_each_index(bricks, [&](Index3 b) { source_->write(b, surface, original_.box_of(b)); });
+    find_source_in(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, original_.bricks()));
   });
+}
+
+/// In parts, when there are too many faces for the memory that is reckoned with.
+void PreparedLabels::find_source_in(const Box3& bricks) {
+  if (has_one_label(original_, grown(bricks, 1))) return;
+  const Box3 tile =
+      clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
+  const LabelBox labels = read(original_, grown(tile, kSourceHalo));
+  if (bricks.voxels() > 1 && FaceGraph::count(labels) > kMostSourceFaces) {
+    for_each_index(bricks, [&](Index3 b) { find_source_in({b, b + Index3{1, 1, 1}}); });
+    return;
+  }
+  const SourceSurface surface(labels, tile);
+  for_each_index(bricks, [&](Index3 b) { source_->write(b, surface, original_.box_of(b)); });
 }
 
 void PreparedLabels::coarsen_tiles(double max_distance, int threads) {

@@ -67,6 +67,7 @@ class PreparedLabels {
   void read_bricks(const io::DenseVolume& volume, int threads);
   void read_tile(const io::DenseVolume& volume, const Box3& tile);
   void find_source(int threads);
+  void find_source_in(const Box3& bricks);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(const Box3& cubes, int threads);

@@ -3,8 +3,6 @@
 // A brick is its box, two counts, the faces of its voxels, and its planes.
 #include "engine/labels/source_bricks.h"
 
-#include <array>
-
 namespace mw::engine {
 namespace {
 
@@ -54,12 +52,13 @@ SourceSurface::Part SourceBricks::part(std::uint64_t offset) const {
 SourceSurface SourceBricks::read(const Box3& box) const {
   constexpr std::int64_t kEdge = io::BrickVolume::kEdge;
   const Box3 all{{0, 0, 0}, bricks_};
-  std::vector<SourceSurface::Part> parts;
-  for_each_index(cells_of(box, {kEdge, kEdge, kEdge}), [&](Index3 brick) {
-    const std::uint64_t offset = offsets_[static_cast<std::size_t>(all.offset(brick))];
-    if (offset != kNoFaces) parts.push_back(part(offset));
-  });
-  return {box, parts};
+  const Box3 bricks = cells_of(box, {kEdge, kEdge, kEdge});
+  return {box, [&](auto visit) {
+            for_each_index(bricks, [&](Index3 brick) {
+              const std::uint64_t offset = offsets_[static_cast<std::size_t>(all.offset(brick))];
+              if (offset != kNoFaces) visit(part(offset));
+            });
+          }};
 }
 
 }  // namespace mw::engine

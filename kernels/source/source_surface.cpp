@@ -6,165 +6,75 @@
 #include <algorithm>
 #include <array>
 
-#include "kernels/start/cells/cell.h"
+#include "kernels/source/face_graph.h"
 
 namespace mw {
 namespace {
 
-/// Steps of the filter; a voxel is this many units in it.
+/// Steps of the filter.
 constexpr int kSteps = 7;
-constexpr std::int32_t kUnit = 1 << 20;
+/// A voxel is so many units; three times a place in a box of 2^8 voxels fits.
+constexpr std::int32_t kUnit = 1 << 19;
+[[maybe_unused]] constexpr std::int64_t kMaxEdge = 1 << 8;
 // A step looks at faces an edge away, an edge at the voxels beside the face.
 static_assert(2 * kSteps + 2 <= kSourceHalo);
 
 using Units = std::array<std::int32_t, 3>;
 
-/// What is filtered at a face.
-struct FaceState {
-  Units place{};   ///< from the face's centre
-  Units normal{};  ///< towards the label above the interface
-};
-
-/// An edge of a face that another face of the same two labels is at.
-struct Neighbour {
-  std::uint32_t face = 0;
-  std::array<std::int8_t, 4> way{};  ///< from centre to centre, in half voxels
-};
-
-struct Face {
-  Index3 lower;
-  unsigned axis = 0;
-  bool low_is_lower = true;  ///< the smaller label is on the lower side
-};
-
-class FaceGraph {
- public:
-  explicit FaceGraph(const LabelBox& labels) : labels_(labels) {
-    find_faces();
-    neighbours_.resize(4 * faces_.size());
-    for (std::uint32_t i = 0; i < faces_.size(); ++i) connect(i);
-  }
-
-  [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
-
-  /// Four for each face; an edge without one has the face itself.
-  [[nodiscard]] const Neighbour* neighbours(std::size_t face) const {
-    return &neighbours_[4 * face];
-  }
-
- private:
-  static constexpr std::uint32_t kNone = 0xffffffffU;
-
-  [[nodiscard]] Label at(Index3 v) const {
-    return labels_.box.contains(v) ? labels_.at(v) : kExterior;
-  }
-  [[nodiscard]] std::size_t slot(Index3 lower, unsigned axis) const {
-    return 3 * static_cast<std::size_t>(labels_.box.offset(lower)) + axis;
-  }
-
-  void find_faces() {
-    rows_.assign(3 * labels_.labels.size(), kNone);
-    const Index3 shape = labels_.box.shape();
-    const std::array<std::int64_t, 3> strides{1, shape.x, shape.x * shape.y};
-    std::size_t i = 0;
-    for_each_index(labels_.box, [&](Index3 v) {
-      const Label label = labels_.labels[i];
-      if (label != kExterior) {
-        for (unsigned axis = 0; axis < 3; ++axis) {
-          const Index3 up = v + axis_vector(axis);
-          if (!labels_.box.contains(up)) continue;
-          const Label above = labels_.labels[i + static_cast<std::size_t>(strides[axis])];
-          if (above == label || above == kExterior) continue;
-          rows_[3 * i + axis] = static_cast<std::uint32_t>(faces_.size());
-          faces_.push_back({v, axis, label < above});
-        }
-      }
-      ++i;
-    });
-  }
-
-  void connect(std::uint32_t row) {
-    const Face& f = faces_[row];
-    const Index3 upper = f.lower + axis_vector(f.axis);
-    const Label below = at(f.lower), above = at(upper);
-    std::size_t edge = 4 * std::size_t{row};
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      if (axis == f.axis) continue;
-      for (const int way : {-1, 1}) {
-        const Index3 step = axis_vector(axis, way);
-        const Label beside_lower = at(f.lower + step), beside_upper = at(upper + step);
-        Neighbour n{.face = row};
-        const auto face_across = [&](Index3 v) {
-          return rows_[slot(way > 0 ? v : v + step, axis)];
-        };
-        if (beside_lower == below && beside_upper == above) {
-          n.face = rows_[slot(f.lower + step, f.axis)];
-          n.way[axis] = static_cast<std::int8_t>(2 * way);
-        } else if (beside_lower == above && beside_upper != below) {
-          n.face = face_across(f.lower);
-          n.way[axis] = static_cast<std::int8_t>(way);
-          n.way[f.axis] = -1;
-        } else if (beside_upper == below && beside_lower != above) {
-          n.face = face_across(upper);
-          n.way[axis] = static_cast<std::int8_t>(way);
-          n.way[f.axis] = 1;
-        }
-        neighbours_[edge++] = n;
-      }
-    }
-  }
-
-  const LabelBox& labels_;
-  std::vector<Face> faces_;
-  std::vector<std::uint32_t> rows_;
-  std::vector<Neighbour> neighbours_;
-};
-
-/// Each face goes three quarters of the way to the mean of its neighbours.
-void diffuse(const FaceGraph& graph, const std::vector<FaceState>& from,
-             std::vector<FaceState>& to) {
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const Neighbour* n = graph.neighbours(i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::int32_t way = 0, place = 0, normal = 0;
-      for (int j = 0; j < 4; ++j) {
-        const FaceState& other = from[n[j].face];
-        way += n[j].way[k];
-        place += other.place[k] - from[i].place[k];
-        normal += other.normal[k] - from[i].normal[k];
-      }
-      place += way * (kUnit / 2);
-      to[i].place[k] = from[i].place[k] + ((3 * place + 8) >> 4);
-      to[i].normal[k] = from[i].normal[k] + ((3 * normal + 8) >> 4);
-    }
-  }
-}
-
 Vec3 vector_of(const Units& u) {
   return {static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
 }
 
-/// Places after kSteps and after twice as many, normals after these.
-struct Filtered {
-  std::vector<Units> places;
-  std::vector<FaceState> states;
-};
-
-Filtered filter(const FaceGraph& graph) {
-  const std::vector<Face>& faces = graph.faces();
-  Filtered out{std::vector<Units>(faces.size()), std::vector<FaceState>(faces.size())};
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    out.states[i].normal[faces[i].axis] = faces[i].low_is_lower ? kUnit : -kUnit;
-  }
-  std::vector<FaceState> next(faces.size());
-  for (int step = 0; step < 2 * kSteps; ++step) {
-    if (step == kSteps) {
-      for (std::size_t i = 0; i < faces.size(); ++i) out.places[i] = out.states[i].place;
+/// Each face goes three quarters of the way to the mean of its neighbours, kSteps times.
+void diffuse(const FaceGraph& graph, std::vector<Units>& values) {
+  std::vector<Units> next(values.size());
+  for (int step = 0; step < kSteps; ++step) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const FaceGraph::Neighbours& n = graph.neighbours(i);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t own = values[i][k];
+        const std::int32_t way = (values[n[0]][k] - own) + (values[n[1]][k] - own) +
+                                 (values[n[2]][k] - own) + (values[n[3]][k] - own);
+        next[i][k] = own + ((3 * way + 8) >> 4);
+      }
     }
-    diffuse(graph, out.states, next);
-    out.states.swap(next);
+    values.swap(next);
+  }
+}
+
+/// From the lowest corner of a box.
+Units centre_of(const FaceGraph::Face& face, Index3 lo) {
+  const Index3 from = face.lower - lo;
+  const auto middle = [](std::int64_t v) {
+    return static_cast<std::int32_t>(v) * kUnit + kUnit / 2;
+  };
+  Units out{middle(from.x), middle(from.y), middle(from.z)};
+  out[face.axis] += kUnit / 2;
+  return out;
+}
+
+/// Unit normals to the larger label.
+std::vector<Units> normals_of(const FaceGraph& graph) {
+  std::vector<Units> out(graph.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const FaceGraph::Face f = graph.face(i);
+    out[i][f.axis] = f.low_is_lower ? kUnit : -kUnit;
   }
   return out;
+}
+
+/// Ways from the centres to where the filter puts the faces.
+std::vector<Units> filtered_ways(const FaceGraph& graph, Index3 lo) {
+  std::vector<Units> once(graph.size());
+  for (std::size_t i = 0; i < once.size(); ++i) once[i] = centre_of(graph.face(i), lo);
+  diffuse(graph, once);
+  std::vector<Units> twice = once;
+  diffuse(graph, twice);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    const Units centre = centre_of(graph.face(i), lo);
+    for (std::size_t k = 0; k < 3; ++k) once[i][k] = 2 * once[i][k] - twice[i][k] - centre[k];
+  }
+  return once;
 }
 
 /// Faces of one direction cancel others when the surface turns more than the filter can tell.
@@ -174,13 +84,12 @@ double trust_of(const Vec3& normal) {
   return std::clamp((same_way - kNone) / (kFull - kNone), 0.0, 1.0);
 }
 
-SourcePlane plane_of(const Face& face, const Units& once, const FaceState& twice) {
-  const Vec3 place = (2.0 * vector_of(once) - vector_of(twice.place)) / kUnit;
-  const Vec3 towards_high = vector_of(twice.normal);
-  const double length = towards_high.norm(), sign = face.low_is_lower ? 1.0 : -1.0;
+SourcePlane plane_of(const FaceGraph::Face& face, const Units& way, const Units& towards_high) {
+  const Vec3 mean = vector_of(towards_high);
+  const double length = mean.norm(), sign = face.low_is_lower ? 1.0 : -1.0;
   if (!(length > 0.0)) return {Vec3::Unit(static_cast<int>(face.axis)), 0.0};
-  const Vec3 normal = sign / length * towards_high;
-  const double height = trust_of(towards_high) * normal.dot(place);
+  const Vec3 normal = sign / length * mean;
+  const double height = trust_of(mean) * normal.dot(vector_of(way)) / kUnit;
   return {normal, std::clamp(height, -kMaxSourceHeight, kMaxSourceHeight)};
 }
 
@@ -188,13 +97,18 @@ SourcePlane plane_of(const Face& face, const Units& once, const FaceState& twice
 
 SourceSurface::SourceSurface(const LabelBox& labels, const Box3& box)
     : box_(box), entries_(static_cast<std::size_t>(box.voxels())) {
+  MW_ASSERT(std::max({labels.box.shape().x, labels.box.shape().y, labels.box.shape().z}) <=
+            kMaxEdge);
   const FaceGraph graph(labels);
-  const Filtered filtered = filter(graph);
-  for (std::size_t i = 0; i < graph.faces().size(); ++i) {
-    const Face& f = graph.faces()[i];
+  const std::vector<Units> ways = filtered_ways(graph, labels.box.lo);
+  std::vector<Units> normals = normals_of(graph);
+  diffuse(graph, normals);
+  diffuse(graph, normals);
+  for (std::size_t i = 0; i < graph.size(); ++i) {
+    const FaceGraph::Face f = graph.face(i);
     if (!box.contains(f.lower)) continue;
     entries_[static_cast<std::size_t>(box.offset(f.lower))] |= 1U << f.axis;
-    planes_.push_back(pack(plane_of(f, filtered.places[i], filtered.states[i])));
+    planes_.push_back(pack(plane_of(f, ways[i], normals[i])));
   }
   count_up();
 }
@@ -209,41 +123,13 @@ void SourceSurface::count_up() {
   }
 }
 
-SourceSurface::SourceSurface(const Box3& box, std::span<const Part> parts)
-    : box_(box), entries_(static_cast<std::size_t>(box.voxels())) {
-  const auto each_voxel = [&](auto visit) {
-    for (const Part& part : parts) {
-      std::size_t voxel = 0, plane = 0;
-      for_each_index(part.box, [&](Index3 v) {
-        const UpperFaces faces = part.faces[voxel++];
-        if (faces == 0) return;
-        if (box.contains(v)) {
-          visit(entries_[static_cast<std::size_t>(box.offset(v))], faces,
-                part.planes.data() + plane);
-        }
-        plane += static_cast<std::size_t>(std::popcount(faces));
-      });
-    }
-  };
-  std::size_t count = 0;
-  each_voxel([&](std::uint32_t& entry, UpperFaces faces, const PackedPlane*) {
-    entry = faces;
-    count += static_cast<std::size_t>(std::popcount(faces));
-  });
-  count_up();
-  planes_.resize(count);
-  each_voxel([&](std::uint32_t entry, UpperFaces faces, const PackedPlane* planes) {
-    std::copy_n(planes, std::popcount(faces), planes_.begin() + (entry >> kAxisBits));
-  });
-}
-
 SourceSurface::Part SourceSurface::part(const Box3& box) const {
   Part out{.box = box};
   for_each_index(box, [&](Index3 v) {
     const std::uint32_t entry = entries_[static_cast<std::size_t>(box_.offset(v))];
     const auto faces = static_cast<UpperFaces>(entry & ((1U << kAxisBits) - 1U));
     out.faces.push_back(faces);
-    const auto first = planes_.begin() + (entry >> kAxisBits);
+    const PackedPlane* first = planes_.data() + (entry >> kAxisBits);
     out.planes.insert(out.planes.end(), first, first + std::popcount(faces));
   });
   return out;

@@ -3,9 +3,9 @@
 // The smooth surface that voxels were sampled from, face by face.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "kernels/core/assert.h"
@@ -41,7 +41,8 @@ class SourceSurface {
   /// Finds the planes of all faces between two labels in a box.
   /// labels: of the box and kSourceHalo around it; voxels outside the volume are kExterior, where
   /// the surface ends.
-  /// Cost: about a microsecond a face of `labels`, and a few nanoseconds a voxel.
+  /// REQUIRES: no edge of the box of `labels` is longer than 256 voxels.
+  /// Memory while it works: 8 bytes a voxel and 80 a face of `labels`.
   SourceSurface(const LabelBox& labels, const Box3& box);
 
   /// A box of faces that is known already.
@@ -50,9 +51,11 @@ class SourceSurface {
     std::vector<UpperFaces> faces;    ///< by voxel, x fastest
     std::vector<PackedPlane> planes;  ///< by voxel, then by axis
   };
-  /// The faces of a box, put together.
+  /// The faces of a box, put together from parts, which each_part(visit) calls visit with, one at a
+  /// time; it is called twice.
   /// REQUIRES: no voxel is in two parts; parts may reach out of the box.
-  SourceSurface(const Box3& box, std::span<const Part> parts);
+  template <typename EachPart>
+  SourceSurface(const Box3& box, EachPart each_part);
   /// REQUIRES: within box().
   [[nodiscard]] Part part(const Box3& box) const;
 
@@ -70,11 +73,46 @@ class SourceSurface {
   static constexpr unsigned kAxisBits = 3;
 
   void count_up();
+  template <typename Visit>
+  void each_voxel(const Part& part, Visit visit);
 
   Box3 box_;
   /// By voxel: UpperFaces, and above them the row of its first plane.
   std::vector<std::uint32_t> entries_;
   std::vector<PackedPlane> planes_;
 };
+
+/// Calls visit(entry, faces, first plane) for the part's voxels in the box that have faces.
+template <typename Visit>
+void SourceSurface::each_voxel(const Part& part, Visit visit) {
+  std::size_t voxel = 0, plane = 0;
+  for_each_index(part.box, [&](Index3 v) {
+    const UpperFaces faces = part.faces[voxel++];
+    if (faces == 0) return;
+    if (box_.contains(v)) {
+      visit(entries_[static_cast<std::size_t>(box_.offset(v))], faces, part.planes.data() + plane);
+    }
+    plane += static_cast<std::size_t>(std::popcount(faces));
+  });
+}
+
+template <typename EachPart>
+SourceSurface::SourceSurface(const Box3& box, EachPart each_part)
+    : box_(box), entries_(static_cast<std::size_t>(box.voxels())) {
+  std::size_t count = 0;
+  each_part([&](const Part& part) {
+    each_voxel(part, [&](std::uint32_t& entry, UpperFaces faces, const PackedPlane*) {
+      entry = faces;
+      count += static_cast<std::size_t>(std::popcount(faces));
+    });
+  });
+  count_up();
+  planes_.resize(count);
+  each_part([&](const Part& part) {
+    each_voxel(part, [&](std::uint32_t entry, UpperFaces faces, const PackedPlane* planes) {
+      std::copy_n(planes, std::popcount(faces), planes_.data() + (entry >> kAxisBits));
+    });
+  });
+}
 
 }  // namespace mw
