@@ -69,6 +69,8 @@ class SizeField {
   [[nodiscard]] double at(Point p) const {
     return values_[row(cube_at(p.x, cubes_.x), cube_at(p.y, cubes_.y), cube_at(p.z, cubes_.z))];
   }
+  /// No limit is less, of a place or a label: what is shorter need not be looked at.
+  [[nodiscard]] double least() const { return least_; }
   [[nodiscard]] double of_label(Label label) const {
     return label < label_limits_.size() ? label_limits_[label] : kNoLimit;
   }
@@ -97,6 +99,7 @@ class SizeField {
   std::vector<double> label_limits_;
   double gradation_ = 0.0;
   bool by_voxel_ = false;
+  double least_ = 0.0;         ///< known after spread()
   std::vector<float> values_;  ///< by cube, rounded down; before spread() only of its own voxels
 };
 
