@@ -34,6 +34,11 @@ bool is_coarsened(const MeshSettings& settings) {
   return settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels;
 }
 
+bool wants_source(const MeshSettings& settings) {
+  return settings.sizes.rules.any() && settings.surface == Surface::kSmooth &&
+         settings.max_distance.has_value();
+}
+
 NeededBricks bricks_of(Index3 volume) {
   const Box3 all = bricks_over({{0, 0, 0}, volume});
   return {all, all, all};

@@ -12,6 +12,7 @@
 #include "engine/labels/reading_tiles.h"
 #include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
+#include "kernels/source/face_graph.h"
 #include "kernels/start/carrier_faces.h"
 #include "kernels/start/cells/cell.h"
 #include "kernels/start/coarsen/coarsen.h"
@@ -21,6 +22,8 @@ namespace {
 
 /// Bricks along an axis of a tile that is coarsened at once; the halo is one brick.
 constexpr std::int64_t kBricksPerTile = 4;
+/// Faces of a tile whose source surface is found at once.
+constexpr std::size_t kMostSourceFaces = 400'000;
 
 Box3 clipped(const Box3& box, Index3 shape) {
   return intersection(box, {{0, 0, 0}, shape});
@@ -28,6 +31,12 @@ Box3 clipped(const Box3& box, Index3 shape) {
 
 Index3 scaled(Index3 v, std::int64_t by) {
   return {v.x * by, v.y * by, v.z * by};
+}
+
+/// How many tiles have these bricks.
+Index3 tiles_of(Index3 bricks) {
+  const auto along = [](std::int64_t n) { return (n + kBricksPerTile - 1) / kBricksPerTile; };
+  return {along(bricks.x), along(bricks.y), along(bricks.z)};
 }
 
 bool is_within(const Box3& part, const Box3& whole) {
@@ -57,6 +66,14 @@ bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
   for_each_index(clipped(bricks, volume.bricks()),
                  [&](Index3 b) { uniform = uniform && volume.uniform_label(b).has_value(); });
   return uniform;
+}
+
+bool has_one_label(const io::BrickVolume& volume, const Box3& bricks) {
+  const Box3 inside = clipped(bricks, volume.bricks());
+  const std::optional<Label> first = volume.uniform_label(inside.lo);
+  bool one = first.has_value();
+  for_each_index(inside, [&](Index3 b) { one = one && volume.uniform_label(b) == first; });
+  return one;
 }
 
 /// No edge of this size is longer; in lengths of the metric.
@@ -112,6 +129,10 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
   read_bricks(volume, threads);
   volume.raw().drop_buffers();  // it is not read again, unless a visit looks beyond what it needs
   if (sizes_.limits()) find_sizes(settings.sizes, image, threads);
+  if (wants_source(settings)) {
+    source_.emplace(original_.bricks(), folder);
+    find_source(threads);
+  }
   if (is_coarsened(settings)) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder, bricks.shapes);
     coarsen_tiles(settings.max_distance.value_or(kMaxCoarseDistance), threads);
@@ -196,12 +217,34 @@ void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) 
   });
 }
 
+SourceSurface PreparedLabels::source(const Box3& box) const {
+  return source_->read(clipped(box, original_.shape()));
+}
+
+void PreparedLabels::find_source(int threads) {
+  tbb_for_each_index(threads, tiles_of(original_.bricks()), [&](Index3 t) {
+    const Index3 lo = scaled(t, kBricksPerTile);
+    find_source_in(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, original_.bricks()));
+  });
+}
+
+/// In parts, when there are too many faces for the memory that is reckoned with.
+void PreparedLabels::find_source_in(const Box3& bricks) {
+  if (has_one_label(original_, grown(bricks, 1))) return;
+  const Box3 tile =
+      clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
+  const LabelBox labels = read(original_, grown(tile, kSourceHalo));
+  if (bricks.voxels() > 1 && FaceGraph::count(labels) > kMostSourceFaces) {
+    for_each_index(bricks, [&](Index3 b) { find_source_in({b, b + Index3{1, 1, 1}}); });
+    return;
+  }
+  const SourceSurface surface(labels, tile);
+  for_each_index(bricks, [&](Index3 b) { source_->write(b, surface, original_.box_of(b)); });
+}
+
 void PreparedLabels::coarsen_tiles(double max_distance, int threads) {
   const Box3& bricks = coarse_->held();
-  const auto tiles_along = [](std::int64_t n) { return (n + kBricksPerTile - 1) / kBricksPerTile; };
-  const Index3 shape = bricks.shape();
-  const Index3 tiles{tiles_along(shape.x), tiles_along(shape.y), tiles_along(shape.z)};
-  tbb_for_each_index(threads, tiles, [&](Index3 t) {
+  tbb_for_each_index(threads, tiles_of(bricks.shape()), [&](Index3 t) {
     const Index3 lo = bricks.lo + scaled(t, kBricksPerTile);
     coarsen_tile(intersection({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
   });
@@ -221,7 +264,7 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
       clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
   const LabelBox before = read(original_, grown(tile, kCoarsenHalo));
   LabelBox after = before;
-  coarsen(before, after, tile, original_.shape(), max_distance);
+  coarsen(before, after, tile, original_.shape(), max_distance, sizes());
   for_each_index(bricks, [&](Index3 brick) {
     cut_brick(after, original_.box_of(brick), one);
     coarse_->write(brick, one);

@@ -6,6 +6,7 @@
 #include "engine/labels/label_counts.h"
 #include "engine/labels/label_need.h"
 #include "engine/labels/size_image.h"
+#include "engine/labels/source_bricks.h"
 #include "engine/settings/settings.h"
 #include "io/labels/brick_volume.h"
 #include "io/labels/label_table.h"
@@ -42,6 +43,10 @@ class PreparedLabels {
   [[nodiscard]] LabelBox original(const Box3& box) const;
   /// Returns the labels for start meshes.  REQUIRES: box is a needed block with its kStartHalo.
   [[nodiscard]] LabelBox shape(const Box3& box) const;
+  /// The surface that interfaces are fitted to; they are fitted to voxel faces without one.
+  [[nodiscard]] bool has_source() const { return source_.has_value(); }
+  /// The faces of the box that are in the volume.  REQUIRES: has_source().
+  [[nodiscard]] SourceSurface source(const Box3& box) const;
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
   /// Returns what was counted while the labels were prepared.  REQUIRES: all labels are prepared.
@@ -61,6 +66,8 @@ class PreparedLabels {
   void limit_by_image(const SizeImage& image, int threads);
   void read_bricks(const io::DenseVolume& volume, int threads);
   void read_tile(const io::DenseVolume& volume, const Box3& tile);
+  void find_source(int threads);
+  void find_source_in(const Box3& bricks);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(const Box3& cubes, int threads);
@@ -73,6 +80,7 @@ class PreparedLabels {
   std::optional<LabelCounts> counts_;
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;
+  std::optional<SourceBricks> source_;
   LevelMap levels_;
   SizeField sizes_;
   std::optional<InnerDemand> inner_;

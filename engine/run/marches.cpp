@@ -50,7 +50,8 @@ AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,
                                 return is_ample ? max_start_size(order.grid(), block)
                                                 : visitor.start_size(block);
                               },
-                          .max_distance = visitor.max_distance()};
+                          .max_distance = visitor.max_distance(),
+                          .has_source = visitor.has_source()};
   return [&order, &store, needs, is_ample, budget](Index3 window) -> Admission {
     const std::uint64_t bytes = window_bytes(order.grid(), window, store, needs);
     if (!is_ample && bytes < budget) return_free_memory_above(budget - bytes);

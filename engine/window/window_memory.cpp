@@ -7,6 +7,7 @@
 
 #include "kernels/distance/label_reach.h"
 #include "kernels/size/size_field.h"
+#include "kernels/source/source_plane.h"
 
 namespace mw::engine {
 namespace {
@@ -23,6 +24,8 @@ constexpr std::int64_t kStartLabelHalo = 6;
 // Labels for the distance bound.  Content reaches out of its window by up to a block, though not to
 // all sides at once: the most was 0.5 of the window's edge along an axis, and a voxel at each end.
 constexpr std::uint64_t kBytesPerLabelVoxel = sizeof(Label);
+// With a source surface: where its planes are, planes of up to three faces, bricks being read.
+constexpr std::uint64_t kSourceBytesPerVoxel = 4 + 3 * sizeof(PackedPlane) + 2;
 constexpr std::uint64_t kBytesPerWindow = 64 * kKibibyte;
 
 // Pages of code and libraries, the allocator's slack, and buffers of the reading of labels.
@@ -38,6 +41,9 @@ constexpr std::uint64_t kBytesPerCountedBrick = 2;
 // A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
+// A tile of 96^3 voxels whose source surface is found, with 8 bytes each, and 80 a face.
+constexpr std::uint64_t kSourceBytes = 40 * kMebibyte;
+constexpr std::uint64_t kSourceBytesPerBrick = 8;
 
 // Decoding, positions, tets with global rows; before them triangles, and what they tell of edges.
 constexpr std::uint64_t kBytesPerWrittenByte = 4;
@@ -49,15 +55,15 @@ std::uint64_t content_bytes(const StartSize& size) {
 
 /// What the distance guard looks at; nothing without a bound.
 std::uint64_t distance_label_bytes(const WindowGrid& grid, Index3 window,
-                                   std::optional<double> max_distance) {
-  if (!max_distance) return 0;
+                                   const WindowNeeds& needs) {
+  if (!needs.max_distance) return 0;
   const Index3 edges = grid.window_box(window).shape(), volume = grid.volume();
-  const std::int64_t around = 2 * (LabelReach::search_reach(*max_distance) + 1);
+  const std::int64_t around = 2 * (LabelReach::search_reach(*needs.max_distance) + 1);
   const auto along = [&](std::int64_t edge, std::int64_t all) {
     return static_cast<std::uint64_t>(std::min(edge + (edge + 1) / 2 + around, all));
   };
-  return kBytesPerLabelVoxel * along(edges.x, volume.x) * along(edges.y, volume.y) *
-         along(edges.z, volume.z);
+  const std::uint64_t each = kBytesPerLabelVoxel + (needs.has_source ? kSourceBytesPerVoxel : 0);
+  return each * along(edges.x, volume.x) * along(edges.y, volume.y) * along(edges.z, volume.z);
 }
 
 }  // namespace
@@ -70,8 +76,8 @@ std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockSto
   }
   const auto voxels =
       static_cast<std::uint64_t>(grown(grid.window_box(window), kStartLabelHalo).voxels());
-  const std::uint64_t labels = std::max(kBytesPerStartVoxel * voxels,
-                                        distance_label_bytes(grid, window, needs.max_distance));
+  const std::uint64_t labels =
+      std::max(kBytesPerStartVoxel * voxels, distance_label_bytes(grid, window, needs));
   return static_cast<std::uint64_t>(kBytesPerContentByte * static_cast<double>(content)) + labels +
          kBytesPerWindow;
 }
@@ -114,10 +120,11 @@ std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape, bool
   const auto held = static_cast<std::uint64_t>(share.original.voxels());
   const auto all = static_cast<std::uint64_t>(bricks_of(shape).original.voxels());
   return kBytesPerBrick * held + kBytesPerCountedBrick * all +
-         (sized ? SizeField::making_bytes(shape) : 0);
+         (sized ? SizeField::making_bytes(shape) + kSourceBytesPerBrick * held : 0);
 }
 
 std::uint64_t preparation_bytes(const MeshSettings& settings) {
+  if (wants_source(settings)) return kSourceBytes;
   return settings.start == StartMesh::kCoarse ? kCoarseningBytes : kReadingBytes;
 }
 

@@ -21,6 +21,7 @@ using StartSizeOf = std::function<StartSize(Index3 block)>;
 struct WindowNeeds {
   StartSizeOf start_size;
   std::optional<double> max_distance;  ///< in voxels; labels are read so far around the content
+  bool has_source = false;             ///< and a source surface is read as well
 };
 
 /// An upper bound on what a visit allocates, by the content that it begins with: blocks as they are

@@ -112,12 +112,17 @@ VisitStats WindowVisitor::visit(Index3 window) const {
 
 void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& stats) const {
   LabelBox labels;
+  SourceSurface source;
   std::optional<DistanceGuard> guard;
   if (max_distance_ && !content.one_label) {
     const std::int64_t halo = LabelReach::search_reach(*max_distance_);
     const Box3 volume{{0, 0, 0}, grid_.volume()};
     labels = labels_.original(intersection(voxels_around(content.mesh, halo), volume));
     guard.emplace(labels, *max_distance_, content.samples);
+    if (labels_.has_source()) {
+      source = labels_.source(labels.box);
+      guard->aim_at(source);
+    }
   }
   DistanceGuard* const keep_distance = guard ? &*guard : nullptr;
   Stopwatch watch;

@@ -61,6 +61,8 @@ class WindowVisitor {
 
   /// How far around a window's content a visit reads labels, in voxels; none: it does not.
   [[nodiscard]] std::optional<double> max_distance() const { return max_distance_; }
+  /// Does it read a source surface there as well?
+  [[nodiscard]] bool has_source() const { return labels_.has_source(); }
   /// The size of a block that is made from voxels.  Cost: about a hundredth of a visit.
   [[nodiscard]] StartSize start_size(Index3 block) const;
   /// Makes a block from voxels.

@@ -27,6 +27,15 @@ double DistanceGuard::sign_of(FaceSamples samples, Label low) const {
 }
 
 DistanceGuard::Piece DistanceGuard::piece(FaceSamples samples, Label low) const {
+  Piece out = piece_of_face(samples, low);
+  if (source_ == nullptr) return out;
+  const SourcePlane plane = unpack(source_->at(lower_voxel(samples), out.axis));
+  const Vec3 from_centre = out.middle - in_voxels(face_centre(samples));
+  out.middle += (plane.height - plane.normal.dot(from_centre)) * plane.normal;
+  return out;
+}
+
+DistanceGuard::Piece DistanceGuard::piece_of_face(FaceSamples samples, Label low) const {
   Piece out{.middle = Vec3::Zero(), .axis = axis_of(samples), .sign = sign_of(samples, low)};
   if (quarters_of(samples) == kAllQuarters) {
     out.middle = in_voxels(face_centre(samples));

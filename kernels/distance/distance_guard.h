@@ -10,6 +10,7 @@
 #include "kernels/distance/label_reach.h"
 #include "kernels/distance/near_triangle.h"
 #include "kernels/distance/point_triangle.h"
+#include "kernels/source/source_surface.h"
 
 namespace mw {
 
@@ -31,6 +32,10 @@ class DistanceGuard {
  public:
   /// `labels` as LabelReach asks; keeps references.
   DistanceGuard(const LabelBox& labels, double max_distance, CarriedSamples& samples);
+
+  /// From now on pieces lie on the source surface.  Keeps the reference.
+  /// REQUIRES: it has all faces whose samples are carried.
+  void aim_at(const SourceSurface& source) { source_ = &source; }
 
   /// Smallest bound that the samples can prove anything for.
   [[nodiscard]] static constexpr double min_distance() { return 2.0 * kSampleCoveringRadius; }
@@ -98,6 +103,7 @@ class DistanceGuard {
   };
 
   [[nodiscard]] Piece piece(FaceSamples samples, Label low) const;
+  [[nodiscard]] Piece piece_of_face(FaceSamples samples, Label low) const;
   [[nodiscard]] double sign_of(FaceSamples samples, Label low) const;
   void add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other, LocalVertex survivor,
                    Point target, std::span<const FanTriangle> fan);
@@ -116,6 +122,7 @@ class DistanceGuard {
                                                    double min_cosine) const;
 
   const LabelBox& labels_;
+  const SourceSurface* source_ = nullptr;
   LabelReach reach_;
   double placing_distance_;
   CarriedSamples& samples_;

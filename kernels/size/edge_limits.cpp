@@ -22,13 +22,16 @@ bool EdgeLimits::is_short(LocalVertex v, LocalVertex w) const {
 }
 
 bool EdgeLimits::star_keeps(LocalVertex v, LocalVertex without, Point x) const {
-  const double at_x = sizes_->at(x);
+  const double at_x = sizes_->at(x), surely = sizes_->least() * sizes_->least();
   for (const LinkTriangle& t : mesh_.star(v)) {
     if (t.label == kExterior || t.has(without)) continue;
     const double limit = std::min(at_x, sizes_->of_label(t.label));
     for (const LocalVertex w : {t.a, t.b, t.c}) {
       const Point y = mesh_.position(w);
-      if (!is_within(x, y, std::min(limit, sizes_->at(y)))) return false;
+      const double squared = metric_.vector(x, y).squaredNorm();
+      if (squared <= surely) continue;
+      const double least = std::min(limit, sizes_->at(y));
+      if (squared > least * least) return false;
     }
   }
   return true;

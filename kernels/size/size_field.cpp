@@ -179,6 +179,8 @@ void SizeField::spread() {
       values_[i] = std::min(values_[i], rounded_down(grown));
     }
   }
+  least_ = static_cast<double>(*std::min_element(values_.begin(), values_.end()));
+  for (const double limit : label_limits_) least_ = std::min(least_, limit);
 }
 
 bool SizeField::allows_cell(Index3 lo, int level, Label label) const {

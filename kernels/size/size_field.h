@@ -75,6 +75,8 @@ class SizeField {
     for_each_index(cells_of(box, {cube_, cube_, cube_}),
                    [&](Index3 c) { out.push_back(values_[row(c.x, c.y, c.z)]); });
   }
+  /// No limit is less, of a place or a label: what is shorter need not be looked at.
+  [[nodiscard]] double least() const { return least_; }
   [[nodiscard]] double of_label(Label label) const {
     return label < label_limits_.size() ? label_limits_[label] : kNoLimit;
   }
@@ -103,6 +105,7 @@ class SizeField {
   std::vector<double> label_limits_;
   double gradation_ = 0.0;
   bool by_voxel_ = false;
+  double least_ = 0.0;         ///< known after spread()
   std::vector<float> values_;  ///< by cube, rounded down; before spread() only of its own voxels
 };
 

@@ -22,8 +22,8 @@ Index3 cube_voxel(Index3 cube, unsigned i) {
 
 class Coarsener {
  public:
-  Coarsener(const LabelBox& original, LabelBox& labels, double max_distance)
-      : original_(original), labels_(labels), carriers_(max_distance) {
+  Coarsener(const LabelBox& original, LabelBox& labels, double max_distance, const SizeField* sizes)
+      : original_(original), labels_(labels), carriers_(max_distance), sizes_(sizes) {
     const double reach = std::min(max_distance, kMaxCoarseDistance);
     for_each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 o) {
       if (static_cast<double>(o.x * o.x + o.y * o.y + o.z * o.z) <= reach * reach) {
@@ -38,6 +38,7 @@ class Coarsener {
     for (unsigned i = 0; i < 8; ++i) before[i] = labels_.at(cube_voxel(cube, i));
     if (std::count(before.begin(), before.end(), before[0]) == 8) return false;
     uniform = false;
+    if (!sizes_allow(cube, before)) return true;
     for (Label to : candidates(before)) {
       if (flip_all(cube, to) && keeps_carriers(cube, before)) {
         uniform = true;
@@ -64,6 +65,13 @@ class Coarsener {
     std::vector<Label> out;
     for (const auto& [count, label] : counted) out.push_back(label);
     return out;
+  }
+
+  [[nodiscard]] bool sizes_allow(Index3 cube, const std::array<Label, 8>& labels) const {
+    constexpr int kTwiceTheCube = 2;
+    return sizes_ == nullptr || std::all_of(labels.begin(), labels.end(), [&](Label l) {
+             return sizes_->allows_cell(cube, kTwiceTheCube, l);
+           });
   }
 
   bool flip_all(Index3 cube, Label to) {
@@ -163,6 +171,7 @@ class Coarsener {
   const LabelBox& original_;
   LabelBox& labels_;
   CarrierFaces carriers_;
+  const SizeField* sizes_;
   std::vector<Index3> displacements_;
 };
 
@@ -182,9 +191,9 @@ void each_cube(const Box3& box, unsigned colour, Visit visit) {
 }  // namespace
 
 CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
-                     double max_distance) {
+                     double max_distance, const SizeField* sizes) {
   MW_ASSERT(((tile.lo.x | tile.lo.y | tile.lo.z) & 1) == 0);
-  Coarsener coarsener(original, labels, max_distance);
+  Coarsener coarsener(original, labels, max_distance, sizes);
   CoarsenStats stats;
   for (unsigned colour = 0; colour < 8; ++colour) {
     const Box3 box =

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/core/label.h"
+#include "kernels/size/size_field.h"
 
 namespace mw {
 
@@ -30,7 +31,9 @@ struct CoarsenStats {
 ///  - each of its voxels lies within D of an input voxel of that label (output to input), and
 ///  - each input face between two labels that loses its carrier finds another (input to output,
 ///    carrier_faces.h).
-/// Otherwise it stays as it was.
+/// Otherwise it stays as it was, and so does a cube where sizes do not allow cells of twice its
+/// edge: vertices could not go back from there to where the input has the interface, as edges may
+/// not become longer on the way.
 ///
 /// Cubes are visited in eight colours, by the parity of their position; cubes of one colour do not
 /// see each other, so the result is a local function: it depends on labels nearer than
@@ -40,8 +43,9 @@ struct CoarsenStats {
 /// scratch.
 /// REQUIRES: original and labels are equal and cover the tile with its halo; tile inside the volume
 ///           with even low corner, and even high corner where that is not the volume's side.
+/// sizes: limits on edges; null: none.
 /// ENSURES: topology of every label kept; tiles fit together; statistics count cubes in the tile.
 CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
-                     double max_distance);
+                     double max_distance, const SizeField* sizes = nullptr);
 
 }  // namespace mw

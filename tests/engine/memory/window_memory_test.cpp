@@ -47,7 +47,8 @@ class HeldRun {
   double march() {
     std::optional<PreparedLabels> labels;
     EXPECT_LE(peak_of([&] { labels.emplace(dense_, settings_); }),
-              prepared_label_bytes(layout_.grid(0).volume()) + preparation_bytes(settings_));
+              prepared_label_bytes(layout_.grid(0).volume(), settings_.sizes.rules.any()) +
+                  preparation_bytes(settings_));
     double worst = 0.0;
     for (std::uint32_t m = 0; m < layout_.marches(); ++m) {
       worst = std::max(worst, march(m, *labels));
@@ -73,7 +74,8 @@ class HeldRun {
     const WindowVisitor visitor(labels, Metric({1, 1, 1}), settings_, grid, blocks,
                                 std::move(plan));
     const WindowNeeds needs{.start_size = [&](Index3 b) { return visitor.start_size(b); },
-                            .max_distance = settings_.max_distance};
+                            .max_distance = settings_.max_distance,
+                            .has_source = visitor.has_source()};
     double worst = 0.0;
     for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
       const Index3 window = order.window(rank);
@@ -107,6 +109,7 @@ TEST(WindowMemory, BoundsWhatVisitsAllocateOnAllKindsOfVolumes) {
                   .frame = {}};
       if (below(random, 3) == 0) trial.settings.max_distance.reset();
       if (below(random, 3) == 0) trial.settings.topology = KeptTopology::kInterfaces;
+      if (below(random, 2) == 0) trial.settings.sizes.rules.others = 2.0 + below(random, 4);
       HeldRun run(trial);
       run.march();
       EXPECT_FALSE(testing::Test::HasFailure()) << trial.text();

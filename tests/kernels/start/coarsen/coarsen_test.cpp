@@ -40,6 +40,36 @@ TEST(Promise1Topology, CoarseningKeepsItByRanks) {
   EXPECT_GT(changed, 60);
 }
 
+/// Where cells of four voxels are too large labels stay as they are; elsewhere sizes change
+/// nothing.
+TEST(Coarsen, LeavesLabelsAloneWhereEdgesAreToBeShort) {
+  std::mt19937 random(1030);
+  const double diagonal = 4.0 * std::sqrt(3.0);
+  int changed = 0;
+  for (int i = 0; i < 50; ++i) {
+    const SmallVolume volume = random_of(random, 6, 12);
+    const Box3 all{{0, 0, 0}, volume.shape};
+    const LabelBox before = labels_in(volume, grown(all, kCoarsenHalo));
+    const auto with_limit = [&](double limit) {
+      SizeField sizes(volume.shape, Metric(), std::vector<double>(volume.label_count, limit), 0.3);
+      for_each_index(all, [&](Index3 v) {
+        const Label label = label_at(volume, v);
+        sizes.add({v, v + Index3{1, 1, 1}}, std::span(&label, 1));
+      });
+      sizes.spread();
+      LabelBox after = before;
+      coarsen(before, after, all, volume.shape, 1.5, &sizes);
+      return after.labels;
+    };
+    LabelBox free = before;
+    coarsen(before, free, all, volume.shape, 1.5);
+    EXPECT_EQ(with_limit(diagonal - 0.01), before.labels);
+    EXPECT_EQ(with_limit(diagonal + 0.01), free.labels);
+    changed += free.labels != before.labels ? 1 : 0;
+  }
+  EXPECT_GT(changed, 20);
+}
+
 TEST(Promise1Topology, CoarseningKeepsItOnLargerVolumes) {
   std::mt19937 random(1022);
   int changed = 0;

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The smooth surface that voxels were sampled from, face by face.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "kernels/core/assert.h"
+#include "kernels/core/label.h"
+#include "kernels/source/source_plane.h"
+
+namespace mw {
+
+/// How far around a voxel labels have a say in the planes of its faces, in voxels.
+inline constexpr std::int64_t kSourceHalo = 16;
+
+/// The axes, one bit each, across which a voxel has an interface face on its upper side.
+using UpperFaces = std::uint8_t;
+
+/// Planes of the interface faces of a box of voxels.  A face belongs to the voxel on its lower
+/// side.
+///
+/// Faces of one pair of labels that share an edge are neighbours, unless all four faces at the edge
+/// are of that pair.  On this graph the places of faces (their centres, to begin with) and their
+/// normals are diffused: a step takes each three quarters of the way to the mean of its neighbours,
+/// where an edge without a neighbour counts as the face itself.  With G the result of kSteps steps,
+/// the plane goes through 2 G - G^2 of the places, whose bias is of fourth order, and has the
+/// normal G^2 of the normals.  On voxels of a half-space both average to its plane, as faces of
+/// each direction lie around it evenly, in numbers that are proportional to the normal.  Nothing
+/// crosses from one side of a thin sheet to the other, or from one pair of labels to the next.
+///
+/// All sums are of whole numbers, so that a face's plane is a function of the labels around it.
+/// Where the interface is flat and across an axis planes are exactly those of the faces.
+class SourceSurface {
+ public:
+  /// Nothing.
+  SourceSurface() = default;
+  /// Finds the planes of all faces between two labels in a box.
+  /// labels: of the box and kSourceHalo around it; voxels outside the volume are kExterior, where
+  /// the surface ends.
+  /// REQUIRES: no edge of the box of `labels` is longer than 256 voxels.
+  /// Memory while it works: 8 bytes a voxel and 80 a face of `labels`.
+  SourceSurface(const LabelBox& labels, const Box3& box);
+
+  /// A box of faces that is known already.
+  struct Part {
+    Box3 box;
+    std::vector<UpperFaces> faces;    ///< by voxel, x fastest
+    std::vector<PackedPlane> planes;  ///< by voxel, then by axis
+  };
+  /// The faces of a box, put together from parts, which each_part(visit) calls visit with, one at a
+  /// time; it is called twice.
+  /// REQUIRES: no voxel is in two parts; parts may reach out of the box.
+  template <typename EachPart>
+  SourceSurface(const Box3& box, EachPart each_part);
+  /// REQUIRES: within box().
+  [[nodiscard]] Part part(const Box3& box) const;
+
+  [[nodiscard]] const Box3& box() const { return box_; }
+  /// REQUIRES: a face between two labels that belongs to a voxel of box().
+  [[nodiscard]] PackedPlane at(Index3 lower, unsigned axis) const {
+    MW_ASSERT(box_.contains(lower));
+    const std::uint32_t entry = entries_[static_cast<std::size_t>(box_.offset(lower))];
+    MW_ASSERT((entry >> axis & 1U) != 0);
+    const std::uint32_t before = entry & ((1U << axis) - 1U);
+    return planes_[(entry >> kAxisBits) + static_cast<std::uint32_t>(std::popcount(before))];
+  }
+
+ private:
+  static constexpr unsigned kAxisBits = 3;
+
+  void count_up();
+  template <typename Visit>
+  void each_voxel(const Part& part, Visit visit);
+
+  Box3 box_;
+  /// By voxel: UpperFaces, and above them the row of its first plane.
+  std::vector<std::uint32_t> entries_;
+  std::vector<PackedPlane> planes_;
+};
+
+/// Calls visit(entry, faces, first plane) for the part's voxels in the box that have faces.
+template <typename Visit>
+void SourceSurface::each_voxel(const Part& part, Visit visit) {
+  std::size_t voxel = 0, plane = 0;
+  for_each_index(part.box, [&](Index3 v) {
+    const UpperFaces faces = part.faces[voxel++];
+    if (faces == 0) return;
+    if (box_.contains(v)) {
+      visit(entries_[static_cast<std::size_t>(box_.offset(v))], faces, part.planes.data() + plane);
+    }
+    plane += static_cast<std::size_t>(std::popcount(faces));
+  });
+}
+
+template <typename EachPart>
+SourceSurface::SourceSurface(const Box3& box, EachPart each_part)
+    : box_(box), entries_(static_cast<std::size_t>(box.voxels())) {
+  std::size_t count = 0;
+  each_part([&](const Part& part) {
+    each_voxel(part, [&](std::uint32_t& entry, UpperFaces faces, const PackedPlane*) {
+      entry = faces;
+      count += static_cast<std::size_t>(std::popcount(faces));
+    });
+  });
+  count_up();
+  planes_.resize(count);
+  each_part([&](const Part& part) {
+    each_voxel(part, [&](std::uint32_t entry, UpperFaces faces, const PackedPlane* planes) {
+      std::copy_n(planes, std::popcount(faces), planes_.data() + (entry >> kAxisBits));
+    });
+  });
+}
+
+}  // namespace mw
