@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/labels/bricks.h"
 #include "engine/system/tbb_for.h"
-#include "io/labels/brick_volume.h"
 #include "kernels/core/index.h"
 #include "kernels/distance/label_reach.h"
 #include "kernels/start/graded_start.h"
@@ -14,7 +14,6 @@
 namespace mw::engine {
 namespace {
 
-constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 constexpr Index3 kBrickShape{kBrick, kBrick, kBrick};
 /// In the place of a label's key; what follows it says that it is none (add_voxels).
 constexpr std::uint64_t kOutside = 0;
@@ -23,10 +22,6 @@ constexpr std::uint64_t kOutside = 0;
 constexpr std::int64_t kLimitHalo = 8;
 /// Allowed cells are looked up so far around a block that is made from voxels.
 constexpr std::int64_t kCellHalo = 2;
-
-bool is_empty(const Box3& box) {
-  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
-}
 
 bool is_uniform(const std::vector<Label>& labels) {
   return std::all_of(labels.begin(), labels.end(), [&](Label l) { return l == labels[0]; });
@@ -62,10 +57,12 @@ LabelDigests::Digests LabelDigests::digests_of(bool coarse, int threads,
   return out;
 }
 
-/// Labels that the distance bound looks at (WindowVisitor); empty: none.
+/// The labels that the distance bound looks at, and those that the source surface there depends on
+/// (WindowVisitor); empty where there is no bound.
 Box3 LabelDigests::around(const Box3& content) const {
   if (!reach_ || is_empty(content)) return {};
-  return intersection(grown(content, *reach_), {{0, 0, 0}, grid_.volume()});
+  const std::int64_t halo = *reach_ + (labels_.has_source() ? kSourceHalo : 0);
+  return intersection(grown(content, halo), {{0, 0, 0}, grid_.volume()});
 }
 
 /// Runs of one label: each as the label's key and where the run ends.
