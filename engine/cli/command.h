@@ -14,7 +14,8 @@ struct Command {
   OptionSet options;
   /// What is left to do once the options have their values; returns the exit code.
   std::function<int(const OptionSet&)> run;
-  std::string note;  ///< whole lines at the end of help
+  std::string older_name;  ///< which is taken, too, and listed nowhere; empty: there is none
+  std::string note;        ///< whole lines at the end of help
   /// What labels are called in what the command reads; asked for where an option has a name.
   std::function<io::LabelNames()> names;
 };

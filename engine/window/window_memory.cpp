@@ -35,7 +35,8 @@ constexpr std::uint64_t kBytesPerLabel = 96;
 constexpr std::uint64_t kBytesPerBrick = 20;
 // Its faces, which every process has of the whole volume.
 constexpr std::uint64_t kBytesPerCountedBrick = 2;
-// A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
+// A tile and its halo before and after coarsening, or while thin parts are found in it; or a tile
+// that is read, raw and dense.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
 
@@ -118,7 +119,8 @@ std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape, bool
 }
 
 std::uint64_t preparation_bytes(const MeshSettings& settings) {
-  return settings.start == StartMesh::kCoarse ? kCoarseningBytes : kReadingBytes;
+  const bool has_halo = settings.start == StartMesh::kCoarse || settings.sizes.across > 0;
+  return has_halo ? kCoarseningBytes : kReadingBytes;
 }
 
 std::uint64_t written_block_bytes(std::uint64_t loaded) {

@@ -50,8 +50,8 @@ TEST(SettingTable, LeavesOutNoField) {
   const MeshSettings defaults;
   const auto& [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a_sizes, a13] = changed;
   const auto& [b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b_sizes, b13] = defaults;
-  const auto& [a_rules, a_gradation, a_inner_vertices] = a_sizes;
-  const auto& [b_rules, b_gradation, b_inner_vertices] = b_sizes;
+  const auto& [a_rules, a_gradation, a_inner_vertices, a_count, a_across] = a_sizes;
+  const auto& [b_rules, b_gradation, b_inner_vertices, b_count, b_across] = b_sizes;
   EXPECT_NE(a0, b0);
   EXPECT_NE(a1, b1);
   EXPECT_NE(a2, b2);
@@ -68,6 +68,8 @@ TEST(SettingTable, LeavesOutNoField) {
   EXPECT_NE(a_rules, b_rules);
   EXPECT_NE(a_gradation, b_gradation);
   EXPECT_NE(a_inner_vertices, b_inner_vertices);
+  EXPECT_NE(a_count, b_count);
+  EXPECT_NE(a_across, b_across);
 }
 
 TEST(SettingTable, NamesAreUnlikeAndPlain) {
@@ -168,6 +170,10 @@ TEST(SettingTable, CheckNamesSettingValueAndWhatIsAllowed) {
               HasSubstr("ascending"));
   EXPECT_EQ(refusal({.sizes = {.rules = {.labels = {{2, 1.0}, {3, 1.0}}}}}), "allowed");
   EXPECT_THAT(refusal({.sizes = {.gradation = kNan}}), HasSubstr("gradation = nan: "));
+  EXPECT_THAT(refusal({.sizes = {.gradation = 0.2}}), HasSubstr("nothing to grade"));
+  EXPECT_EQ(refusal({.sizes = {.rules = {.others = 3.0}, .gradation = 0.2}}), "allowed");
+  EXPECT_THAT(refusal({.optimizer = Optimizer::kTetgen, .sizes = {.inner_vertices = true}}),
+              HasSubstr("keeps no sizes"));
 }
 
 TEST(SettingTable, SizesAreSortedByLabel) {
