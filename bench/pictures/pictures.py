@@ -3,8 +3,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pictures of README.md: `--surface voxel` and `--surface smooth` of a ball and of a brain.
 
-Usage: xvfb-run -a bench/pictures/pictures.py [ball] [organ] [cut]
-Writes bench/pictures/*.png.  MW_PROGRAM is the program (default: build/release/mwmesh).
+Usage: xvfb-run -a bench/pictures/pictures.py [ball] [organ] [cut] [plate] [junction]
+Writes bench/pictures/*.png; without names the first three, which README.md and bench/README.md show.
+The others are weak spots, for a comparison before and after a change: a plate of one voxel, which has
+dents, and a grain of a polycrystal, whose edges have knots of small triangles.
+MW_PROGRAM is the program (default: build/release/mwmesh).
 apt-get install python3-numpy python3-pil python3-vtk9 xvfb xauth libgl1-mesa-dri mricron-data
 VTK of Debian 12 draws through an X server only; any DISPLAY will do, xvfb-run gives one.
 """
@@ -30,6 +33,8 @@ COLOURS = (
 BACKGROUND = "eeeeee"
 LARGE = 1000  # voxels of a label whose volume is promised
 BALL_RADIUS = 20  # voxels
+PLATE_EDGE = 24  # voxels
+GRAINS_EDGE, GRAINS = 56, 16  # voxels, and how many
 # Of the right half of the brain: caudate, thalamus, hippocampus, amygdala.
 ORGAN = (72, 78, 38, 42)
 CUT_CORNER, CUT_SHAPE = (92, 88, 46), (64, 48, 56)  # voxels x, y, z: around the right basal ganglia
@@ -37,7 +42,7 @@ CUT_LAYER = 30  # along y: what is behind stays
 
 
 def main():
-    names = sys.argv[1:] or list(PICTURES)
+    names = sys.argv[1:] or SHOWN
     if not set(names) <= set(PICTURES):
         raise SystemExit(__doc__)
     if "DISPLAY" not in os.environ:
@@ -74,6 +79,25 @@ def draw_cut(png, folder):
     scene.draw(png, halves, {0: BACKGROUND} | colours(labels), ((0.25, 1, 0.2), 1.35))
 
 
+def draw_plate(png, folder):
+    halves = [
+        ([scene.surface(file, 1)], caption(report, [1]))
+        for file, report in mesh_both(volumes.plate(PLATE_EDGE), folder)
+    ]
+    scene.draw(png, halves, colours([1]), ((0.5, -1, 0.8), 1.2))
+
+
+def draw_junction(png, folder):
+    """The grain in the middle, whose faces are flat and meet in edges and corners."""
+    volume = volumes.grains(GRAINS_EDGE, GRAINS)
+    middle = int(volume[(GRAINS_EDGE // 2,) * 3])
+    halves = [
+        ([scene.surface(file, middle)], caption(report, [middle]))
+        for file, report in mesh_both(volume, folder)
+    ]
+    scene.draw(png, halves, colours([middle]), ((1, 0.6, 0.5), 1.5))
+
+
 def colours(labels):
     """By label; more labels than colours share them."""
     return {label: COLOURS[i % len(COLOURS)] for i, label in enumerate(labels)}
@@ -96,7 +120,8 @@ def mesh(volume, surface, stem):
 def caption(report, labels):
     """The volume is that of the label that is worst off."""
     shape = report["shape"]
-    rows = [row for row in shape["per_label"] if row["label"] in labels and large(row)]
+    mine = [row for row in shape["per_label"] if row["label"] in labels]
+    rows = [row for row in mine if large(row)] or mine
     worst = max((row["volume_error"] for row in rows), key=abs)
     text = (
         f"--surface {report['settings']['surface']}\n{report['output']['vertices']:,} vertices,  "
@@ -110,7 +135,9 @@ def large(row):
     return row["voxels"] >= LARGE
 
 
-PICTURES = {"ball": draw_ball, "organ": draw_organ, "cut": draw_cut}
+SHOWN = ["ball", "organ", "cut"]
+PICTURES = {"ball": draw_ball, "organ": draw_organ, "cut": draw_cut, "plate": draw_plate,
+            "junction": draw_junction}
 
 
 if __name__ == "__main__":

@@ -18,6 +18,22 @@ def ball(radius):
     return ((offsets**2).sum(axis=0) < radius**2).astype(numpy.uint8)
 
 
+def plate(edge):
+    """Label 1: a square of one voxel's thickness."""
+    out = numpy.zeros((2 * MARGIN + 1, edge + 2 * MARGIN, edge + 2 * MARGIN), numpy.uint8)
+    out[MARGIN, MARGIN:-MARGIN, MARGIN:-MARGIN] = 1
+    return out
+
+
+def grains(edge, count):
+    """Labels from 1 on: which of some random points is nearest; the first one is in the middle."""
+    points = numpy.random.default_rng(3).uniform(0, edge, (count, 3))
+    points[0] = edge / 2
+    centres = numpy.moveaxis(numpy.indices((edge,) * 3) + 0.5, 0, -1)
+    distances = [((centres - point) ** 2).sum(axis=-1) for point in points]
+    return (numpy.argmin(distances, axis=0) + 1).astype(numpy.uint8)
+
+
 def atlas():
     """The AAL brain atlas of Debian's mricron-data: 8 bits and voxels of 1 mm."""
     listed = subprocess.run(["dpkg", "-L", "mricron-data"], capture_output=True, text=True)

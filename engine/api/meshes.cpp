@@ -4,7 +4,7 @@
 #include "engine/api/guarded.h"
 #include "engine/api/types.h"
 #include "engine/picture/draw.h"
-#include "engine/settings/number_text.h"
+#include "engine/settings/named_labels.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"

@@ -50,9 +50,8 @@ const engine::Preset& find_preset(const std::string& name) {
               "preset: there is no '" + name + "'; there are draft, default and fine");
 }
 
-}  // namespace
-
-engine::MeshSettings mesh_settings(const mwmesh::Settings& settings) {
+/// The values, each of which is allowed by itself.
+engine::MeshSettings values_of(const mwmesh::Settings& settings) {
   engine::MeshSettings out;
   const auto& changed = settings.changed();
   const auto preset = changed.find(kPreset);
@@ -64,6 +63,13 @@ engine::MeshSettings mesh_settings(const mwmesh::Settings& settings) {
   for (const auto& [name, text] : changed) {
     if (name != kPreset) set(name, out, text);
   }
+  return out;
+}
+
+}  // namespace
+
+engine::MeshSettings mesh_settings(const mwmesh::Settings& settings) {
+  engine::MeshSettings out = values_of(settings);
   engine::check(out);
   return out;
 }
@@ -90,7 +96,7 @@ std::string Settings::get(std::string_view name) const {
     const auto set = changed_.find(mw::api::kPreset);
     return set == changed_.end() ? mw::engine::kDefaultPreset : set->second;
   }
-  return mw::api::guarded([&] { return mw::api::find(name).text(mw::api::mesh_settings(*this)); });
+  return mw::api::guarded([&] { return mw::api::find(name).text(mw::api::values_of(*this)); });
 }
 
 std::vector<SettingInfo> Settings::all() {

@@ -5,7 +5,7 @@
 #include "engine/api/guarded.h"
 #include "engine/api/types.h"
 #include "engine/api/volume_access.h"
-#include "engine/settings/number_text.h"
+#include "engine/settings/named_labels.h"
 #include "io/names/read_names.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
@@ -95,6 +95,11 @@ std::uint64_t find_label(const Volume& volume, std::string_view text) {
     const io::VolumeInfo& info = VolumeAccess::labels(volume).info();
     return mw::engine::find_label(text, info.names, io::has_signed_labels(info));
   });
+}
+
+std::string with_label_numbers(const Volume& volume, std::string_view text) {
+  return mw::api::guarded(
+      [&] { return mw::engine::with_numbers(text, VolumeAccess::labels(volume).info().names); });
 }
 
 std::vector<LabelName> read_names(const std::filesystem::path& path) {

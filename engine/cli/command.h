@@ -14,6 +14,8 @@ struct Command {
   OptionSet options;
   /// Runs the command once the options have their values; returns the exit code.
   std::function<int(const OptionSet&)> run;
+  /// An older name, which is taken as well and listed nowhere; empty where there is none.
+  std::string older_name;
   std::string note;  ///< whole lines at the end of help
   /// Returns the names of labels in what the command reads; called when an option names a label.
   std::function<io::LabelNames()> names;

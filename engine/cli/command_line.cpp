@@ -18,11 +18,10 @@ namespace {
   throw Error(ErrorKind::kUsage, what + "; see " + see + " --help");
 }
 
-/// stats is another name of info.
-const Command& find_command(const std::vector<Command>& commands, std::string name) {
-  if (name == "stats") name = "info";
-  const auto found = std::find_if(commands.begin(), commands.end(),
-                                  [&](const Command& command) { return command.name == name; });
+const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
+  const auto found = std::find_if(commands.begin(), commands.end(), [&](const Command& command) {
+    return name == command.name || (name == command.older_name && !name.empty());
+  });
   if (found != commands.end()) return *found;
   std::vector<std::string> known;
   for (const Command& command : commands) known.push_back(command.name);

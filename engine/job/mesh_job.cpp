@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "engine/job/certificate.h"
+#include "engine/job/count_pilot.h"
+#include "engine/job/unpacking.h"
 #include "engine/job/volume_delta.h"
 #include "engine/keep/keep_folder.h"
 #include "engine/keep/kept_labels.h"
@@ -14,10 +16,12 @@
 #include "engine/labels/label_scan.h"
 #include "engine/labels/size_image.h"
 #include "engine/labels/voxel_lattice.h"
-#include "engine/run/run_context.h"
+#include "engine/settings/number_text.h"
 #include "engine/settings/promises.h"
+#include "engine/store/journal/workdir.h"
 #include "engine/system/memory.h"
 #include "engine/version.h"
+#include "engine/window/window_memory.h"
 #include "io/file/errors.h"
 #include "io/volume/label_volume.h"
 #include "kernels/core/error.h"
@@ -137,13 +141,44 @@ std::vector<double> edge_sizes(const SizeRules& rules, const io::LabelTable& tab
   return out;
 }
 
+constexpr const char* kCountScale = "count scale";
+
+/// What a run has in common with the one that it goes on from, beside what the engine adds.
+std::string identity_of(const report::FinishedRun& run) {
+  std::string out =
+      io::text("version = ", version(), "\nlabel fingerprint = ", run.fingerprint, "\n");
+  if (run.count) out += io::text(kCountScale, " = ", run.count->scale, "\n");
+  return out;
+}
+
+/// The scale that the run found whose work is gone on with; none: there is no such run.
+std::optional<report::CountFacts> saved_count(const MeshJob& job, report::FinishedRun run) {
+  if (!job.run.store.resume) return std::nullopt;
+  const auto text = saved_value(job.run.store.workdir, kCountScale);
+  double scale = 0;
+  if (!text || !read_all(*text, scale) || !(scale > 0)) return std::nullopt;
+  run.count = {.asked = static_cast<std::uint64_t>(job.settings.sizes.count), .scale = scale};
+  const std::string identity =
+      identity_of(run) + identity_text(run.volume, with_scale(job.settings, scale));
+  if (!is_identity_of(job.run.store.workdir, identity)) return std::nullopt;
+  return run.count;
+}
+
+/// By a pilot, unless an earlier run has made it.
+report::CountFacts count_facts(const PilotTask& task, const report::FinishedRun& run) {
+  if (const auto saved = saved_count(task.job, run)) return *saved;
+  const report::ResourceMeter meter;
+  report::CountFacts out = scale_for_count(task);
+  out.seconds = meter.read().wall_seconds;
+  return out;
+}
+
 /// What the marches are told beside what the job says.
-RunHooks run_hooks(const MeshJob& job, const io::LabelTable& table, const std::string& fingerprint,
-                   std::uint64_t memory) {
+RunHooks run_hooks(const MeshJob& job, const report::FinishedRun& run, std::uint64_t memory) {
+  const io::LabelTable& table = run.labels;
   RunHooks out = job.run;
   out.store.memory = memory;
-  out.store.identity =
-      std::string("version = ") + version() + "\nlabel fingerprint = " + fingerprint + "\n";
+  out.store.identity = identity_of(run);
   out.keep.identity = std::string("version = ") + version() + "\n";
   out.progress = [&job](const RunProgress& at) {
     job.stop();
@@ -163,6 +198,19 @@ std::optional<SizeImage> size_image(const io::VolumeInfo& labels, const MeshJob&
   if (file.empty()) return std::nullopt;
   if (job.size_image != nullptr) return SizeImage(*job.size_image, labels, file);
   throw Error(ErrorKind::kUsage, "size: the image " + file + " was not opened");
+}
+
+/// What is there to read the volume, the program and the preparation of labels left out.
+ReadingRoom reading_room(const MeshJob& job) {
+  const Processes* const processes = job.run.processes;
+  const int sharers = processes == nullptr ? 1 : processes->count_here();
+  const auto shares = static_cast<std::uint64_t>(sharers);
+  const std::uint64_t program = program_bytes(0, thread_count(job.run.threads));
+  return {.memory = job.run.store.memory == MemoryBudget::kUnlimited
+                        ? MemoryBudget::kUnlimited
+                        : shares * job.run.store.memory,
+          .shares = shares,
+          .beside = program + preparation_bytes(job.settings)};
 }
 
 /// Says where the work is when a run that ends early leaves some.
@@ -192,12 +240,13 @@ void refuse_changed_input(const io::LabelVolume& volume, std::uint64_t first, in
 
 }  // namespace
 
-report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::MeshSink& sink) {
+report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io::MeshSink& sink) {
+  MeshJob job = asked;
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
   check(opened.info(), job.settings);
-  check_unpacking(opened, job.settings, job.run);
-  const std::optional<SizeImage> sizes = size_image(opened.info(), job);
+  check_unpacking(opened, reading_room(job));
+  std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const StoppableVolume from_file(opened, job.stop);
   KeptInput kept(from_file, job);
   const io::LabelVolume& stoppable = kept.volume();
@@ -216,10 +265,19 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::
   if (job.labels_known) job.labels_known(run.labels.size());
   const io::DenseVolume labels(input.volume(), run.labels);
   const std::uint64_t memory = job.run.store.memory - input.held_bytes();
+  if (asked.settings.sizes.count > 0) {
+    run.count = count_facts(
+        {.labels = labels, .job = asked, .image = sizes ? &*sizes : nullptr, .memory = memory},
+        run);
+    job.settings = with_scale(asked.settings, run.count->scale);
+    run.sizes = job.settings.sizes;
+    if (sizes) sizes.emplace(sizes->scaled(run.count->scale));
+    check(opened.info(), job.settings);
+  }
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, sink, job.stop);
   try {
-    RunHooks hooks = run_hooks(job, run.labels, run.fingerprint, memory);
+    RunHooks hooks = run_hooks(job, run, memory);
     hooks.sizes = sizes ? &*sizes : nullptr;
     hooks.keep.opened = kept.folder();
     run.engine = march(labels, job, certifier ? certifier->sink() : sink, std::move(hooks));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/job/unpacking.h"
 #include "engine/labels/label_scan.h"
 #include "engine/march/march.h"
 #include "engine/report/figures.h"
@@ -108,20 +109,10 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
   return out;
 }
 
-/// Tells before any work that a chunk of the volume takes more to unpack than there is.
-void check_unpacking(const VerifyJob& job) {
-  const std::uint64_t bytes = job.volume.buffer_bytes(1);
-  if (bytes <= job.memory / 2) return;
-  throw Error(
-      ErrorKind::kResource,
-      io::text("a memory budget of ", job.memory,
-               " bytes is too small to unpack a chunk of the volume; ", io::min_memory(2 * bytes)));
-}
-
 }  // namespace
 
 report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSink&)>& deliver) {
-  check_unpacking(job);
+  check_unpacking(job.volume, {.memory = job.memory, .shares = 2});
   const io::PreparedInput input(job.volume, job.steps, io::SpeckLimits::of_budget(job.memory));
   const io::LabelVolume& volume = input.volume();
   const io::VolumeInfo& info = volume.info();

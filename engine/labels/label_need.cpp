@@ -46,7 +46,7 @@ NeededBricks bricks_of(Index3 volume) {
 
 NeededBricks bricks_of(const LabelNeed& need, Index3 volume, const MeshSettings& settings) {
   const NeededBricks all = bricks_of(volume);
-  if (settings.sizes.rules.any()) return all;
+  if (settings.sizes.limits_edges()) return all;
   NeededBricks out;
   out.shapes = bricks_around(need.starts, kStartHalo, volume);
   if (settings.start != StartMesh::kDense) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "engine/labels/reading_tiles.h"
 #include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
+#include "kernels/size/thickness.h"
 #include "kernels/source/face_graph.h"
 #include "kernels/start/carrier_faces.h"
 #include "kernels/start/cells/cell.h"
@@ -24,6 +26,9 @@ namespace {
 constexpr std::int64_t kBricksPerTile = 4;
 /// Faces of a tile whose source surface is found at once.
 constexpr std::size_t kMostSourceFaces = 400'000;
+/// Bricks of a tile whose thin parts are found at once, and those that have a part of its halo.
+constexpr Index3 kTile{kBricksPerTile, kBricksPerTile, kBricksPerTile};
+constexpr std::int64_t kBricksInReach = (kThinHalo + kBrick - 1) / kBrick;
 
 Box3 clipped(const Box3& box, Index3 shape) {
   return intersection(box, {{0, 0, 0}, shape});
@@ -76,6 +81,11 @@ bool has_one_label(const io::BrickVolume& volume, const Box3& bricks) {
   return one;
 }
 
+/// True when all of the bricks have the same label, and none of them is at the end of the volume.
+bool all_one_label(const io::BrickVolume& volume, const Box3& bricks) {
+  return is_within(bricks, {{0, 0, 0}, volume.bricks()}) && has_one_label(volume, bricks);
+}
+
 /// No edge of this size is longer; in lengths of the metric.
 double limit_of(double size, const io::DenseVolume& volume) {
   const auto& spacing = volume.info().space.spacing;
@@ -84,7 +94,7 @@ double limit_of(double size, const io::DenseVolume& volume) {
 
 /// What settings ask of edges, in lengths of the metric.
 SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
-  if (!sizes.rules.any()) return {};
+  if (!sizes.limits_edges()) return {};
   std::vector<double> limits(volume.table().size(), SizeField::kNoLimit);
   for (Label label = 0; label < limits.size(); ++label) {
     const std::optional<double> size = sizes.rules.of_label(volume.table().raw(label));
@@ -94,12 +104,16 @@ SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
           SizeRules::kLongest * sizes.gradation, !sizes.rules.image.empty()};
 }
 
+/// By dense label: those that have sizes, all where none is listed.
+std::vector<bool> labels_with_sizes(const io::LabelTable& table, const SizeRules& rules) {
+  std::vector<bool> out(table.size(), rules.labels.empty() || rules.others);
+  for (const LabelSize& s : rules.labels) out[table.dense(s.label)] = true;
+  return out;
+}
+
 std::optional<InnerDemand> inner_demand(const io::LabelTable& table, const SizeSettings& sizes) {
   if (!sizes.inner_vertices) return std::nullopt;
-  const SizeRules& rules = sizes.rules;
-  std::vector<bool> wanted(table.size(), rules.labels.empty() || rules.others);
-  for (const LabelSize& s : rules.labels) wanted[table.dense(s.label)] = true;
-  return InnerDemand(std::move(wanted));
+  return InnerDemand(labels_with_sizes(table, sizes.rules));
 }
 
 }  // namespace
@@ -144,6 +158,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
 void PreparedLabels::find_sizes(const SizeSettings& sizes, const SizeImage* image, int threads) {
   if (!sizes.rules.interfaces.empty()) limit_interfaces(sizes.rules, threads);
   if (image != nullptr) limit_by_image(*image, threads);
+  if (sizes.across > 0) limit_thin_parts(sizes, threads);
   sizes_.spread();
 }
 
@@ -181,6 +196,32 @@ void PreparedLabels::limit_by_image(const SizeImage& image, int threads) {
       if (limit == SizeField::kNoLimit) return;
       sizes_.limit_voxel(v, std::max(SizeField::rung_below(limit), least));
     });
+  });
+}
+
+/// No edge in the middle of a thin part is longer than its share of the thickness.
+void PreparedLabels::limit_thin_parts(const SizeSettings& sizes, int threads) {
+  const std::vector<bool> wanted = labels_with_sizes(volume_.table(), sizes.rules);
+  const Metric metric(volume_.info().space.spacing);
+  const double least = metric.voxel().norm();
+  const Index3 bricks = original_.bricks();
+  std::mutex adding_up;
+  tbb_for_each_index(threads, cells_of({{0, 0, 0}, bricks}, kTile).shape(), [&](Index3 t) {
+    const Index3 lo{t.x * kTile.x, t.y * kTile.y, t.z * kTile.z};
+    const Box3 tile = intersection({lo, lo + kTile}, {{0, 0, 0}, bricks});
+    if (all_one_label(original_, grown(tile, kBricksInReach))) return;
+    const Box3 voxels =
+        clipped({scaled(tile.lo, kBrick), scaled(tile.hi, kBrick)}, original_.shape());
+    const LabelBox labels = read(original_, grown(voxels, kThinHalo));
+    ThinParts parts;
+    for_each_thin_voxel(labels, voxels, metric, [&](Index3 v, double thickness) {
+      if (!wanted[labels.at(v)]) return;
+      const double limit = thickness / sizes.across;
+      parts.add(thickness, limit < least);
+      sizes_.limit_voxel(v, std::max(SizeField::rung_below(limit), least));
+    });
+    const std::lock_guard turn(adding_up);
+    thin_parts_.add(parts);
   });
 }
 

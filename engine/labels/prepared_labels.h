@@ -3,6 +3,8 @@
 // The labels that windows work from, made once before the march.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/labels/label_counts.h"
 #include "engine/labels/label_need.h"
 #include "engine/labels/size_image.h"
@@ -16,6 +18,21 @@
 #include "kernels/start/cells/level_map.h"
 
 namespace mw::engine {
+
+/// Voxels in the middle of thin parts; lengths are those of the metric.
+struct ThinParts {
+  std::uint64_t voxels = 0;
+  std::uint64_t too_thin = 0;  ///< of these: where voxels allow fewer edges across than are asked
+  double least = 0.0;          ///< thickness; 0: there is none
+
+  void add(double thickness, bool is_too_thin) { add({1, is_too_thin ? 1U : 0U, thickness}); }
+  void add(const ThinParts& more) {
+    if (more.voxels == 0) return;
+    least = voxels == 0 ? more.least : std::min(least, more.least);
+    voxels += more.voxels;
+    too_thin += more.too_thin;
+  }
+};
 
 /// The input's labels, the labels that the start mesh takes its shape from, and its large cells.
 /// A pure function of the volume and the settings.  Where only some windows are visited it is
@@ -53,6 +70,8 @@ class PreparedLabels {
   [[nodiscard]] const LabelCounts& counts() const { return *counts_; }
   /// Returns the limits on edges; null when there are none.
   [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
+  /// Returns what SizeSettings::across found.
+  [[nodiscard]] const ThinParts& thin_parts() const { return thin_parts_; }
   /// Returns the labels whose tets should have an inner vertex; null when there are none.
   [[nodiscard]] const InnerDemand* inner() const { return inner_ ? &*inner_ : nullptr; }
 
@@ -63,6 +82,7 @@ class PreparedLabels {
 
   void find_sizes(const SizeSettings& sizes, const SizeImage* image, int threads);
   void limit_interfaces(const SizeRules& rules, int threads);
+  void limit_thin_parts(const SizeSettings& sizes, int threads);
   void limit_by_image(const SizeImage& image, int threads);
   void read_bricks(const io::DenseVolume& volume, int threads);
   void read_tile(const io::DenseVolume& volume, const Box3& tile);
@@ -83,6 +103,7 @@ class PreparedLabels {
   std::optional<SourceBricks> source_;
   LevelMap levels_;
   SizeField sizes_;
+  ThinParts thin_parts_;
   std::optional<InnerDemand> inner_;
 };
 

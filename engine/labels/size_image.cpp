@@ -26,6 +26,12 @@ SizeImage::SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels,
                  "give a size for each voxel of the labels");
 }
 
+SizeImage SizeImage::scaled(double factor) const {
+  SizeImage out = *this;
+  out.factor_ *= factor;
+  return out;
+}
+
 std::vector<double> SizeImage::read(const Box3& box, Index3 lattice) const {
   const Index3 layers{lattice.x / shape_.x, lattice.y / shape_.y, lattice.z / shape_.z};
   const Box3 below{{box.lo.x / layers.x, box.lo.y / layers.y, box.lo.z / layers.z},
@@ -37,7 +43,7 @@ std::vector<double> SizeImage::read(const Box3& box, Index3 lattice) const {
   out.reserve(static_cast<std::size_t>(box.voxels()));
   for_each_index(box, [&](Index3 v) {
     const Index3 voxel{v.x / layers.x, v.y / layers.y, v.z / layers.z};
-    const double size = coarse[static_cast<std::size_t>(below.offset(voxel))];
+    const double size = factor_ * coarse[static_cast<std::size_t>(below.offset(voxel))];
     out.push_back(size > 0.0 ? size : std::numeric_limits<double>::infinity());
   });
   return out;

@@ -19,6 +19,8 @@ class SizeImage {
   /// ERRORS: mw::Error(kInput) when the image has another shape, or is of a format whose numbers
   ///         are not read here.
   SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file);
+  /// The same with each size multiplied.
+  [[nodiscard]] SizeImage scaled(double factor) const;
 
   /// The sizes in a box of the lattice, x fastest, physical units; what is no positive number is
   /// infinity: nothing is asked there.  lattice: its shape, a multiple of the labels'.
@@ -29,6 +31,7 @@ class SizeImage {
  private:
   const io::NumberVolume* numbers_;
   Index3 shape_;
+  double factor_ = 1.0;
 };
 
 }  // namespace mw::engine

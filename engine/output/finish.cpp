@@ -63,6 +63,27 @@ class Writer {
   std::uint64_t tets_ = 0;  ///< so far
 };
 
+/// Exact: four times a barycentre is the sum of the corners.
+std::uint64_t tets_within(const BlockMesh& block, const Box3& box) {
+  const auto is_between = [](std::int64_t sum, std::int64_t lo, std::int64_t hi) {
+    constexpr std::int64_t kScale = std::int64_t{4} * kUnitsPerVoxel;
+    return sum >= lo * kScale && sum < hi * kScale;
+  };
+  std::uint64_t out = 0;
+  for (const BlockTet& tet : block.tets) {
+    Index3 sum;
+    for (const std::uint32_t row : tet.vertices) {
+      const Point p = block.vertices[row].position;
+      sum = sum + Index3{p.x, p.y, p.z};
+    }
+    const bool is_within = is_between(sum.x, box.lo.x, box.hi.x) &&
+                           is_between(sum.y, box.lo.y, box.hi.y) &&
+                           is_between(sum.z, box.lo.z, box.hi.z);
+    out += is_within ? 1 : 0;
+  }
+  return out;
+}
+
 io::VolumeInfo lattice_info(io::VolumeInfo info, Index3 layers) {
   const auto cut = [&](std::size_t axis, std::int64_t& voxels, std::int64_t parts) {
     voxels *= parts;
@@ -76,8 +97,8 @@ io::VolumeInfo lattice_info(io::VolumeInfo info, Index3 layers) {
 
 }  // namespace
 
-FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::DenseVolume& volume,
-                    io::MeshSink& sink, const OutputOptions& options) {
+FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptions& options) {
+  const auto& [blocks, grid, volume] = mesh;
   const LabelSelection selection(options.wanted, volume.table());
   FinishedMesh out;
   VertexUses uses(grid);
@@ -86,6 +107,7 @@ FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::Dense
     selection.apply(block);
     uses.add(b, block.vertices);
     out.tets += block.tets.size();
+    if (options.within) out.tets_within += tets_within(block, *options.within);
   });
   sink.begin(header_of(volume, selection, out.tets, options.promises));
   Remembered remembered(options.hold);

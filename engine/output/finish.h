@@ -30,9 +30,18 @@ class FinalBlocks {
   [[nodiscard]] virtual BlockMesh load(Index3 block) = 0;
 };
 
+/// What the mesh is made from when the marches are over.
+struct FinalMesh {
+  FinalBlocks& blocks;
+  const WindowGrid& grid;  ///< of the lattice: its shape is that of the volume times the layers
+  const io::DenseVolume& volume;
+};
+
 /// What is written and told of the mesh.
 struct OutputOptions {
-  WantedLabel wanted;                        ///< empty: every label
+  WantedLabel wanted;  ///< empty: every label
+  /// Tets whose barycentres are in this box of the lattice are counted apart; none: not done.
+  std::optional<Box3> within;
   bool measure_quality = false;              ///< about 0.1 us a tet
   bool measure_shape = false;                ///< volumes, area and bends; about 1 us a tet
   bool measure_edges = false;                ///< the longest of each label, and their ratios
@@ -58,6 +67,7 @@ struct EdgeRatios {
 struct FinishedMesh {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
+  std::uint64_t tets_within = 0;  ///< see OutputOptions::within
   std::optional<audit::QualityReport> quality;
   std::optional<audit::ShapeReport> shape;
   /// With measure_shape, by dense label, else empty: six times the volume that is written, exact,
@@ -73,10 +83,8 @@ struct FinishedMesh {
 /// Reads every block twice in raster order, first for counts and uses of vertices, then to write.
 /// Vertices ascend by the first block that references them, then by id; tets by block and canonical
 /// order inside it.  Coordinates are those of the volume's space (to_world), on corners of its
-/// voxels whatever the layers; tets are positive in them. grid: of the lattice, layers times the
-/// volume's shape. Memory: one block, what VertexRows and InterfaceShape remember, 16 bytes a label
-/// and the sink's buffers.
-FinishedMesh finish(FinalBlocks& blocks, const WindowGrid& grid, const io::DenseVolume& volume,
-                    io::MeshSink& sink, const OutputOptions& options = {});
+/// voxels whatever the layers; tets are positive in them.  Memory: one block, what VertexRows and
+/// InterfaceShape remember, 16 bytes a label and the sink's buffers.
+FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptions& options = {});
 
 }  // namespace mw::engine

@@ -147,6 +147,9 @@ void add_volume(py::module_& module) {
   module.def("find_label", [](const HeldVolume& v, const std::string& text) {
     return find_label(v.volume, text);
   });
+  module.def("with_label_numbers", [](const HeldVolume& v, const std::string& text) {
+    return with_label_numbers(v.volume, text);
+  });
   module.def("volume_of_array", &volume_of_array);
   module.def("volume_of_region", &volume_of_region);
   module.def("open_volume", [](const std::string& path, const std::string& dataset,

@@ -145,10 +145,38 @@ Json shape_json(const FinishedRun& run) {
   return out;
 }
 
+Json count_json(const FinishedRun& run) {
+  if (!run.count) return nullptr;
+  const CountFacts& count = *run.count;
+  Json pilot = nullptr;
+  if (count.trials > 0) {
+    pilot = {{"meshes", count.trials},
+             {"voxels", count.voxels},
+             {"seconds", count.seconds},
+             {"expected", count.expected}};
+  }
+  return {{"asked", count.asked},       {"got", run.engine.tets},   {"scale", count.scale},
+          {"is_least", count.is_least}, {"is_most", count.is_most}, {"pilot", std::move(pilot)}};
+}
+
+/// Thicknesses in physical units.
+Json across_json(const FinishedRun& run) {
+  if (run.sizes.across == 0) return nullptr;
+  const engine::ThinParts& parts = run.engine.thin_parts;
+  const auto& spacing = run.engine.lattice.spacing;
+  const double voxel = *std::min_element(spacing.begin(), spacing.end());
+  return {{"asked", run.sizes.across},
+          {"voxels", parts.voxels},
+          {"voxels_too_thin", parts.too_thin},
+          {"least_thickness", parts.least * voxel}};
+}
+
 /// What was asked of sizes; each label's own and its longest edge are in the rows of labels.
 Json size_json(const FinishedRun& run) {
   Json out{{"labels", run.sizes.rules.labels.size()},
-           {"inner_vertices_added", run.engine.inner_vertices}};
+           {"inner_vertices_added", run.engine.inner_vertices},
+           {"count", count_json(run)},
+           {"across", across_json(run)}};
   if (!run.sizes.rules.any()) return out;
   const engine::EdgeRatios& ratios = run.engine.edge_ratios;
   out["edges_over_size"] = {{"bounds", ratios.kBounds}, {"counts", ratios.counts}};

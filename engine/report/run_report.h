@@ -17,11 +17,24 @@
 
 namespace mw::report {
 
+/// What was done for SizeSettings::count.
+struct CountFacts {
+  std::uint64_t asked = 0;
+  double scale = 1.0;          ///< of all sizes
+  std::uint64_t expected = 0;  ///< tets that the pilot found at that scale; 0: an earlier run did
+  bool is_least = false;       ///< fewer cannot be had
+  bool is_most = false;        ///< more cannot be had
+  int trials = 0;              ///< meshes that the pilot made; 0: an earlier run made them
+  std::int64_t voxels = 0;     ///< that they had in all
+  double seconds = 0.0;        ///< wall
+};
+
 /// What a run knows when its mesh has been written.
 struct FinishedRun {
   io::VolumeInfo volume;
   io::LabelTable labels;
-  engine::SizeSettings sizes;
+  engine::SizeSettings sizes;  ///< as they were kept to, after scaling
+  std::optional<CountFacts> count;
   std::optional<io::SpeckFacts> specks;
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels

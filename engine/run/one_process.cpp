@@ -14,7 +14,7 @@ class WholeRun : public RunPart {
  public:
   WholeRun(const StoreOptions& options, const std::string& identity) : folder_(options.workdir) {
     if (folder_.empty()) return;
-    workdir_ = std::make_unique<Workdir>(folder_, options.resume, identity);
+    workdir_ = std::make_shared<Workdir>(folder_, options.resume, identity);
   }
 
   [[nodiscard]] WorkFiles* work_files() override { return workdir_.get(); }
@@ -34,13 +34,21 @@ class WholeRun : public RunPart {
   [[nodiscard]] VisitStats end_marches(const VisitStats& own) override { return own; }
   [[nodiscard]] bool await_output() override { return true; }
   [[nodiscard]] bool writes_with_others() const override { return false; }
-  [[nodiscard]] FinishedMesh write(FinalBlocks& blocks, const WindowGrid& grid,
-                                   const io::DenseVolume& volume, io::MeshSink& sink,
+  [[nodiscard]] FinishedMesh write(const FinalMesh& mesh, io::MeshSink& sink,
                                    const OutputOptions& options) override {
-    return finish(blocks, grid, volume, sink, options);
+    return finish(mesh, sink, options);
+  }
+  [[nodiscard]] std::shared_ptr<Workdir> keep_for_rest(RunStore& store) override {
+    try {
+      store.save();
+    } catch (const Error&) {
+      // The disk is full or broken, and the mesh is complete nevertheless.
+    }
+    stays_ = keep_work(store);
+    return stays_ ? workdir_ : nullptr;
   }
   [[nodiscard]] std::vector<ProcessFacts> end(const ProcessFacts& /*own*/) override {
-    if (workdir_ != nullptr) workdir_->discard();
+    if (workdir_ != nullptr && !stays_) workdir_->discard();
     return {};
   }
   [[nodiscard]] std::exception_ptr fail(const std::exception_ptr& error) override { return error; }
@@ -52,7 +60,8 @@ class WholeRun : public RunPart {
 
  private:
   std::filesystem::path folder_;
-  std::unique_ptr<Workdir> workdir_;
+  std::shared_ptr<Workdir> workdir_;
+  bool stays_ = false;
 };
 
 class OneProcess : public Processes {

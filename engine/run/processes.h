@@ -16,6 +16,7 @@
 #include "engine/labels/label_need.h"
 #include "engine/march/arrival_front.h"
 #include "engine/output/finish.h"
+#include "engine/store/journal/workdir.h"
 #include "engine/store/memory_budget.h"
 #include "engine/store/run_store.h"
 #include "engine/window/window_visitor.h"
@@ -74,11 +75,14 @@ class RunPart {
   [[nodiscard]] virtual bool await_output() = 0;
   /// True if other processes write parts of it, too.
   [[nodiscard]] virtual bool writes_with_others() const = 0;
-  [[nodiscard]] virtual FinishedMesh write(FinalBlocks& blocks, const WindowGrid& grid,
-                                           const io::DenseVolume& volume, io::MeshSink& sink,
+  [[nodiscard]] virtual FinishedMesh write(const FinalMesh& mesh, io::MeshSink& sink,
                                            const OutputOptions& options) = 0;
-  /// To be called once the output is complete: the work folder is not needed any more.  Returns
-  /// what each process did; empty if there is only one.
+  /// To be called once the mesh is complete and more is to be written (StoreOptions::stays): saves
+  /// the work and gives the folder away, in which it stays until it is discarded.  Returns null if
+  /// no run could go on from there; a failure to save is no error.
+  [[nodiscard]] virtual std::shared_ptr<Workdir> keep_for_rest(RunStore& store) = 0;
+  /// To be called once the output is complete: the work folder is not needed any more, unless it was
+  /// given away.  Returns what each process did; empty if there is only one.
   [[nodiscard]] virtual std::vector<ProcessFacts> end(const ProcessFacts& own) = 0;
 
   /// Ends a process that cannot go on.  Returns the error that the run ends with.

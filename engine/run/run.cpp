@@ -70,6 +70,7 @@ void prepare(RunContext& run, ReadyLabels& out) {
   } else {
     out.prepared.emplace(labels, run.settings, *need, readers.threads, folder, run.hooks.sizes);
   }
+  run.report.thin_parts = out.prepared->thin_parts();
   watch.lap(run.report.prepare_seconds);
 }
 
@@ -118,6 +119,7 @@ void report_mesh(RunContext& run, FinishedMesh& finished, const LabelCounts& lab
   RunReport& report = run.report;
   report.vertices = finished.vertices;
   report.tets = finished.tets;
+  report.tets_within = finished.tets_within;
   report.quality = finished.quality;
   report.shape = finished.shape;
   if (finished.label_volumes6.empty()) return;
@@ -149,7 +151,7 @@ void write(RunContext& run, const LabelCounts& labels, RunForecast& forecast) {
   };
   forecast.begin_output();
   FinishedBlocks blocks(stored, run, forecast);
-  FinishedMesh finished = run.part->write(blocks, grid, run.lattice.volume(), run.sink, options);
+  FinishedMesh finished = run.part->write({blocks, grid, run.lattice.volume()}, run.sink, options);
   watch.lap(run.report.output_seconds);
   report_mesh(run, finished, labels);
 }
@@ -175,6 +177,7 @@ void go(RunContext& run) {
     run.keep->finish();
     run.report.keep = run.keep->facts();
   }
+  if (run.hooks.store.stays) run.report.work = run.part->keep_for_rest(run.store);
   run.report.processes = run.part->end(facts_of(run.budget, windows));
   run.report.memory_budget_bytes = run.budget.limit();
   run.report.peak_accounted_bytes = run.budget.peak();
@@ -195,6 +198,7 @@ bool is_damage(const std::exception_ptr& error) {
 /// Saves what can be saved after an error; the user is told of the first error only.  Nobody is
 /// told to go on from damage, which stays for those who want to know what happened.
 void keep_work(RunContext& run, const std::exception_ptr& error) {
+  if (run.hooks.store.is_scratch) return;
   const bool damaged = is_damage(error);
   try {
     if (!damaged) run.store.save();

@@ -8,6 +8,7 @@
 
 #include "engine/codt/worker_pool.h"
 #include "engine/keep/keep_options.h"
+#include "engine/labels/prepared_labels.h"
 #include "engine/march/march.h"
 #include "engine/output/finish.h"
 #include "engine/run/processes.h"
@@ -35,6 +36,8 @@ struct RunReport : VisitStats {
   LatticeFacts lattice;
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
+  std::uint64_t tets_within = 0;  ///< see OutputOptions::within
+  ThinParts thin_parts;           ///< of SizeSettings::across
   int threads = 1;
   double inner_quality = 0.0;    ///< the value that was used, see MeshSettings
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
@@ -50,6 +53,7 @@ struct RunReport : VisitStats {
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
   StoreFacts store;
   std::optional<KeepFacts> keep;           ///< where something is kept
+  std::shared_ptr<Workdir> work;           ///< as StoreOptions::stays asks for; null: none is kept
   std::vector<ProcessFacts> processes;     ///< empty: there is only one
   bool written_together = false;           ///< by all of them, not by one alone
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen

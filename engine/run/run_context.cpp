@@ -105,20 +105,9 @@ RunReport begun_report(const RunContext& run) {
 std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings,
                              const LabelNeed* need) {
   const Index3 shape = volume.info().shape;
-  const bool sized = settings.sizes.rules.any();
+  const bool sized = settings.sizes.limits_edges();
   if (need == nullptr) return prepared_label_bytes(shape, sized);
   return prepared_label_bytes(bricks_of(*need, shape, settings), shape, sized);
-}
-
-void check_unpacking(const io::LabelVolume& volume, const MeshSettings& settings,
-                     const RunHooks& hooks) {
-  const int sharers = hooks.processes == nullptr ? 1 : hooks.processes->count_here();
-  const MemoryBudget budget(hooks.store.memory, sharers);
-  const std::uint64_t unpacked = volume.buffer_bytes(1);
-  if (unpacked < budget.limit() / 4) return;  // the run itself says what it needs beside
-  const std::uint64_t least =
-      program_bytes(0, thread_count(hooks.threads)) + preparation_bytes(settings) + unpacked;
-  if (least > budget.limit()) budget.fail(least);
 }
 
 LabelReaders::LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings,

@@ -15,11 +15,6 @@ namespace mw::engine {
 [[nodiscard]] std::uint64_t prepared_bytes(const io::DenseVolume& volume,
                                            const MeshSettings& settings, const LabelNeed* need);
 
-/// Tells before any work that a chunk of the volume takes more to unpack than there is.
-/// ERRORS: mw::Error(kResource) with the least that works.
-void check_unpacking(const io::LabelVolume& volume, const MeshSettings& settings,
-                     const RunHooks& hooks);
-
 /// Threads that read labels, and what these hold meanwhile, beside what the volume keeps of its
 /// file.  Their number keeps this below a quarter of the budget.
 struct LabelReaders {

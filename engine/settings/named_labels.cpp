@@ -57,7 +57,7 @@ std::string listed(const std::vector<std::string>& names) {
   return out + (names.size() > kMaxListed ? ", ..." : "");
 }
 
-[[noreturn]] void refuse(const std::string& name, const io::LabelNames& names) {
+[[noreturn]] void refuse_unknown(const std::string& name, const io::LabelNames& names) {
   std::vector<std::string> known;
   for (const io::LabelName& row : names.rows()) {
     if (!row.name.empty()) known.push_back(row.name);
@@ -72,41 +72,77 @@ std::string listed(const std::vector<std::string>& names) {
               "no label is called '" + name + "'" + which + listed(near.empty() ? known : near));
 }
 
-std::vector<RawLabel> labels_called(const io::LabelNames& names,
-                                    const std::function<bool(const std::string&)>& is_it) {
-  std::vector<RawLabel> out;
-  for (const io::LabelName& row : names.rows()) {
-    if (is_it(row.name)) out.push_back(row.label);
-  }
-  return out;
+std::string number_text(RawLabel label, bool is_signed) {
+  return is_signed ? io::text(static_cast<std::int64_t>(label)) : io::text(label);
+}
+
+[[noreturn]] void refuse_several(const std::string& name, const std::vector<RawLabel>& found,
+                                 bool is_signed) {
+  std::vector<std::string> numbers;
+  for (const RawLabel label : found) numbers.push_back(number_text(label, is_signed));
+  throw Error(ErrorKind::kUsage,
+              "labels " + listed(numbers) + " are called '" + name + "'; give the number");
 }
 
 bool is_same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
+/// The labels of exactly that name; if there are none, those whose names differ in capitals alone.
+std::vector<RawLabel> labels_called(const std::string& name, const io::LabelNames& names) {
+  std::vector<RawLabel> exact, alike;
+  for (const io::LabelName& row : names.rows()) {
+    if (row.name.empty()) continue;
+    if (row.name == name) exact.push_back(row.label);
+    if (std::ranges::equal(row.name, name, is_same_letter)) alike.push_back(row.label);
+  }
+  return exact.empty() ? alike : exact;
+}
+
+bool is_quoted(std::string_view token) {
+  return token.size() >= 2 && token.starts_with('"') && token.ends_with('"');
+}
+
+std::string name_in(std::string_view token) {
+  return io::clean_name(is_quoted(token) ? token.substr(1, token.size() - 2) : token);
+}
+
+/// The label of that name.  is_signed: how messages write numbers.
+RawLabel label_called(std::string_view token, const io::LabelNames& names, bool is_signed) {
+  const std::string name = name_in(token);
+  const std::vector<RawLabel> found = labels_called(name, names);
+  if (found.empty()) refuse_unknown(name, names);
+  if (found.size() > 1) refuse_several(name, found, is_signed);
+  return found.front();
+}
+
 /// Returns text that parse_label() reads, with a sign where the number has one.
 std::string number_of(std::string_view token, const io::LabelNames& names) {
-  const bool quoted = token.size() >= 2 && token.starts_with('"') && token.ends_with('"');
-  const std::string name(quoted ? token.substr(1, token.size() - 2) : token);
-  std::vector<RawLabel> found =
-      labels_called(names, [&](const std::string& other) { return other == name; });
-  if (found.empty()) {
-    found = labels_called(names, [&](const std::string& other) {
-      return std::equal(name.begin(), name.end(), other.begin(), other.end(), is_same_letter);
-    });
-  }
-  if (const std::size_t bar = token.find('|'); found.empty() && !quoted && bar != token.npos) {
+  const bool is_known = !labels_called(name_in(token), names).empty();
+  const std::size_t bar = token.find('|');
+  if (!is_known && !is_quoted(token) && bar != token.npos) {
     return number_of(token.substr(0, bar), names) + "|" + number_of(token.substr(bar + 1), names);
   }
-  if (found.empty() && begins_like_a_number(token)) return std::string(token);
-  if (found.empty()) refuse(name, names);
-  if (found.size() == 1) return io::text(static_cast<std::int64_t>(found[0]));
-  throw Error(ErrorKind::kUsage, io::text("'", name, "' is what labels ", found[0], " and ",
-                                          found[1], " are called; give the number"));
+  if (!is_known && begins_like_a_number(token)) return std::string(token);
+  return number_text(label_called(token, names, true), true);
+}
+
+bool is_whole_number(std::string_view text) {
+  const std::size_t sign = text.starts_with('-') ? 1 : 0;
+  return text.size() > sign && text.find_first_not_of("0123456789", sign) == text.npos;
 }
 
 }  // namespace
+
+RawLabel find_label(std::string_view text, const io::LabelNames& names, bool is_signed) {
+  const std::string_view token = io::trimmed(text);
+  if (!is_whole_number(token)) return label_called(token, names, is_signed);
+  const RawLabel label = parse_label(token);
+  const bool is_high = label >> 63U != 0;
+  if (!is_high || is_signed == token.starts_with('-')) return label;
+  throw Error(ErrorKind::kUsage, io::text("label ", token, ": labels are ",
+                                          is_signed ? "signed, below 2^63" : "not negative"));
+}
 
 bool has_names(std::string_view text) {
   bool any = false;

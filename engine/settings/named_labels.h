@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Labels of options by their names.
+// Labels of options and arguments by their numbers or their names: one rule for all.
 #pragma once
 
 #include <string>
@@ -10,16 +10,26 @@
 
 namespace mw::engine {
 
+// The rule: a number is that label, whatever labels are called.  Other text is a name, which is the
+// one that is written the same, or else the one that differs in capitals alone.  Text in double
+// quotes is a name in any case.  Blanks at the ends do not count.
+
+/// The label that one text is, such as "7", "-1" or "Lesion".  is_signed: whether the labels may be
+/// negative, in two's complement.
+/// ERRORS: mw::Error(kUsage) for a number that none of them can be, for a name that no label has,
+///         with those that are near to it, and for a name that several have.
+[[nodiscard]] RawLabel find_label(std::string_view text, const io::LabelNames& names,
+                                  bool is_signed);
+
 /// Whether some label in the text of an option, such as "1,Lesion=3", is not a number.
 [[nodiscard]] bool has_names(std::string_view text);
 
-/// The text with numbers in the place of names: what is between commas, semicolons and equals
-/// signs, blanks around it left out, and is neither a number nor a file ("@FILE", or an image of
-/// sizes) nor "*".  In "A|B" both sides are labels, unless one label is called so.  A name that has
-/// such a sign in it stands in double quotes.  Capitals count only where names differ by nothing
-/// else. What begins like a number and is no name stays as it is. ERRORS: mw::Error(kUsage) listing
-/// names that are near to one that is unknown, and the labels
-///         that share one.
+/// The text of an option with numbers in the place of names.  What is between commas, semicolons
+/// and equals signs is a label, unless it is a number of any kind, "*", or a file: "@FILE", or an
+/// image of sizes by its ending.  A name that has one of these signs in it stands in double quotes.
+/// In "A|B" both sides are labels, unless one label is called so.  What begins like a number and is
+/// no name stays as it is, for the option to refuse.
+/// ERRORS: those of find_label() for names.
 [[nodiscard]] std::string with_numbers(std::string_view text, const io::LabelNames& names);
 
 }  // namespace mw::engine

@@ -43,30 +43,6 @@ std::optional<std::uint64_t> bytes_of(std::string_view number, std::uint64_t uni
   return whole * unit + more;
 }
 
-/// The labels of that name, as "2, 5".
-std::string labels_called(const std::string& name, const io::LabelNames& names, bool is_signed) {
-  std::string out;
-  for (const io::LabelName& row : names.rows()) {
-    if (row.name != name) continue;
-    out += (out.empty() ? "" : ", ") +
-           (is_signed ? io::text(static_cast<std::int64_t>(row.label)) : io::text(row.label));
-  }
-  return out;
-}
-
-/// What the user may have meant.
-std::string all_names(const io::LabelNames& names) {
-  constexpr std::size_t kMost = 12;
-  std::string out;
-  std::size_t listed = 0;
-  for (const io::LabelName& row : names.rows()) {
-    if (row.name.empty()) continue;
-    if (listed++ == kMost) return out + " and more";
-    out += (listed == 1 ? "" : ", ") + row.name;
-  }
-  return out;
-}
-
 }  // namespace
 
 void fail_expected(std::string_view expected, std::string_view text) {
@@ -91,30 +67,6 @@ RawLabel parse_label(std::string_view text) {
   std::int64_t negative = 0;
   if (!read_all(text, negative)) fail_expected("a label of at most 64 bits", text);
   return static_cast<RawLabel>(negative);
-}
-
-RawLabel find_label(std::string_view text, const io::LabelNames& names, bool is_signed) {
-  const std::size_t sign = text.starts_with('-') ? 1 : 0;
-  const bool is_number =
-      text.size() > sign && text.find_first_not_of("0123456789", sign) == text.npos;
-  if (is_number) {
-    const RawLabel label = parse_label(text);
-    const bool is_high = label >> 63U != 0;
-    if (!is_high || is_signed == (sign > 0)) return label;
-    throw Error(ErrorKind::kUsage, io::text("label ", text, ": labels are ",
-                                            is_signed ? "signed, below 2^63" : "not negative"));
-  }
-  const std::string name = io::clean_name(text);
-  const std::string found = labels_called(name, names, is_signed);
-  if (found.empty()) {
-    const std::string known = all_names(names);
-    throw Error(ErrorKind::kUsage,
-                io::text("no label is called '", name, "'; ",
-                         known.empty() ? "none has a name" : "there are ", known));
-  }
-  if (found.find(',') == found.npos) return parse_label(found);
-  throw Error(ErrorKind::kUsage,
-              io::text("labels ", found, " are called '", name, "': give the number"));
 }
 
 bool parse_switch(std::string_view text) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/names/label_names.h"
+#include "kernels/core/label.h"
 
 namespace mw::engine {
 
@@ -28,13 +28,6 @@ template <class T>
 /// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
 /// B of 1000.  A fraction of a byte is left off.
 [[nodiscard]] std::uint64_t parse_bytes(std::string_view text);
-
-/// A label by its number or its name; what is a number is no name.  is_signed: whether the labels
-/// may be negative, in two's complement.
-/// ERRORS: mw::Error(kUsage) for a number that none of them can be, and for a name that no label
-/// has, or several have.
-[[nodiscard]] RawLabel find_label(std::string_view text, const io::LabelNames& names,
-                                  bool is_signed);
 
 /// Shortest decimal that reads back as the same double.
 [[nodiscard]] std::string format_number(double value);

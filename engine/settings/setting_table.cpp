@@ -26,6 +26,8 @@ constexpr double kMaxInnerQuality = 0.8;
 constexpr double kMaxDistance = 16.0;
 constexpr int kMaxOdtIterations = 1000;
 constexpr double kMaxGradation = 10.0;
+constexpr std::int64_t kMaxCount = 1'000'000'000'000;
+constexpr int kMaxAcross = 16;
 constexpr const char* kNone = "none";
 constexpr const char* kAuto = "auto";
 
@@ -266,6 +268,24 @@ std::vector<Setting> size_settings() {
        .expert = true,
        .text = [](const Settings& s) -> Text { return s.sizes.inner_vertices ? "true" : "false"; },
        .read = [](Settings& s, const Text& t) { s.sizes.inner_vertices = parse_switch(t); }},
+      {.name = "count",
+       .value = "N",
+       .help = "about N tets: sizes are scaled, after a pilot; 0: any",
+       .kind = SettingKind::kInteger,
+       .allowed = "from 1 to " + std::to_string(kMaxCount) + ", or 0 for any",
+       .text = [](const Settings& s) { return std::to_string(s.sizes.count); },
+       .read = [](Settings& s, const Text& t) { s.sizes.count = parse_integer(t); },
+       .is_allowed =
+           [](const Settings& s) { return s.sizes.count >= 0 && s.sizes.count <= kMaxCount; }},
+      {.name = "across",
+       .value = "N",
+       .help = "edges across thin parts, at least, if voxels allow; 0: any",
+       .kind = SettingKind::kInteger,
+       .expert = true,
+       .allowed = range_text(1, kMaxAcross) + ", or 0 for any",
+       .text = [](const Settings& s) { return std::to_string(s.sizes.across); },
+       .read = [](Settings& s, const Text& t) { s.sizes.across = parse_int(t); },
+       .is_allowed = [](const Settings& s) { return is_within(s.sizes.across, 0, kMaxAcross); }},
   };
 }
 
@@ -296,6 +316,25 @@ const std::vector<Setting>& setting_table() {
     return out;
   }();
   return table;
+}
+
+const std::vector<SettingRule>& setting_rules() {
+  static const std::vector<SettingRule> rules{
+      {.is_kept =
+           [](const Settings& s) {
+             const bool is_graded = s.sizes.limits_edges() || s.sizes.count > 0;
+             return is_graded || s.sizes.gradation == SizeSettings{}.gradation;
+           },
+       .told = "--gradation: there is nothing to grade, give --size as well"},
+      {.is_kept =
+           [](const Settings& s) {
+             const SizeSettings& sizes = s.sizes;
+             const bool is_sized = sizes.limits_edges() || sizes.inner_vertices || sizes.count > 0;
+             return !is_sized || s.optimizer != Optimizer::kTetgen;
+           },
+       .told = "--optimizer tetgen keeps no sizes or inner vertices: leave out --size, "
+               "--count, --across and --inner-vertices, or set --optimizer local"}};
+  return rules;
 }
 
 void check(const Setting& setting, const MeshSettings& settings) {

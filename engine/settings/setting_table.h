@@ -51,6 +51,15 @@ void check(const Setting& setting, const MeshSettings& settings);
 /// Takes the value over.  ERRORS: those of Setting::read and check(); settings is then spoilt.
 void set(const Setting& setting, MeshSettings& settings, const std::string& text);
 
+/// What has to hold between settings that are allowed one by one.
+struct SettingRule {
+  bool (*is_kept)(const MeshSettings&) = nullptr;
+  std::string told;  ///< when it is not kept: what contradicts what, and the way out
+};
+
+/// Thread-safe.
+[[nodiscard]] const std::vector<SettingRule>& setting_rules();
+
 /// ERRORS: mw::Error(kUsage) unless from 1 to 1,024, or 0 for all cores.
 void check_threads(std::int64_t threads);
 

@@ -35,6 +35,14 @@ std::optional<double> SizeRules::of_label(RawLabel label) const {
   return others;
 }
 
+SizeRules SizeRules::scaled(double factor) const {
+  SizeRules out = *this;
+  if (out.others) *out.others *= factor;
+  for (LabelSize& s : out.labels) s.edge *= factor;
+  for (InterfaceSize& s : out.interfaces) s.edge *= factor;
+  return out;
+}
+
 void check(const MeshSettings& settings) {
   for (const Setting& setting : setting_table()) {
     try {
@@ -43,6 +51,9 @@ void check(const MeshSettings& settings) {
       throw Error(error.kind(),
                   setting.name + " = " + setting.text(settings) + ": " + error.what());
     }
+  }
+  for (const SettingRule& rule : setting_rules()) {
+    if (!rule.is_kept(settings)) throw Error(ErrorKind::kUsage, rule.told);
   }
 }
 

@@ -3,6 +3,7 @@
 // What a user can choose about a run; the result is a function of the volume and of these.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,6 +75,8 @@ struct SizeRules {
   [[nodiscard]] double least() const;
   /// Returns the size of a label; none where only what is around it limits its edges.
   [[nodiscard]] std::optional<double> of_label(RawLabel label) const;
+  /// Returns the rules with each size that is written here multiplied; an image has its own factor.
+  [[nodiscard]] SizeRules scaled(double factor) const;
 
   friend bool operator==(const SizeRules&, const SizeRules&) = default;
 };
@@ -84,6 +87,15 @@ struct SizeSettings {
   double gradation = 0.3;  ///< by how much limits grow with the distance to where they are asked
   /// Tets of these labels, of all when there are none, get an inner vertex where shapes allow it.
   bool inner_vertices = false;
+  /// How many tets the mesh that is written should have: rules are weights then, scaled until it
+  /// has them (engine/job/count_pilot.h); 0: as many as the sizes give.
+  std::int64_t count = 0;
+  /// How many edges lie one behind the other across thin parts of labels, at least, as far as the
+  /// voxels allow (kernels/size/thickness.h); 0: nothing is asked.
+  int across = 0;
+
+  /// Whether some edge has a limit.
+  [[nodiscard]] bool limits_edges() const { return rules.any() || across > 0; }
 };
 
 /// Voxels are those of the lattice that the volume is meshed on.  Every field has its entry in
@@ -112,7 +124,8 @@ struct MeshSettings {
 /// Cells of the start mesh have at most 2^this voxels an axis: blocks begin at multiples of that.
 [[nodiscard]] int largest_cell_level(const MeshSettings& settings);
 
-/// ERRORS: mw::Error(kUsage) naming the setting, its value and what is allowed.
+/// ERRORS: mw::Error(kUsage) naming the setting, its value and what is allowed, or the settings
+///         that contradict each other.
 void check(const MeshSettings& settings);
 
 }  // namespace mw::engine

@@ -184,6 +184,9 @@ struct StoreOptions {
   std::uint64_t memory = MemoryBudget::kUnlimited;  ///< bytes, for the whole process
   std::filesystem::path workdir;                    ///< empty: everything stays in memory
   bool resume = false;                              ///< go on from what workdir holds
+  /// The folder stays when the mesh is complete, for who has more to write.
+  bool stays = false;
+  bool is_scratch = false;  ///< nothing stays when the run ends early
   /// What else a run must have in common with the one that it goes on from: lines "name = value".
   /// The engine adds shape, spacing and settings.
   std::string identity;

@@ -99,11 +99,10 @@ bool TeamPart::await_output() {
   return true;
 }
 
-FinishedMesh TeamPart::write(FinalBlocks& blocks, const WindowGrid& grid,
-                             const io::DenseVolume& volume, io::MeshSink& sink,
+FinishedMesh TeamPart::write(const FinalMesh& mesh, io::MeshSink& sink,
                              const OutputOptions& options) {
-  if (!own_lines_) return finish(blocks, grid, volume, sink, options);
-  return finish_together(team_, *own_lines_, blocks, grid, volume, *hooks_.together, options);
+  if (!own_lines_) return finish(mesh, sink, options);
+  return finish_together(mesh, {team_, *own_lines_, *hooks_.together}, options);
 }
 
 std::vector<ProcessFacts> TeamPart::end(const ProcessFacts& own) {

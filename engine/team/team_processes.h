@@ -39,9 +39,12 @@ class TeamPart : public RunPart {
 
   [[nodiscard]] bool await_output() override;
   [[nodiscard]] bool writes_with_others() const override { return own_lines_.has_value(); }
-  [[nodiscard]] FinishedMesh write(FinalBlocks& blocks, const WindowGrid& grid,
-                                   const io::DenseVolume& volume, io::MeshSink& sink,
+  [[nodiscard]] FinishedMesh write(const FinalMesh& mesh, io::MeshSink& sink,
                                    const OutputOptions& options) override;
+  /// Epochs are over by then, so nothing more is saved.
+  [[nodiscard]] std::shared_ptr<Workdir> keep_for_rest(RunStore& /*store*/) override {
+    return nullptr;
+  }
   /// Every rank gets what all did.
   [[nodiscard]] std::vector<ProcessFacts> end(const ProcessFacts& own) override;
 

@@ -38,7 +38,8 @@ constexpr std::uint64_t kBytesPerLabel = 96;
 constexpr std::uint64_t kBytesPerBrick = 20;
 // Its faces, which every process has of the whole volume.
 constexpr std::uint64_t kBytesPerCountedBrick = 2;
-// A tile and its halo before and after coarsening, or a tile that is read, raw and dense.
+// A tile and its halo before and after coarsening, or while thin parts are found in it; or a tile
+// that is read, raw and dense.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
 // A tile of 96^3 voxels whose source surface is found, with 8 bytes each, and 80 a face.
@@ -125,7 +126,8 @@ std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape, bool
 
 std::uint64_t preparation_bytes(const MeshSettings& settings) {
   if (wants_source(settings)) return kSourceBytes;
-  return settings.start == StartMesh::kCoarse ? kCoarseningBytes : kReadingBytes;
+  const bool has_halo = settings.start == StartMesh::kCoarse || settings.sizes.across > 0;
+  return has_halo ? kCoarseningBytes : kReadingBytes;
 }
 
 std::uint64_t written_block_bytes(std::uint64_t loaded) {

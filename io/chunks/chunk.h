@@ -81,6 +81,11 @@ inline constexpr std::uint64_t kMaxChunkBytes = 2ULL << 30U;
 /// ERRORS: mw::Error(kInput) when there is something that cannot be read.
 [[nodiscard]] std::unique_ptr<FileSource> open_if_there(const std::filesystem::path& path);
 
+/// Chunks of that many bytes and more are so few that each of their files may be looked at when a
+/// store is opened; kMaxLooks of them at most.
+inline constexpr std::uint64_t kLargeChunk = std::uint64_t{16} << 20U;
+inline constexpr std::int64_t kMaxLooks = 4096;
+
 /// The bytes from offset on.  ERRORS: mw::Error(kInput) when they are more than `max`.
 [[nodiscard]] std::vector<std::byte> read_rest(const ByteSource& source, std::uint64_t offset,
                                                std::uint64_t max);

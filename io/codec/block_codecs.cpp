@@ -159,6 +159,11 @@ constexpr std::size_t kBlockSizeAt = 8;
 
 }  // namespace
 
+std::optional<std::uint64_t> blosc_block(std::span<const std::byte> packed) {
+  if (packed.size() < BLOSC_MIN_HEADER_LENGTH) return std::nullopt;
+  return size_at(packed, kBlockSizeAt);
+}
+
 std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed, std::size_t max,
                                     std::string_view name) {
   const PackedName named{"blosc", name};

@@ -3,7 +3,10 @@
 // The ways in which chunks of stores are packed.
 #include "io/codec/codec.h"
 
+#include <algorithm>
+
 #include "io/codec/stream.h"
+#include "io/file/source/byte_source.h"
 
 namespace mw::io {
 
@@ -56,9 +59,25 @@ std::vector<std::byte> unpack(Codec codec, std::span<const std::byte> packed, st
   return unpack_xz(packed, max, name);
 }
 
+namespace {
+
+constexpr std::uint64_t kMiB = 1 << 20;
+
+std::uint64_t blosc_scratch(std::uint64_t block) {
+  return 3 * block + kMiB;
+}
+
+}  // namespace
+
+std::uint64_t scratch_of(Codec codec, const ByteSource& packed, std::size_t max) {
+  constexpr std::size_t kHeader = 16;
+  if (codec != Codec::kBlosc) return max_scratch(codec, max);
+  const auto block = blosc_block(read_prefix(packed, kHeader));
+  return blosc_scratch(std::min<std::uint64_t>(block.value_or(max), max));
+}
+
 std::uint64_t max_scratch(Codec codec, std::size_t max) {
-  constexpr std::uint64_t kMiB = 1 << 20;
-  if (codec == Codec::kBlosc) return 3 * std::uint64_t{max} + kMiB;
+  if (codec == Codec::kBlosc) return blosc_scratch(max);
   if (codec == Codec::kBzip2) return 4 * kMiB;
   if (codec == Codec::kXz) return kMaxXzBytes;
   return kMiB;

@@ -40,6 +40,10 @@ enum class Codec {
 /// The most that unpack() takes in memory beside what it returns.
 [[nodiscard]] std::uint64_t max_scratch(Codec codec, std::size_t max);
 
+/// What unpack() takes in memory for these bytes beside what it returns, and beside them; no more
+/// than max_scratch().
+[[nodiscard]] std::uint64_t scratch_of(Codec codec, const ByteSource& packed, std::size_t max);
+
 /// Unpacks from a source to a file without a name in $TMPDIR or /tmp, piece by piece, for more than
 /// memory should hold; returns the source itself where the bytes are not packed.
 /// REQUIRES: max_streamed(codec) is something.
@@ -72,10 +76,13 @@ inline constexpr std::uint64_t kMaxZstdWindow = std::uint64_t{32} << 20U;
 [[nodiscard]] std::vector<std::byte> unpack_zstd(std::span<const std::byte> packed, std::size_t max,
                                                  std::string_view name);
 
-/// Blosc 1 by its library.  Memory: at most three times `max` bytes more, and 64 KiB: the library
-/// works on whole blocks, and a block may be all there is.
+/// Blosc 1 by its library.  Memory: three times the size of its blocks (blosc_block()) more, and
+/// 64 KiB: the library works on whole blocks, and a block may be all there is.
 [[nodiscard]] std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed,
                                                   std::size_t max, std::string_view name);
+
+/// Bytes of a block as the header of Blosc tells; none: the bytes have no such header.
+[[nodiscard]] std::optional<std::uint64_t> blosc_block(std::span<const std::byte> packed);
 
 /// LZ4 in numcodecs' framing (Zarr): the unpacked size in 4 bytes, least significant first, and one
 /// block.

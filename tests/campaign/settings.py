@@ -95,6 +95,10 @@ def draw_sizes(random, settings, values, spacing):
             settings.flags["gradation"] = random.choice(["0", "0.2", "2"])
     if random.random() < 0.08:
         settings.flags["inner-vertices"] = None
+    if random.random() < 0.05:
+        settings.flags["count"] = random.choice(["500", "5000", "50000"])
+    if random.random() < 0.05:
+        settings.flags["across"] = random.choice(["1", "2", "4"])
 
 
 def draw_flags(random, settings):

@@ -12,6 +12,7 @@ gives the right bytes once the fault is gone.
 """
 import errno
 import itertools
+import json
 import shutil
 import sys
 import tempfile
@@ -45,6 +46,8 @@ RUNS = {
     "surface folder": ["surface", "in.vtkhdf", "-o", "out/p", "--format=precomputed"],
 }
 READS_ALL = "convert .xdmf"  # every read of its input fails once: nothing may get lost silently
+REST_ALONE = "add --resume to write the rest without meshing again"
+rests = []  # calls whose failure was told so
 SAMPLES = 2  # calls of a kind on a file that are tried without --all
 
 
@@ -112,6 +115,13 @@ def again(folder, arguments):
         raise Broken(f"once the fault is gone: exit code {code}\n{text}")
 
 
+def check_not_meshed_again(folder):
+    """The work of all windows was kept for what is written beside the mesh."""
+    engine = json.loads((folder / "out" / "r.json").read_text())["engine"]
+    if engine["windows"] != 0 or engine["windows_resumed"] == 0:
+        raise Broken("meshed again")
+
+
 def attempt(folder, arguments, expected, call, how):
     """REQUIRES: the calls up to this one are the same in every run, except those of a child that
     reads a file apart."""
@@ -127,6 +137,9 @@ def attempt(folder, arguments, expected, call, how):
         raise Broken(f"exit code {code}\n{text}")
     check_failed(folder, expected, clean, text)
     again(folder, arguments)
+    if REST_ALONE in text:
+        check_not_meshed_again(folder)
+        rests.append(call)
     return check_done(folder, expected, clean)
 
 
@@ -169,6 +182,9 @@ def try_run(name, folder, everything):
             error = errno.errorcode.get(how, how)
             print(f"FAILED: {name}: {error} at call {call.number} ({call.name} of "
                   f"{Path(call.path).relative_to(folder)}): {failure}", flush=True)
+    if "--report" in arguments and not rests:
+        failed += 1
+        print(f"FAILED: {name}: no error left the report alone to be written", flush=True)
     print(f"io_errors: {name}: {len(tried)} errors at {len(calls)} calls, {failed} failed",
           flush=True)
     return failed

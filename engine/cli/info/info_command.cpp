@@ -138,6 +138,7 @@ Command info_command() {
                   .about = "tells facts of a volume or mesh, and of each label",
                   .options = {},
                   .run = [job](const OptionSet&) { return run_info(*job); },
+                  .older_name = "stats",
                   .note = volume_note() + mesh_note(),
                   .names =
                       [job] {

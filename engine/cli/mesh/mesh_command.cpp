@@ -16,6 +16,7 @@
 #include "engine/report/run_report.h"
 #include "engine/settings/promises.h"
 #include "engine/settings/size_text.h"
+#include "engine/store/journal/workdir.h"
 #include "engine/system/crew.h"
 #include "engine/system/memory.h"
 #include "io/file/errors.h"
@@ -186,18 +187,47 @@ int threads_at_hand(int asked) {
   return given;
 }
 
-/// The error that says that the page is missing says, too, that nothing else is missing.
-void write_page(const MeshRequest& request, const report::FinishedRun& run, MeshFiles& files,
-                io::Json settings) {
-  try {
-    write_run_page(*files.html, run, files.grouped->mesh(),
-                   report::run_report(run, request.output, std::move(settings)));
-  } catch (const Error& error) {
-    throw Error(error.kind(), std::string(error.what()) + "; the page alone is missing: " +
-                                  request.output.string() + " is complete" +
-                                  (request.report.empty() ? "" : ", and so is the report"));
+/// What is written once the mesh is complete; each file adds its name to those that are there.
+void write_side_files(const MeshRequest& request, report::FinishedRun& run, MeshFiles& files,
+                      const OptionSet& options, std::vector<std::string>& complete) {
+  if (files.trace) {
+    files.trace->finish();
+    complete.push_back(request.trace.string());
   }
+  if (files.digest) {
+    engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
+    const report::ResourceMeter meter;
+    run.digest = files.digest->digest();
+    run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
+  }
+  if (files.report) {
+    report::write_run_report(*files.report, run, request.output, options.json());
+    complete.push_back(request.report.string());
+  }
+  if (files.delta) {
+    files.delta->append(run.delta.value().dump_indented() + "\n");
+    files.delta->commit();
+    complete.push_back(request.delta.string());
+  }
+  if (!files.html) return;
+  write_run_page(*files.html, run, files.grouped->mesh(),
+                 report::run_report(run, request.output, options.json()));
   std::cout << "page        " << request.html.string() << std::endl;
+}
+
+/// Whoever is told that a file is missing is told, too, what is there, and how to get the rest.
+void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFiles& files,
+                  const OptionSet& options) {
+  std::vector<std::string> complete{request.output.string()};
+  try {
+    write_side_files(request, run, files, options, complete);
+  } catch (const Error& error) {
+    const std::string there = joined(complete, ", ") + (complete.size() == 1 ? " is" : " are");
+    const std::string way_out =
+        run.engine.work != nullptr ? "; add --resume to write the rest without meshing again" : "";
+    throw Error(error.kind(), error.what() + ("; " + there + " complete") + way_out);
+  }
+  if (run.engine.work != nullptr) run.engine.work->discard();
 }
 
 int mesh(const MeshRequest& request, const OptionSet& options) {
@@ -212,7 +242,6 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   log_info("reading " + request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
   report::FinishedRun run = mesh_into(request, *volume, files);
-  if (files.trace) files.trace->finish();
   if (!run_processes().speaks()) return kExitDone;
   tell_resume(request, run.engine.store);
   if (run.engine.keep) tell_keep(*run.engine.keep);
@@ -221,17 +250,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   print_writers(files.shared);
   std::cout << "file        " << request.output.string() << std::endl;
   log_processes(run.engine);
-  if (files.digest) {
-    engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
-    run.digest = files.digest->digest();
-    run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
-  }
-  if (files.report) report::write_run_report(*files.report, run, request.output, options.json());
-  if (files.delta) {
-    files.delta->append(run.delta.value().dump_indented() + "\n");
-    files.delta->commit();
-  }
-  if (files.html) write_page(request, run, files, options.json());
+  deliver_rest(request, run, files, options);
   return kExitDone;
 }
 

@@ -197,18 +197,6 @@ void require_memory_for_page(const MeshRequest& request) {
   throw Error(ErrorKind::kUsage, "--html: needs --memory 192MiB or more");
 }
 
-void check_sizes(const engine::MeshSettings& settings) {
-  const engine::SizeSettings& sizes = settings.sizes;
-  if (!sizes.rules.any() && sizes.gradation != engine::SizeSettings{}.gradation) {
-    throw Error(ErrorKind::kUsage, "--gradation: there is nothing to grade, give --size as well");
-  }
-  const bool sized = sizes.rules.any() || sizes.inner_vertices;
-  if (!sized || settings.optimizer != engine::Optimizer::kTetgen) return;
-  throw Error(ErrorKind::kUsage,
-              "--optimizer tetgen keeps no sizes or inner vertices: leave out --size and "
-              "--inner-vertices, or set --optimizer local");
-}
-
 /// A folder that an earlier run has used is updated; one that a run was killed over is gone on
 /// with.
 void settle_keep(MeshRequest& request) {
@@ -235,6 +223,11 @@ void settle_keep(MeshRequest& request) {
   keep.use = !request.from.empty()          ? engine::KeepUse::kUpdate
              : request.job.run.store.resume ? engine::KeepUse::kGoOn
                                             : engine::KeepUse::kBegin;
+  if (request.job.settings.sizes.count > 0) {
+    throw Error(ErrorKind::kUsage,
+                "--count: looks at the whole volume, so that an edit anywhere could change sizes "
+                "everywhere; give --size with --keep");
+  }
   if (request.job.settings.order == engine::Order::kColour) return;
   throw Error(ErrorKind::kUsage,
               "--keep: leave out --order raster: there an edit reaches all windows behind it, so "
@@ -252,6 +245,7 @@ void settle_job(MeshRequest& request) {
   job.folder = request.output.parent_path();
   job.is_measured = !request.report.empty() || !request.html.empty();
   job.run.owns_process = true;
+  store.stays = job.is_measured || !request.trace.empty();
 }
 
 }  // namespace
@@ -276,7 +270,6 @@ void check_mesh_request(MeshRequest& request) {
   if (!request.force) require_own_output(request.output);
   require_memory_for_page(request);
   engine::check(request.job.settings);
-  check_sizes(request.job.settings);
   if (request.job.settings.optimizer == engine::Optimizer::kTetgen)
     (void)engine::codt::find_worker();
 }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <iostream>
 
+#include "engine/cli/log.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/report_names.h"
+#include "io/file/errors.h"
 
 namespace mw::cli {
 namespace {
@@ -28,6 +30,51 @@ void print_space(const io::VolumeSpace& space) {
   if (!space.unit.empty()) what += (what.empty() ? "" : ", ") + space.unit;
   if (!is_upright(space)) what += (what.empty() ? "" : ", ") + std::string("axes turned");
   if (!what.empty()) std::cout << "coordinates " << what << "\n";
+}
+
+/// How near edges are to the sizes that were asked of their labels, where that was measured.
+void print_sizes(const report::FinishedRun& run) {
+  const engine::EdgeRatios& ratios = run.engine.edge_ratios;
+  double all = 0, near = 0;
+  for (std::size_t i = 0; i < ratios.counts.size(); ++i) {
+    const auto count = static_cast<double>(ratios.counts[i]);
+    const double from = i == 0 ? 0.0 : ratios.kBounds[i - 1];
+    all += count;
+    near += from >= 0.6 && i < ratios.kBounds.size() ? count : 0;
+  }
+  if (all == 0) return;
+  std::cout << "sizes       " << format_fixed(100 * near / all, 1)
+            << " % of edges are 0.6 to 1.5 of what was asked\n";
+}
+
+/// What was asked of the number of tets, and why the mesh has another one, if it has.
+void print_count(const report::FinishedRun& run) {
+  if (!run.count) return;
+  const report::CountFacts& count = *run.count;
+  std::cout << "count       " << count.asked << " tets were asked, sizes are scaled by "
+            << format_figure(count.scale);
+  if (count.trials > 0) {
+    std::cout << " after " << count.trials << " pilot meshes in " << format_figure(count.seconds)
+              << " s";
+  }
+  std::cout << "\n";
+  if (count.is_least) {
+    log_warning(io::text("--count ", count.asked, ": fewer tets than ", run.engine.tets,
+                         " cannot be had within the bounds on distance, topology and shapes; raise "
+                         "--max-distance, or lower --quality-floor"));
+  }
+  if (count.is_most) {
+    log_warning(io::text("--count ", count.asked, ": more tets than ", run.engine.tets,
+                         " cannot be had from voxels of this size"));
+  }
+}
+
+void print_across(const report::FinishedRun& run) {
+  const engine::ThinParts& parts = run.engine.thin_parts;
+  if (parts.too_thin == 0) return;
+  log_warning(io::text("--across ", run.sizes.across, ": ", parts.too_thin, " of ", parts.voxels,
+                       " voxels amid thin parts are in parts too thin for that, as edges are at "
+                       "least as long as the diagonal of a voxel"));
 }
 
 void print_certificate(const report::FinishedRun& run) {
@@ -101,6 +148,9 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   report::print_specks(run.specks);
   print_lattice(run.engine.lattice);
   print_space(run.volume.space);
+  print_count(run);
+  print_sizes(run);
+  print_across(run);
   print_certificate(run);
   std::cout << "seconds     " << format_figure(seconds) << "\n"
             << "voxels/s    " << format_figure(static_cast<double>(shape.product()) / seconds)

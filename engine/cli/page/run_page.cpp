@@ -49,6 +49,21 @@ Histogram volume_errors(const report::FinishedRun& run) {
           .shares = shares_of(counts)};
 }
 
+/// How many edges are how long; each is counted by each of its tets.
+std::vector<BarRow> edge_rows(const engine::EdgeRatios& ratios) {
+  double total = 0;
+  for (const std::uint64_t count : ratios.counts) total += static_cast<double>(count);
+  std::vector<BarRow> out;
+  for (std::size_t i = 0; i < ratios.counts.size(); ++i) {
+    const std::string from = i == 0 ? "0" : format_number(ratios.kBounds[i - 1]);
+    const bool is_last = i == ratios.kBounds.size();
+    const double share = total > 0 ? static_cast<double>(ratios.counts[i]) / total : 0;
+    out.push_back({is_last ? "above " + from : from + " to " + format_number(ratios.kBounds[i]),
+                   share, format_fixed(100 * share, 1) + " %"});
+  }
+  return out;
+}
+
 std::string shape_section(const report::FinishedRun& run) {
   const audit::QualityReport& quality = run.engine.quality.value();
   const audit::ShapeReport& shape = run.engine.shape.value();
@@ -69,7 +84,12 @@ std::string shape_section(const report::FinishedRun& run) {
        .to = 90,
        .unit = "°",
        .shares = {shape.bend_histogram.begin(), middle}});
-  return out + histogram_figure(volume_errors(run)) + "</div></section>\n";
+  out += histogram_figure(volume_errors(run));
+  if (run.sizes.rules.any()) {
+    out += bar_figure("Edges, as shares of the size that was asked",
+                      edge_rows(run.engine.edge_ratios));
+  }
+  return out + "</div></section>\n";
 }
 
 /// What a page knows of its labels.

@@ -58,10 +58,13 @@ class EachFileOutput : public SurfaceOutput {
     return io::open_surface_sink(waiting_.back().now);
   }
   void finish(const io::LabelNames&) override {
+    std::string complete;
     for (const Waiting& file : waiting_) {
       std::error_code failed;
       std::filesystem::rename(file.now, file.name, failed);
-      if (failed) io::fail_output(file.name.string(), "rename to", failed.value());
+      const std::string beside = complete.empty() ? "" : " (complete are " + complete + ")";
+      if (failed) io::fail_output(file.name.string() + beside, "rename to", failed.value());
+      complete += (complete.empty() ? "" : ", ") + file.name.string();
     }
     waiting_.clear();
   }

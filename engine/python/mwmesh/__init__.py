@@ -38,15 +38,21 @@ def __dir__():
     return [*__all__, "__version__", "__doc__"]
 
 
-def _setting_text(volume, value):
+def _setting_text(value):
     if value is None:
         return "none"
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
-    if isinstance(value, dict):
-        return ",".join(f"{_size_place(volume, key)}={_setting_text(volume, size)}"
-                        for key, size in value.items())
     return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)
+
+
+def _size_text(volume, value):
+    """Sizes as the command line has them, with labels by name or by number."""
+    if isinstance(value, dict):
+        return ",".join(f"{_size_place(volume, key)}={_setting_text(size)}"
+                        for key, size in value.items())
+    with naming("size"):
+        return _core.with_label_numbers(volume, _setting_text(value))
 
 
 def _size_place(volume, key):
@@ -148,7 +154,8 @@ def _run(call, volume, arguments, progress):
     options = {k: arguments.pop(k) for k in _OPTIONS if k in arguments}
     _check_known(arguments)
     volume = as_volume(volume, **place)
-    settings_text = {k: _setting_text(volume, v) for k, v in arguments.items()}
+    settings_text = {k: _size_text(volume, v) if k == "size" else _setting_text(v)
+                     for k, v in arguments.items()}
     bar = _progress(progress)
     try:
         return call(volume, settings_text, _options(volume, **options), bar)
@@ -202,7 +209,8 @@ def mesh(volume, *, progress=None, **arguments):
         of the seconds left (or None).
     others
         the settings of ``mwmesh mesh``, listed by :func:`settings`: max_distance=1.5,
-        quality_floor=0.2, surface="voxel", topology="interfaces", size={"Liver": 3}, ...
+        quality_floor=0.2, surface="voxel", topology="interfaces", size={"Liver": 3},
+        count=100_000 (about so many tets), across=3 (edges across thin parts, at least), ...
 
     Returns a :class:`Mesh`.  The same volume and settings give the same mesh for any number of
     threads, memory and workdir.  Ctrl-C ends the run.

@@ -167,6 +167,14 @@ Workdir::~Workdir() {
   if (!keep_) remove_files();
 }
 
+std::optional<std::string> saved_value(const fs::path& path, const std::string& name) {
+  return value_of(lines_of(content_of(path / kSettingsFile)), name);
+}
+
+bool is_identity_of(const fs::path& path, const std::string& settings) {
+  return content_of(path / kSettingsFile) == settings;
+}
+
 void Workdir::make_folder() {
   if (::mkdir(path_.c_str(), 0777) == 0) return;
   if (errno != EEXIST) io::fail_output(path_.string(), "create the work folder", errno);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "engine/settings/settings.h"
@@ -58,6 +59,13 @@ class Workdir : public WorkFiles {
   bool resumes_ = false;
   bool keep_ = false;
 };
+
+/// A value among the settings in a folder, by its name; none: it has no such value.
+[[nodiscard]] std::optional<std::string> saved_value(const std::filesystem::path& path,
+                                                     const std::string& name);
+
+/// Whether a folder's settings are these, all of them.
+[[nodiscard]] bool is_identity_of(const std::filesystem::path& path, const std::string& settings);
 
 /// "window was 32 and is 64; ..." for lines "name = value" that differ; empty when none does.
 [[nodiscard]] std::string differences(const std::string& before, const std::string& now);

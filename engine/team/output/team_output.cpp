@@ -76,17 +76,16 @@ void add_up(Team& team, BlockFigures& mine) {
 /// One rank's part.
 class PartOfMesh {
  public:
-  PartOfMesh(Team& team, const LineShare& share, FinalBlocks& blocks, const WindowGrid& grid,
-             const io::DenseVolume& volume, const OutputOptions& options)
-      : team_(team),
-        share_(share),
-        blocks_(blocks),
-        volume_(volume),
+  PartOfMesh(const FinalMesh& mesh, const TeamOutput& output, const OutputOptions& options)
+      : team_(output.team),
+        share_(output.share),
+        blocks_(mesh.blocks),
+        volume_(mesh.volume),
         layers_(options.layers),
-        selection_(options.wanted, volume.table()),
+        selection_(options.wanted, volume_.table()),
         remembered_(options.hold),
-        uses_(grid),
-        figures_(options, volume.table().size()) {}
+        uses_(mesh.grid),
+        figures_(options, volume_.table().size()) {}
 
   /// First pass and second pass.  Returns how many rows there are in all.
   LineRows number() {
@@ -218,21 +217,21 @@ bool join_output(Team& team, io::SharedMesh* mesh) {
   return true;
 }
 
-FinishedMesh finish_together(Team& team, const LineShare& share, FinalBlocks& blocks,
-                             const WindowGrid& grid, const io::DenseVolume& volume,
-                             io::SharedMesh& mesh, const OutputOptions& asked) {
+FinishedMesh finish_together(const FinalMesh& mesh, const TeamOutput& output,
+                             const OutputOptions& asked) {
+  Team& team = output.team;
   const OutputOptions options = asked_by_first(team, asked);
-  PartOfMesh part(team, share, blocks, grid, volume, options);
+  PartOfMesh part(mesh, output, options);
   const LineRows all = part.number();
-  if (team.is_first()) mesh.lay_out(part.header(options), all.vertices);
+  if (team.is_first()) output.file.lay_out(part.header(options), all.vertices);
   (void)team.gather(std::string());  // nobody opens a file that has not got its size
-  part.write(mesh);
+  part.write(output.file);
   (void)team.gather(std::string());  // all rows are on the disk
   add_up(team, part.figures());
   FinishedMesh out{.vertices = all.vertices, .tets = all.tets};
   if (!team.is_first()) return out;
   part.figures().report(out);
-  mesh.finish();
+  output.file.finish();
   return out;
 }
 

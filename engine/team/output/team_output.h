@@ -15,8 +15,15 @@ namespace mw::engine {
 /// ERRORS: those of SharedMesh::join(); mw::Error(kUsage) of a rank that has to join and cannot.
 [[nodiscard]] bool join_output(Team& team, io::SharedMesh* mesh);
 
+/// Who writes a mesh together, and into what.
+struct TeamOutput {
+  Team& team;
+  const LineShare& share;  ///< the lines of blocks that this rank writes
+  io::SharedMesh& file;
+};
+
 /// Does what finish() does by all ranks: each writes the rows of its own lines, rank 0 gives the
-/// file its name.  blocks: those of this rank.  REQUIRES: join_output() returned true.
+/// file its name.  mesh: with the blocks of this rank.  REQUIRES: join_output() returned true.
 /// ENSURES: the bytes are those of finish() by one process.  Every rank gets the counts; rank 0
 /// all that it asks to be measured, as finish() does, except the shape of interfaces: that needs
 /// the whole mesh to pass by one process, so FinishedMesh::shape stays empty.
@@ -24,8 +31,7 @@ namespace mw::engine {
 /// Memory: that of finish() of own blocks; 16 bytes a line of all blocks; PartRows and claims that
 /// it takes, which grow with the faces between this rank's lines and others'; 24 bytes a label
 /// where something is measured.  ERRORS: those of any rank.
-FinishedMesh finish_together(Team& team, const LineShare& share, FinalBlocks& blocks,
-                             const WindowGrid& grid, const io::DenseVolume& volume,
-                             io::SharedMesh& mesh, const OutputOptions& options);
+FinishedMesh finish_together(const FinalMesh& mesh, const TeamOutput& output,
+                             const OutputOptions& options);
 
 }  // namespace mw::engine

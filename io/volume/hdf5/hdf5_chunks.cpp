@@ -193,9 +193,10 @@ std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters, std::
     const Codec codec = filter.id == kBlosc  ? Codec::kBlosc
                         : filter.id == kZstd ? Codec::kZstd
                                              : Codec::kZlib;
-    max = std::max(max, bytes + max_scratch(codec, bytes));
+    max = std::max(max, max_scratch(codec, bytes));
   }
-  return max;
+  const std::size_t between = filters.size() > 1 ? bytes : 0;  // one filter's, for the next
+  return max + between;
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
+#include "kernels/core/index.h"
 
 namespace mw::io {
 namespace {
@@ -258,11 +259,25 @@ std::optional<Chunk> N5Blocks::load(Index3 chunk, const Box3& box, ChunkPlace pl
   return out;
 }
 
-/// Blocks at the end may be larger than their voxels in the volume, and are kept as they are.
-std::uint64_t N5Blocks::scratch_bytes() const {
+N5Blocks::N5Blocks(std::filesystem::path folder, N5Array array)
+    : folder_(std::move(folder)), array_(std::move(array)), scratch_(found_scratch()) {}
+
+/// What the blocks that are there take, where they are large; else what any may take.  Blocks at
+/// the end may be larger than their voxels in the volume, and are kept as they are.
+std::uint64_t N5Blocks::found_scratch() const {
   const std::uint64_t block =
       product(array_.block_size) * static_cast<std::uint64_t>(byte_size(array_.type));
-  return block + max_packed_bytes(block) + max_scratch(array_.codec, block);
+  const std::uint64_t library = max_scratch(array_.codec, block);
+  const Box3 grid = cells_of({{0, 0, 0}, shape_of(array_)}, block_of(array_));
+  if (block < kLargeChunk || grid.voxels() > kMaxLooks) {
+    return block + max_packed_bytes(block) + library;
+  }
+  std::uint64_t packed = 0;
+  for_each_index(grid, [&](Index3 number) {
+    const auto file = open_if_there(path_of(number));
+    if (file) packed = std::max(packed, file->size());
+  });
+  return block + std::min(packed, max_packed_bytes(block)) + library;
 }
 
 }  // namespace mw::io

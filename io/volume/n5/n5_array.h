@@ -59,23 +59,24 @@ struct N5Array {
 class N5Blocks : public ChunkSource {
  public:
   /// folder: the array's.
-  N5Blocks(std::filesystem::path folder, N5Array array)
-      : folder_(std::move(folder)), array_(std::move(array)) {}
+  N5Blocks(std::filesystem::path folder, N5Array array);
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override { return path_of(chunk).string(); }
   [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
                                           ChunkPlace place) const override;
-  [[nodiscard]] std::uint64_t scratch_bytes() const override;
+  [[nodiscard]] std::uint64_t scratch_bytes() const override { return scratch_; }
   [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override {
     return max_streamed(array_.codec);
   }
 
  private:
   [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;
+  [[nodiscard]] std::uint64_t found_scratch() const;
 
   std::filesystem::path folder_;
   N5Array array_;
+  std::uint64_t scratch_;
 };
 
 /// The attributes of an array, and of what is around a level of a pyramid (s0, s1, ... in a group).

@@ -155,17 +155,35 @@ std::uint64_t max_packed(const ZarrArray& array) {
   return max_packed_bytes(chunk_bytes(array));
 }
 
+namespace {
+
+/// Of a chunk's bytes what axes that are left out hold.
+std::uint64_t unused_bytes(const ZarrArray& array, const AxisMap& axes) {
+  const auto used = static_cast<std::uint64_t>(axes.pick(array.chunk.shape, 1).product());
+  return chunk_bytes(array) - used * static_cast<std::uint64_t>(byte_size(array.type));
+}
+
+}  // namespace
+
 std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes) {
   const std::uint64_t size = chunk_bytes(array);
-  const std::uint64_t used = static_cast<std::uint64_t>(axes.pick(array.chunk.shape, 1).product()) *
-                             static_cast<std::uint64_t>(byte_size(array.type));
   std::uint64_t library = 0;
   for (const PackStep& step : array.chunk.steps) {
     if (!step.is_crc32c) library = std::max(library, max_scratch(step.codec, size));
   }
   // What goes into a step, and what comes out of it when another follows.
   return max_packed(array) * std::clamp<std::uint64_t>(array.chunk.steps.size(), 1, 2) + library +
-         (size - used);
+         unused_bytes(array, axes);
+}
+
+std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes,
+                             const ByteSource& packed) {
+  const std::vector<PackStep>& steps = array.chunk.steps;
+  if (steps.size() > 1) return unpack_scratch(array, axes);  // what is between them is unknown
+  const std::uint64_t library = steps.empty() || steps[0].is_crc32c
+                                    ? 0
+                                    : scratch_of(steps[0].codec, packed, chunk_bytes(array));
+  return packed.size() + library + unused_bytes(array, axes);
 }
 
 }  // namespace mw::io

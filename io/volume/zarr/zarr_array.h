@@ -96,6 +96,9 @@ void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
 /// The most that reading and unpacking a chunk takes beside its voxels that are in the volume: axes
 /// of one entry may have chunks of more.
 [[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes);
+/// What it takes for this chunk, as its size and its header tell.
+[[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes,
+                                           const ByteSource& packed);
 /// The most that unpack_chunk_to_file() takes; nothing when a codec cannot.
 [[nodiscard]] std::optional<std::uint64_t> unpack_streaming(const ZarrArray& array);
 

@@ -11,6 +11,7 @@
 #include "io/volume/checks.h"
 #include "io/volume/zarr/multiscale.h"
 #include "io/volume/zarr/zarr_array.h"
+#include "kernels/core/index.h"
 
 namespace mw::io {
 namespace {
@@ -155,7 +156,8 @@ class ZarrChunks : public ChunkSource {
 
 class ChunkFiles : public ZarrChunks {
  public:
-  using ZarrChunks::ZarrChunks;
+  ChunkFiles(const std::filesystem::path& folder, const ZarrArray& array, const AxisMap& axes)
+      : ZarrChunks(folder, array, axes), scratch_(found_scratch()) {}
 
   [[nodiscard]] std::string name_of(Index3 chunk) const override { return path_of(chunk).string(); }
   [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/,
@@ -165,9 +167,24 @@ class ChunkFiles : public ZarrChunks {
     if (is_streamed(place)) return unpack_chunk_to_file(array(), axes(), std::move(file));
     return unpack_chunk(array(), axes(), read_rest(*file, 0, max_packed(array())), file->name());
   }
-  [[nodiscard]] std::uint64_t scratch_bytes() const override {
-    return unpack_scratch(array(), axes());
+  [[nodiscard]] std::uint64_t scratch_bytes() const override { return scratch_; }
+
+ private:
+  /// What the chunks that are there take, where they are large; else what any may take.
+  [[nodiscard]] std::uint64_t found_scratch() const {
+    const std::uint64_t most = unpack_scratch(array(), axes());
+    const Index3 chunk = axes().pick(array().chunk.shape, 1);
+    const Box3 grid = cells_of({{0, 0, 0}, axes().pick(array().shape, 1)}, chunk);
+    if (chunk_bytes(array()) < kLargeChunk || grid.voxels() > kMaxLooks) return most;
+    std::uint64_t found = 0;
+    for_each_index(grid, [&](Index3 number) {
+      const auto file = open_if_there(path_of(number));
+      if (file) found = std::max(found, unpack_scratch(array(), axes(), *file));
+    });
+    return std::min(found, most);
   }
+
+  std::uint64_t scratch_;
 };
 
 class ShardFiles : public ZarrChunks {

@@ -158,7 +158,7 @@ TEST_F(NamesTest, StandForLabelsInOptions) {
   expect_done("info v.npy --names all.csv --merge spleen=liver");
   expect_failure(2, mesh + "c.vtu --labels spleem",
                  "--labels spleem: no label is called 'spleem'; near it: spleen");
-  expect_failure(2, mesh + "c.vtu --labels TWIN", "'TWIN' is what labels 5 and 6 are called");
+  expect_failure(2, mesh + "c.vtu --labels TWIN", "labels 5, 6 are called 'TWIN'");
   expect_failure(2, mesh + "c.vtu --size bone=4", "names are liver, spleen, a,b=c, 4th, Twin");
   expect_failure(2, mesh + "c.vtu --labels 1-3", "expected a label of at most 64 bits, got '1-3'");
   expect_failure(2, "mesh v.npy -o c.vtu --labels liver", "give numbers, or names with --names");

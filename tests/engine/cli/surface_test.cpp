@@ -105,6 +105,10 @@ TEST_F(SurfaceCommand, NothingIsLeftWhenTheDiskIsFull) {
   for (const std::string out : {"s.stl", "s.ply", "s"}) {
     expect_failure(4, "surface v.vtu -o " + out, "s", "ulimit -f 1;");
   }
+  // Some labels have small surfaces, which a disk would still take.
+  const auto before = files();
+  expect_failure(4, "surface v.vtu -o 's{label}.ply'", "cannot write", "ulimit -f 1;");
+  EXPECT_EQ(files(), before);
 }
 
 /// Files of labels get their names when all of them are whole.

@@ -41,7 +41,7 @@ void expect_held(const Trial& trial, bool measured) {
   NoSink sink;
   const std::uint64_t before = mw::test::allocated_bytes();
   mw::test::start_peak();
-  const FinishedMesh finished = finish(blocks, blocks.grid(), volume, sink, options);
+  const FinishedMesh finished = finish({blocks, blocks.grid(), volume}, sink, options);
   const std::uint64_t taken = mw::test::peak_allocated_bytes() - before;
   const std::uint64_t remembered =
       kBytesPerRemembered * finished.max_remembered + finished.max_shape_bytes;

@@ -105,7 +105,7 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     OutputOptions options{.wanted = {}, .measure_quality = true, .measure_shape = true};
     if (i % 3 == 0) options.wanted = [](RawLabel label) { return test::test_label(label) != 0; };
     MemorySink sink;
-    const FinishedMesh finished = finish(blocks, grid, volume, sink, options);
+    const FinishedMesh finished = finish({blocks, grid, volume}, sink, options);
     const io::MeshData& mesh = sink.mesh();
     EXPECT_EQ(io::mesh_digest(mesh),
               io::mesh_digest(list_of_everything(blocks, grid, volume, options.wanted)));
@@ -120,7 +120,7 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     EXPECT_EQ(finished.quality->worst_tet, quality.worst_tet);
     expect_same_shape(finished, mesh, trial, options.wanted);
     MemorySink again;
-    const FinishedMesh second = finish(blocks, grid, volume, again, options);
+    const FinishedMesh second = finish({blocks, grid, volume}, again, options);
     EXPECT_EQ(second.shape->bend_p95_deg, finished.shape->bend_p95_deg);
     EXPECT_EQ(second.shape->area, finished.shape->area);
     EXPECT_EQ(second.shape->sharp_share, finished.shape->sharp_share);
@@ -155,9 +155,9 @@ TEST(Promise6BoundedMemory, OfTheFinalMerge) {
     Bar bar(length);
     const MemoryVolume file(bar.volume(), {});
     const io::LabelTable table = io::collect_labels(file);
+    const io::DenseVolume volume(file, table);
     MemorySink sink;
-    const FinishedMesh finished =
-        finish(bar, bar.grid(), io::DenseVolume(file, table), sink, {.measure_shape = true});
+    const FinishedMesh finished = finish({bar, bar.grid(), volume}, sink, {.measure_shape = true});
     EXPECT_EQ(finished.vertices, static_cast<std::uint64_t>(9 * 9 * (length + 1)));
     max.push_back(finished.max_remembered);
     max_shape.push_back(finished.max_shape_bytes);

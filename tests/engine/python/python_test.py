@@ -380,6 +380,7 @@ class Names(InFolder):
         same({"labels": "Lesion"}, {"labels": 3})
         same({"background": "Air"}, {"background": 1})
         same({"size": {"Lesion": 3}}, {"size": {3: 3}})
+        same({"size": "lesion=3"}, {"size": {3: 3}})
         same({"merge": {"Lesion": "Grey matter"}}, {"merge": {3: 2}})
         mesh = mwmesh.mesh(self.volume, **names, background="Air")
         np.testing.assert_array_equal(mesh.surface("Lesion").triangles, mesh.surface(3).triangles)
@@ -388,8 +389,8 @@ class Names(InFolder):
         self.assertTrue(mesh.verify(mwmesh.as_volume(self.volume, **names), background="Air"))
 
     def test_that_no_label_or_several_have_are_errors(self):
-        for names, told, piece in ((self.names, "lesion", "there are Air, Grey matter, Lesion"),
-                                   (None, "Lesion", "none has a name"),
+        for names, told, piece in ((self.names, "lesions", "near it: Lesion"),
+                                   (None, "Lesion", "no label has a name"),
                                    ({1: "a", 2: "a"}, "a", "1, 2")):
             with self.assertRaisesRegex(mwmesh.UsageError, f"^labels: .*{piece}"):
                 mwmesh.mesh(self.volume, labels=[told], names=names)
@@ -609,7 +610,7 @@ class Errors(InFolder):
             "workdir": (3, "a\0b"), "resume": ("yes", 2), "certify": (True, "maybe", []),
             "report": ("no",), "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
             "window": (5, 1e3, 2**40, True, nan, "x", [32]), "max_distance": (nan, inf, -1, "x"),
-            "surface": ("smoth", 1), "preset": ("quick",),
+            "surface": ("smoth", 1), "preset": ("quick",), "gradation": (0.2, -1),
         }
         for name, bad in values.items():
             for value in bad:

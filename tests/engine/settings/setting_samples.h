@@ -37,6 +37,8 @@ inline const std::map<std::string, Samples> kSettingSamples{
        "1|2|3=1", "1|2=3,2|1=4", "3,*=4", "3,4", "f.npy,g.npy"}}},
     {"gradation", {{"0", "0.5", "10"}, {"-0.1", "10.5"}, {"some"}}},
     {"inner-vertices", {{"true"}, {}, {"yes", ""}}},
+    {"count", {{"1", "100000", "1000000000000"}, {"-1", "1000000000001"}, {"1e5", "many", "1.5"}}},
+    {"across", {{"1", "16"}, {"-1", "17"}, {"two", "1.5"}}},
 };
 
 inline const Samples& samples(const Setting& setting) {

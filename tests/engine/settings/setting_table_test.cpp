@@ -47,8 +47,8 @@ TEST(SettingTable, LeavesOutNoField) {
   const MeshSettings defaults;
   const auto& [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a_sizes, a13] = changed;
   const auto& [b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b_sizes, b13] = defaults;
-  const auto& [a_rules, a_gradation, a_inner_vertices] = a_sizes;
-  const auto& [b_rules, b_gradation, b_inner_vertices] = b_sizes;
+  const auto& [a_rules, a_gradation, a_inner_vertices, a_count, a_across] = a_sizes;
+  const auto& [b_rules, b_gradation, b_inner_vertices, b_count, b_across] = b_sizes;
   EXPECT_NE(a0, b0);
   EXPECT_NE(a1, b1);
   EXPECT_NE(a2, b2);
@@ -65,6 +65,8 @@ TEST(SettingTable, LeavesOutNoField) {
   EXPECT_NE(a_rules, b_rules);
   EXPECT_NE(a_gradation, b_gradation);
   EXPECT_NE(a_inner_vertices, b_inner_vertices);
+  EXPECT_NE(a_count, b_count);
+  EXPECT_NE(a_across, b_across);
 }
 
 TEST(SettingTable, NamesAreUnlikeAndPlain) {
@@ -165,6 +167,10 @@ TEST(SettingTable, CheckNamesSettingValueAndWhatIsAllowed) {
               HasSubstr("ascending"));
   EXPECT_EQ(refusal({.sizes = {.rules = {.labels = {{2, 1.0}, {3, 1.0}}}}}), "allowed");
   EXPECT_THAT(refusal({.sizes = {.gradation = kNan}}), HasSubstr("gradation = nan: "));
+  EXPECT_THAT(refusal({.sizes = {.gradation = 0.2}}), HasSubstr("nothing to grade"));
+  EXPECT_EQ(refusal({.sizes = {.rules = {.others = 3.0}, .gradation = 0.2}}), "allowed");
+  EXPECT_THAT(refusal({.optimizer = Optimizer::kTetgen, .sizes = {.inner_vertices = true}}),
+              HasSubstr("keeps no sizes"));
 }
 
 TEST(SettingTable, SizesAreSortedByLabel) {
@@ -213,39 +219,6 @@ TEST(ParseBytes, RefusesWhatIsNone) {
   }
   EXPECT_EQ(parse_bytes("16777215T"), 16777215ULL << 40U);
   EXPECT_EQ(parse_bytes("18446744073709551615"), ~std::uint64_t{0});
-}
-
-const io::LabelNames kNames({{.label = 1, .name = "Lesion"},
-                             {.label = 2, .name = "White matter"},
-                             {.label = 3, .name = "Air"},
-                             {.label = ~RawLabel{0}, .name = "Air"},
-                             {.label = 5, .name = "7"}});
-
-TEST(FindLabel, TakesNumbersAndNames) {
-  EXPECT_EQ(find_label("Lesion", kNames, false), 1U);
-  EXPECT_EQ(find_label(" White matter ", kNames, false), 2U);
-  EXPECT_EQ(find_label("7", kNames, false), 7U);
-  EXPECT_EQ(find_label("-1", {}, true), ~RawLabel{0});
-  EXPECT_EQ(find_label("18446744073709551615", {}, false), ~RawLabel{0});
-}
-
-TEST(FindLabel, RefusesWhatIsNoLabelOrSeveral) {
-  const auto refusal = [](const char* text, bool is_signed) -> std::string {
-    try {
-      return "label " + std::to_string(find_label(text, kNames, is_signed));
-    } catch (const Error& error) {
-      return error.what();
-    }
-  };
-  EXPECT_EQ(refusal("-1", false), "label -1: labels are not negative");
-  EXPECT_EQ(refusal("9223372036854775808", true),
-            "label 9223372036854775808: labels are signed, below 2^63");
-  EXPECT_THAT(refusal("18446744073709551616", false), testing::HasSubstr("64 bits"));
-  EXPECT_EQ(refusal("Air", true), "labels 3, -1 are called 'Air': give the number");
-  EXPECT_EQ(refusal("lesion", false),
-            "no label is called 'lesion'; there are Lesion, White matter, Air, 7, Air");
-  EXPECT_THROW((void)find_label("Lesion", {}, false), Error);
-  EXPECT_THROW((void)find_label("1.5", {}, false), Error);
 }
 
 }  // namespace

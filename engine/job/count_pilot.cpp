@@ -1,0 +1,311 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Trial meshes of the volume or of cubes of it, and the search for a factor.
+#include "engine/job/count_pilot.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/labels/prepared_labels.h"
+#include "engine/labels/voxel_lattice.h"
+#include "engine/output/label_selection.h"
+#include "engine/window/inner_quality.h"
+#include "io/volume/cropped_volume.h"
+#include "kernels/core/index.h"
+#include "kernels/start/cells/cell.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr int kMaxTrials = 6;
+/// A trial that is so near is good enough: counts that are asked are met within 10 %.
+constexpr double kNearEnough = 0.02;
+constexpr std::int64_t kCube = 64;
+constexpr std::int64_t kHalo = 16;
+constexpr std::int64_t kLeastCubes = 8;
+constexpr std::int64_t kMostCubes = 32;
+/// A cube of one label has some tets, too, as many as this share of its voxels has faces.
+constexpr double kFacesPerVoxel = 0.01;
+/// No limit on edges matters beyond that, in voxels.
+constexpr double kLargestSize = 64.0;
+
+/// The sizes that the factor is meant for.
+SizeRules base_rules(const SizeRules& rules) {
+  SizeRules out = rules;
+  if (!out.any()) out.others = 1.0;
+  return out;
+}
+
+/// A part of the volume that is meshed, and what of it counts.
+struct Cube {
+  Box3 voxels;  ///< of the volume, with the halo
+  Box3 within;  ///< of the lattice of these voxels
+  double weight = 0.0;
+};
+
+/// Passes on what is below, so that a view can own it.
+class Whole : public io::VolumeView {
+ public:
+  explicit Whole(const io::LabelVolume& volume) : VolumeView(volume) {}
+  void read(const Box3& box, std::span<RawLabel> out) const override { below().read(box, out); }
+};
+
+class NoSink : public io::MeshSink {
+ public:
+  void begin(const io::MeshHeader& /*header*/) override {}
+  void write_vertices(std::span<const io::Position> /*positions*/) override {}
+  void write_tets(std::span<const io::TetRows> /*tets*/,
+                  std::span<const RawLabel> /*labels*/) override {}
+  void finish() override {}
+};
+
+/// Which cubes are meshed: their chances are as their weights, and each place along the sum of all
+/// weights that is an odd multiple of half a step draws the cube that it is in.
+class Sample {
+ public:
+  Sample(const PilotTask& task, const VoxelLattice& lattice, const PreparedLabels& labels)
+      : task_(task), lattice_(lattice), labels_(labels) {
+    const Index3 shape = lattice.info().shape;
+    cubes_ = cells_of({{0, 0, 0}, shape}, cube_edges());
+    for_each_index(cubes_, [&](Index3 c) { weights_.push_back(weight_of(box_of(c))); });
+    for (const double weight : weights_) total_ += weight;
+  }
+
+  [[nodiscard]] std::vector<Cube> drawn() const {
+    const std::int64_t voxels = lattice_.info().shape.product();
+    const std::int64_t edge = kCube + 2 * kHalo;
+    const std::int64_t wanted =
+        std::clamp(voxels / (4 * edge * edge * edge), kLeastCubes, kMostCubes);
+    const double step = total_ / static_cast<double>(wanted);
+    std::vector<Cube> out;
+    double before = 0;
+    std::size_t i = 0;
+    for_each_index(cubes_, [&](Index3 c) {
+      const double weight = weights_[i++];
+      const double draws =
+          std::floor((before + weight) / step + 0.5) - std::floor(before / step + 0.5);
+      before += weight;
+      if (draws > 0 && weight > 0) out.push_back(cube_at(c, draws * step / weight));
+    });
+    return out;
+  }
+
+ private:
+  /// Multiples of the layers, so that a cube is of whole voxels.
+  [[nodiscard]] Index3 cube_edges() const {
+    const Index3 layers = lattice_.layers();
+    const auto rounded = [](std::int64_t n) { return std::max<std::int64_t>(1, kCube / n) * n; };
+    return {rounded(layers.x), rounded(layers.y), rounded(layers.z)};
+  }
+  [[nodiscard]] Box3 box_of(Index3 c) const {
+    const Index3 e = cube_edges();
+    const Index3 lo{c.x * e.x, c.y * e.y, c.z * e.z};
+    return intersection({lo, lo + e}, {{0, 0, 0}, lattice_.info().shape});
+  }
+
+  /// Faces between labels, and voxels, of labels that are written.
+  [[nodiscard]] double weight_of(const Box3& box) const {
+    const LabelSelection kept(wanted_labels(task_.job.choice, lattice_.volume().table()),
+                              lattice_.volume().table());
+    const LabelBox labels = labels_.original({box.lo, box.hi + Index3{1, 1, 1}});
+    std::int64_t faces = 0, voxels = 0;
+    for_each_index(box, [&](Index3 v) {
+      const Label own = labels.at(v);
+      const bool is_written = kept.keeps(own);
+      voxels += is_written ? 1 : 0;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        const Label next = labels.at(v + axis_vector(axis));
+        if (next == own || next == kExterior) continue;
+        faces += is_written || kept.keeps(next) ? 1 : 0;
+      }
+    });
+    return static_cast<double>(faces) + kFacesPerVoxel * static_cast<double>(voxels);
+  }
+
+  [[nodiscard]] Cube cube_at(Index3 c, double weight) const {
+    const Index3 layers = lattice_.layers(), shape = lattice_.info().shape;
+    const Box3 counted = box_of(c);
+    const Box3 around = intersection(grown(counted, kHalo), {{0, 0, 0}, shape});
+    const Box3 voxels{
+        {around.lo.x / layers.x, around.lo.y / layers.y, around.lo.z / layers.z},
+        {(around.hi.x + layers.x - 1) / layers.x, (around.hi.y + layers.y - 1) / layers.y,
+         (around.hi.z + layers.z - 1) / layers.z}};
+    const Index3 first{voxels.lo.x * layers.x, voxels.lo.y * layers.y, voxels.lo.z * layers.z};
+    return {voxels, {counted.lo - first, counted.hi - first}, weight};
+  }
+
+  const PilotTask& task_;
+  const VoxelLattice& lattice_;
+  const PreparedLabels& labels_;
+  Box3 cubes_;
+  std::vector<double> weights_;
+  double total_ = 0;
+};
+
+/// One trial after the other, each at a logarithm of the factor.
+class Pilot {
+ public:
+  explicit Pilot(const PilotTask& task) : task_(task) {
+    const MeshSettings& settings = task.job.settings;
+    const VoxelLattice lattice(task.labels, settings.surface);
+    const auto& spacing = lattice.info().space.spacing;
+    const double voxel = *std::min_element(spacing.begin(), spacing.end());
+    const double diagonal = std::hypot(spacing[0], spacing[1], spacing[2]);
+    const SizeRules rules = base_rules(settings.sizes.rules);
+    // Sizes of an image alone are about those of its voxels.
+    const double least = std::isfinite(rules.least()) ? rules.least() : voxel;
+    constexpr double kRoundedUp = 1.0 + 1e-9;
+    range_ = {std::log(kRoundedUp * diagonal / SizeRules::kLongest / least),
+              std::log(kLargestSize * voxel / least)};
+    const Index3 shape = lattice.info().shape;
+    first_ = std::log(std::cbrt(static_cast<double>(shape.product()) * spacing[0] * spacing[1] *
+                                spacing[2] / (kTetVolume * asked())) /
+                      least);
+    cubes_ = find_cubes(lattice);
+  }
+
+  report::CountFacts search() {
+    double at = std::clamp(first_, range_[0], range_[1]);
+    for (int i = 0; i < kMaxTrials; ++i) {
+      trials_.push_back({at, tets_at(std::exp(at))});
+      if (std::abs(error_of(trials_.back())) <= kNearEnough || is_at_end(trials_.back())) break;
+      at = std::clamp(next(), range_[0], range_[1]);
+    }
+    const Trial best =
+        *std::min_element(trials_.begin(), trials_.end(), [&](const Trial& a, const Trial& b) {
+          return std::abs(error_of(a)) < std::abs(error_of(b));
+        });
+    return {.asked = static_cast<std::uint64_t>(task_.job.settings.sizes.count),
+            .scale = std::exp(best.at),
+            .expected = static_cast<std::uint64_t>(best.tets + 0.5),
+            .is_least = is_at_end(trials_.back()) && best.tets > asked(),
+            .is_most = is_at_end(trials_.back()) && best.tets < asked(),
+            .trials = static_cast<int>(trials_.size()),
+            .voxels = voxels_};
+  }
+
+ private:
+  /// Of a regular tet with edges of 1.
+  static constexpr double kTetVolume = 0.1178511301977579;
+  /// Counts grow at least with this power of the size, and at most with that.
+  static constexpr double kFlattest = -0.3, kSteepest = -3.5, kUsual = -2.4;
+
+  struct Trial {
+    double at = 0;  ///< logarithm of the factor
+    double tets = 0;
+  };
+
+  [[nodiscard]] double asked() const { return static_cast<double>(task_.job.settings.sizes.count); }
+  /// Of the logarithm.
+  [[nodiscard]] double error_of(const Trial& t) const {
+    return std::log(std::max(t.tets, 1.0) / asked());
+  }
+  [[nodiscard]] bool is_at_end(const Trial& t) const {
+    return (t.at == range_[0] && error_of(t) < 0) || (t.at == range_[1] && error_of(t) > 0);
+  }
+
+  /// Where the line through the two trials that are nearest to what is asked, one on each side if
+  /// there are, has the count.
+  [[nodiscard]] double next() const {
+    std::optional<Trial> more, fewer;
+    for (const Trial& t : trials_) {
+      std::optional<Trial>& side = error_of(t) > 0 ? more : fewer;
+      if (!side || std::abs(error_of(t)) < std::abs(error_of(*side))) side = t;
+    }
+    const Trial& last = trials_.back();
+    if (more && fewer) {
+      const double part = error_of(*more) / (error_of(*more) - error_of(*fewer));
+      return more->at + std::clamp(part, 0.05, 0.95) * (fewer->at - more->at);
+    }
+    double slope = kUsual;
+    if (trials_.size() > 1) {
+      const Trial& other = trials_[trials_.size() - 2];
+      slope = std::clamp((error_of(last) - error_of(other)) / (last.at - other.at), kSteepest,
+                         kFlattest);
+    }
+    return last.at - error_of(last) / slope;
+  }
+
+  [[nodiscard]] std::vector<Cube> find_cubes(const VoxelLattice& lattice) {
+    if (lattice.info().shape.product() <= task_.max_whole) return {};
+    MeshSettings plain = task_.job.settings;
+    plain.start = StartMesh::kDense;
+    plain.sizes = {};
+    const PreparedLabels labels(lattice.labels(), plain, thread_count(task_.job.run.threads),
+                                io::scratch_folder());
+    inner_quality_ = inner_quality_for(labels.counts().faces);
+    return Sample(task_, lattice, labels).drawn();
+  }
+
+  double tets_at(double scale) {
+    MeshSettings settings = with_scale(task_.job.settings, scale);
+    settings.sizes.count = 0;
+    if (cubes_.empty()) {
+      const Index3 shape = task_.labels.info().shape;
+      return static_cast<double>(mesh(task_.labels, settings, scale, std::nullopt, shape).tets);
+    }
+    if (!settings.inner_quality) settings.inner_quality = inner_quality_;
+    double sum = 0;
+    for (const Cube& cube : cubes_) {
+      const io::CroppedVolume part(std::make_unique<Whole>(task_.labels.raw()), cube.voxels, true);
+      const RunReport report = mesh(io::DenseVolume(part, task_.labels.table()), settings, scale,
+                                    cube.within, cube.voxels.shape());
+      sum += cube.weight * static_cast<double>(report.tets_within);
+    }
+    return sum;
+  }
+
+  RunReport mesh(const io::DenseVolume& labels, const MeshSettings& settings, double scale,
+                 const std::optional<Box3>& within, Index3 shape) {
+    const MeshJob& job = task_.job;
+    RunHooks hooks{.threads = job.run.threads};
+    hooks.progress = [&](const RunProgress& /*at*/) { job.stop(); };
+    hooks.output.wanted = wanted_labels(job.choice, labels.table());
+    hooks.output.within = within;
+    hooks.store.memory = task_.memory;
+    hooks.owns_process = job.run.owns_process;
+    hooks.store.is_scratch = true;
+    // Several processes, which all do the same, would meet in one folder.
+    const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
+    if (is_alone && !job.run.store.workdir.empty()) {
+      hooks.store.workdir = job.run.store.workdir.string() + kFolderEnding;
+      hooks.store.group = kNeverDurable;
+    }
+    std::optional<SizeImage> image;
+    if (task_.image != nullptr) image.emplace(task_.image->scaled(scale));
+    hooks.sizes = image ? &*image : nullptr;
+    NoSink sink;
+    voxels_ += shape.product();
+    return mesh_volume(labels, settings, sink, hooks);
+  }
+
+  static constexpr const char* kFolderEnding = ".pilot";
+  static constexpr GroupCommit kNeverDurable{.windows = 1 << 30,
+                                             .age = std::chrono::hours(1 << 16)};
+
+  const PilotTask& task_;
+  std::array<double, 2> range_{};  ///< of the logarithm of the factor
+  double first_ = 0;
+  std::vector<Cube> cubes_;  ///< empty: the volume is meshed whole
+  double inner_quality_ = 0;
+  std::vector<Trial> trials_;
+  std::int64_t voxels_ = 0;  ///< that were meshed in all
+};
+
+}  // namespace
+
+MeshSettings with_scale(const MeshSettings& settings, double scale) {
+  MeshSettings out = settings;
+  out.sizes.rules = base_rules(settings.sizes.rules).scaled(scale);
+  return out;
+}
+
+report::CountFacts scale_for_count(const PilotTask& task) {
+  return Pilot(task).search();
+}
+
+}  // namespace mw::engine

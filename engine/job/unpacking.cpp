@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Whether a budget of memory has room for what is unpacked when a volume is read.
+#include "engine/job/unpacking.h"
+
+#include "io/file/text_numbers.h"
+#include "kernels/core/error.h"
+
+namespace mw::engine {
+
+void check_unpacking(const io::LabelVolume& volume, const ReadingRoom& room) {
+  constexpr std::uint64_t kLittle = 4;  // of these chunks are in a share
+  const std::uint64_t unpacked = volume.buffer_bytes(1);
+  if (unpacked < room.memory / room.shares / kLittle) return;
+  const std::uint64_t least = room.shares * (room.beside + unpacked);
+  if (least <= room.memory) return;
+  throw Error(
+      ErrorKind::kResource,
+      io::text("a memory budget of ", room.memory,
+               " bytes is too small to unpack a chunk of the volume; ", io::min_memory(least)));
+}
+
+}  // namespace mw::engine
