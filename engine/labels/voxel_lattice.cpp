@@ -66,9 +66,10 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
                                           " can be", ways_out(volume, settings)));
 }
 
-/// Start meshes have edges as long as the diagonal of a voxel, and no step cuts an edge.
+/// Start meshes have edges as long as the diagonal of a voxel, and no step cuts an edge.  With a
+/// count sizes are weights, and the factor that is found for them keeps to that.
 void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
-  if (!settings.sizes.rules.any()) return;
+  if (!settings.sizes.rules.any() || settings.sizes.count > 0) return;
   const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
   const double diagonal = std::sqrt(x * x + y * y + z * z);
   const double least = settings.sizes.rules.least();

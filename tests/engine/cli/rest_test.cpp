@@ -15,7 +15,7 @@ class RestTest : public ProgramTest {};
 
 /// The name of the page is taken while the run goes on.
 TEST_F(RestTest, IsWrittenByResume) {
-  expect_done("synth noise --labels 3 --seed 1 -o v.npy --shape 26,26,26");
+  expect_done("synth noise --labels 3 --seed 1 -o v.npy --shape 20,20,20");
   expect_done("mesh v.npy -o whole.vtkhdf --window 8");
   const std::string mesh = "mesh v.npy -o v.vtkhdf --window 8 --report r.json --html p.html ";
   const ProgramRun stopped = run(mesh, "sh -c '(sleep 0.7; mkdir p.html) & exec \"$0\" \"$@\"'");
