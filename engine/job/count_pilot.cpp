@@ -23,11 +23,11 @@ namespace {
 
 constexpr int kMaxTrials = 6;
 /// A trial that is so near is good enough: counts that are asked are met within 10 %.
-constexpr double kNearEnough = 0.02;
+constexpr double kNearEnough = 0.05;
 constexpr std::int64_t kCube = 64;
 constexpr std::int64_t kHalo = 16;
-constexpr std::int64_t kLeastCubes = 8;
-constexpr std::int64_t kMostCubes = 32;
+constexpr std::int64_t kLeastCubes = 4;
+constexpr std::int64_t kMostCubes = 16;
 /// A cube of one label has some tets, too, as many as this share of its voxels has faces.
 constexpr double kFacesPerVoxel = 0.01;
 /// No limit on edges matters beyond that, in voxels.
