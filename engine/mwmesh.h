@@ -155,15 +155,16 @@ class Volume {
   std::shared_ptr<const Content> content_;
 };
 
-/// Returns the label with this number or name: "7", "-1", "Liver".  A number is that label, whatever
-/// labels are called; a name is the one that is written the same, or else the one that differs in
-/// capitals alone; text in double quotes is a name in any case.
-/// ERRORS: kUsage for a number that no label of the volume can be, and for a name that none of them
-/// has, or several have.
+/// Returns the label with this number or name: "7", "-1", "Liver".  A number is that label,
+/// whatever labels are called; a name is the one that is written the same, or else the one that
+/// differs in capitals alone; text in double quotes is a name in any case. ERRORS: kUsage for a
+/// number that no label of the volume can be, and for a name that none of them has, or several
+/// have.
 [[nodiscard]] std::uint64_t find_label(const Volume& volume, std::string_view text);
 
-/// Returns the text of a setting with numbers in the place of names, "Liver|3=2,*=5".  Names that have one
-/// of ",;=" in them stand in double quotes there.  ERRORS: those of find_label() for names.
+/// Returns the text of a setting with numbers in the place of names, "Liver|3=2,*=5".  Names that
+/// have one of ",;=" in them stand in double quotes there.  ERRORS: those of find_label() for
+/// names.
 [[nodiscard]] std::string with_label_numbers(const Volume& volume, std::string_view text);
 
 /// Returns a random volume, x fastest: "voronoi", "tubes", "spheres", "noise" or "checkerboard".

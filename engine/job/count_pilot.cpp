@@ -189,7 +189,7 @@ class Pilot {
   }
 
  private:
-  /// Of a regular tet with edges of 1.
+  /// The volume of a regular tet with edges of 1.
   static constexpr double kTetVolume = 0.1178511301977579;
   /// Counts grow at least with this power of the size, and at most with that.
   static constexpr double kFlattest = -0.3, kSteepest = -3.5, kUsual = -2.4;
@@ -200,7 +200,7 @@ class Pilot {
   };
 
   [[nodiscard]] double asked() const { return static_cast<double>(task_.job.settings.sizes.count); }
-  /// Of the logarithm.
+  /// Returns the error of the logarithm.
   [[nodiscard]] double error_of(const Trial& t) const {
     return std::log(std::max(t.tets, 1.0) / asked());
   }

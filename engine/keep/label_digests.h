@@ -29,17 +29,17 @@ class LabelDigests {
   LabelDigests(const PreparedLabels& labels, const LabelKeys& keys, const MeshSettings& settings,
                const WindowGrid& grid, int threads);
 
-  /// Of the bricks that have what is seen.  ENSURES: where two volumes agree in it, exact() is the
-  /// same, and so is everything that the visit sees.
+  /// Returns the digest of the bricks that have what is seen.  ENSURES: where two volumes agree in
+  /// it, exact() is the same, and so is everything that the visit sees.
   [[nodiscard]] io::ContentDigest of_bricks(const SeenLabels& seen) const;
-  /// Of the very voxels that are seen.  ENSURES: where two volumes agree in it, so is
-  /// everything that the visit sees.  Cost: some 10 ns a voxel.
+  /// Returns the digest of the very voxels that are seen.  ENSURES: where two volumes agree in it,
+  /// so is everything that the visit sees.  Cost: some 10 ns a voxel.
   [[nodiscard]] io::ContentDigest exact(const SeenLabels& seen) const;
 
  private:
   using Digests = std::vector<io::ContentDigest>;
 
-  /// Of all bricks; uniform: set to 0 for those with several labels.
+  /// Returns the digests of all bricks.  uniform: set to 0 for those with several labels.
   [[nodiscard]] Digests digests_of(bool coarse, int threads,
                                    std::vector<std::uint8_t>& uniform) const;
   [[nodiscard]] Box3 around(const Box3& content) const;

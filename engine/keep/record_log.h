@@ -11,9 +11,9 @@
 
 namespace mw::engine {
 
-/// 8 bytes that say what the file is, then records: length and CRC-32 in 4 bytes each, and so many
-/// bytes.  What is not whole ends the log: it was never there.  Zeros may follow.
-/// Thread safety: read() may run beside everything, the others one at a time.
+/// 8 bytes that say what the file is, then records: length and CRC-32 in 4 bytes each, then bytes
+/// of that length.  What is not whole ends the log: it was never there.  Zeros may follow. Thread
+/// safety: read() may run beside everything, the others one at a time.
 class RecordLog {
  public:
   using UseRecord = std::function<void(std::uint64_t at, std::span<const std::byte> record)>;

@@ -19,7 +19,7 @@ class SizeImage {
   /// ERRORS: mw::Error(kInput) when the image has another shape, or is of a format whose numbers
   ///         are not read here.
   SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file);
-  /// The same with each size multiplied.
+  /// Returns the image with each size multiplied.
   [[nodiscard]] SizeImage scaled(double factor) const;
 
   /// The sizes in a box of the lattice, x fastest, physical units; what is no positive number is

@@ -81,8 +81,8 @@ class RunPart {
   /// the work and gives the folder away, in which it stays until it is discarded.  Returns null if
   /// no run could go on from there; a failure to save is no error.
   [[nodiscard]] virtual std::shared_ptr<Workdir> keep_for_rest(RunStore& store) = 0;
-  /// To be called once the output is complete: the work folder is not needed any more, unless it was
-  /// given away.  Returns what each process did; empty if there is only one.
+  /// To be called once the output is complete: the work folder is not needed any more, unless it
+  /// was given away.  Returns what each process did; empty if there is only one.
   [[nodiscard]] virtual std::vector<ProcessFacts> end(const ProcessFacts& own) = 0;
 
   /// Ends a process that cannot go on.  Returns the error that the run ends with.

@@ -95,7 +95,7 @@ struct RunHooks {
   /// With a folder there is no work folder: what memory does not hold, and what a later run can go
   /// on from, is there.  REQUIRES: then Order::kColour and one process.
   KeepOptions keep;
-  codt::PoolOptions workers;         ///< of Optimizer::kTetgen
+  codt::PoolOptions workers;  ///< of Optimizer::kTetgen
   /// The processes that the run is divided among; null if it is this one alone.  All of them call
   /// mesh_volume() with the same volume and settings; only the one that speaks uses its sink, and
   /// the others return when its output is complete.  Store options and threads are each one's own.

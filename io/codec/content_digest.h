@@ -28,7 +28,7 @@ class DigestMaker {
   DigestMaker();
   void add(std::span<const std::byte> bytes);
   void add(std::string_view text) { add(std::as_bytes(std::span(text))); }
-  /// As 8 bytes, least significant first.
+  /// Adds 8 bytes, the least significant first.
   void add(std::uint64_t word);
   void add(const ContentDigest& digest) {
     add(digest.first);

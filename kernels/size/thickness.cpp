@@ -33,8 +33,8 @@ constexpr std::array<Index3, 13> kDirections{{{1, 0, 0},
 
 /// How much nearer a side may be along another direction.
 constexpr double kNearest = 0.85;
-/// So many steps away from the middle of a part, and that many from there along its thickness,
-/// sides may be so much farther, in voxels.
+/// kBeside steps away from the middle of a part, and kAlong steps from there along its thickness,
+/// sides may be kFarther voxels farther away.
 constexpr std::int64_t kBeside = 4, kAlong = 3;
 constexpr double kFarther = 0.75;
 /// Directions with a smaller cosine lead along a part and not through it: 41 degrees.

@@ -13,7 +13,7 @@ namespace {
 
 /// Steps of the filter.
 constexpr int kSteps = 7;
-/// A voxel is so many units; three times a place in a box of 2^8 voxels fits.
+/// How many units a voxel is; three times a place in a box of 2^8 voxels fits.
 constexpr std::int32_t kUnit = 1 << 19;
 [[maybe_unused]] constexpr std::int64_t kMaxEdge = 1 << 8;
 // A step looks at faces an edge away, an edge at the voxels beside the face.

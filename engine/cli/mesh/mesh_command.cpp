@@ -215,7 +215,7 @@ void write_side_files(const MeshRequest& request, report::FinishedRun& run, Mesh
   std::cout << "page        " << request.html.string() << std::endl;
 }
 
-/// Whoever is told that a file is missing is told, too, what is there, and how to get the rest.
+/// An error about a file that is missing says, too, what is there, and how to get the rest.
 void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFiles& files,
                   const OptionSet& options) {
   std::vector<std::string> complete{request.output.string()};

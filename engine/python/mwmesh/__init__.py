@@ -210,7 +210,7 @@ def mesh(volume, *, progress=None, **arguments):
     others
         the settings of ``mwmesh mesh``, listed by :func:`settings`: max_distance=1.5,
         quality_floor=0.2, surface="voxel", topology="interfaces", size={"Liver": 3},
-        count=100_000 (about so many tets), across=3 (edges across thin parts, at least), ...
+        count=100_000 (about that number of tets), across=3 (edges across thin parts, at least), ...
 
     Returns a :class:`Mesh`.  The same volume and settings give the same mesh for any number of
     threads, memory and workdir.  Ctrl-C ends the run.

@@ -31,7 +31,7 @@ class Session:
         a new folder for what is kept, which stays afterwards and is also that of ``mwmesh mesh
         --from``; None: a temporary one, which goes with the session.
     settings
-        everything else that :func:`mesh` takes, but for report and the order of windows.
+        everything else that :func:`mesh` takes, except report and the order of windows.
 
     Each mesh is, byte for byte, the one that ``mesh(array, order="colour", **settings)`` would give.
 

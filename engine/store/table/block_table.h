@@ -63,7 +63,7 @@ class BlockTable {
   void remove(std::uint64_t slot);
   /// REQUIRES: no block there.  ERRORS: those of the room; then nothing has changed.
   void put(std::uint64_t slot, BlockPin block);
-  /// The same of a block that is kept; it is in memory, too, unless the pin is null.
+  /// Puts a block there that is kept; it is in memory, too, unless the pin is null.
   void put_kept(std::uint64_t slot, const KeptPlace& place, BlockPin block = nullptr);
   /// A block that the journal tells of replaces the one that is there; the extents are not yet
   /// taken.  ERRORS: those of the room.

@@ -157,7 +157,7 @@ std::uint64_t max_packed(const ZarrArray& array) {
 
 namespace {
 
-/// Of a chunk's bytes what axes that are left out hold.
+/// Counts the bytes of a chunk that belong to axes that are left out.
 std::uint64_t unused_bytes(const ZarrArray& array, const AxisMap& axes) {
   const auto used = static_cast<std::uint64_t>(axes.pick(array.chunk.shape, 1).product());
   return chunk_bytes(array) - used * static_cast<std::uint64_t>(byte_size(array.type));

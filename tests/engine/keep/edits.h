@@ -18,7 +18,7 @@ using audit::test::SmallVolume;
 /// Labels of volumes that are edited are multiples of this, so that new ones fall between them.
 inline constexpr Label kLabelStep = 3;
 
-/// The same volume with room for new labels.
+/// Returns the volume with room for new labels.
 [[nodiscard]] inline SmallVolume with_room(SmallVolume volume) {
   for (Label& label : volume.labels) label *= kLabelStep;
   volume.label_count *= kLabelStep;

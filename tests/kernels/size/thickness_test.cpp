@@ -35,7 +35,7 @@ Found thin_in(const Box3& asked, const LabelAt& label_at, const Metric& metric =
   return out;
 }
 
-/// A plate that is so many steps of a direction thick is found all over its middle.
+/// A plate of any number of steps of a direction is found all over its middle.
 TEST(Thickness, OfPlatesInEachDirection) {
   const Box3 asked{{-12, -12, -12}, {12, 12, 12}};
   for (const Index3 normal : {Index3{1, 0, 0}, Index3{0, 1, 0}, Index3{0, 0, 1}, Index3{1, 1, 0},
