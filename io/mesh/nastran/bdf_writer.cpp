@@ -80,7 +80,7 @@ void BdfWriter::write_nodes(GroupedMesh& mesh) {
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
     const Position p = mesh.node(row);
     line(field("GRID*") + number_field(row + 1, 2 * kFieldColumns) + field("", 2 * kFieldColumns) +
-         real_field(p[0]) + real_field(p[1]));
+         real_field(p[0]) + real_field(p[1]) + "*");
     line(field("*") + real_field(p[2]));
   }
 }
@@ -97,8 +97,8 @@ void BdfWriter::write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number
     std::size_t nodes = 0;
     for (const std::uint64_t node : mesh.tet_nodes(t)) {
       if (nodes++ == kNodesOfFirstLine) {
-        line(row);
-        row = field("");
+        line(row + "+");  // the tenth field, which begins at column 73
+        row = field("+");
       }
       row += number_field(node + 1);
     }

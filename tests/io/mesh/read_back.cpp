@@ -273,7 +273,7 @@ MeshData read_bdf(const std::filesystem::path& path) {
       for (std::size_t at = 24; at + 8 <= line.size(); at += 8) {
         tets.back().push_back(std::stoull(field_of(line, at, 8)) - 1);
       }
-    } else if (line.starts_with("        ")) {
+    } else if (line.starts_with("+")) {
       for (std::size_t at = 8; at + 8 <= line.size(); at += 8) {
         tets.back().push_back(std::stoull(field_of(line, at, 8)) - 1);
       }
