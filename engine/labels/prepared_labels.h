@@ -42,6 +42,12 @@ class PreparedLabels {
   [[nodiscard]] LabelBox original(const Box3& box) const;
   /// REQUIRES: a block that is needed and kStartHalo around it.
   [[nodiscard]] LabelBox shape(const Box3& box) const;
+  /// The only label of a brick, before and after coarsening; none where it has several.
+  /// REQUIRES: it is needed.
+  [[nodiscard]] std::optional<Label> only_label(Index3 brick) const {
+    const std::optional<Label> label = original_.uniform_label(brick);
+    return label == shapes().uniform_label(brick) ? label : std::nullopt;
+  }
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
   /// What is counted on the way.  REQUIRES: all labels are prepared.
