@@ -138,7 +138,11 @@ void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
     labels.resize(static_cast<std::size_t>(box.voxels()));
     volume.read(box, labels);
     packed.clear();
-    packer.append(bytes_of(labels), packed);
+    if constexpr (io::kHostOrder == io::ByteOrder::kLittle) {
+      packer.append(std::as_bytes(std::span(labels)), packed);
+    } else {
+      packer.append(bytes_of(labels), packed);
+    }
     head.push_back(file.appended());
     head.push_back(packed.size());
     file.append(packed);

@@ -23,10 +23,6 @@ constexpr std::int64_t kLimitHalo = 8;
 /// Allowed cells are looked up so far around a block that is made from voxels.
 constexpr std::int64_t kCellHalo = 2;
 
-bool is_uniform(const std::vector<Label>& labels) {
-  return std::all_of(labels.begin(), labels.end(), [&](Label l) { return l == labels[0]; });
-}
-
 }  // namespace
 
 LabelDigests::LabelDigests(const PreparedLabels& labels, const LabelKeys& keys,
@@ -34,25 +30,24 @@ LabelDigests::LabelDigests(const PreparedLabels& labels, const LabelKeys& keys,
     : labels_(labels),
       keys_(keys),
       grid_(grid),
-      bricks_(cells_of({{0, 0, 0}, grid.volume()}, kBrickShape).hi),
-      uniform_(static_cast<std::size_t>(bricks_.product()), 1) {
+      bricks_(cells_of({{0, 0, 0}, grid.volume()}, kBrickShape).hi) {
   if (settings.max_distance) reach_ = LabelReach::search_reach(*settings.max_distance);
-  original_ = digests_of(false, threads, uniform_);
-  if (labels_.is_coarse()) coarse_ = digests_of(true, threads, uniform_);
+  original_ = digests_of(false, threads);
+  if (labels_.is_coarse()) coarse_ = digests_of(true, threads);
 }
 
-LabelDigests::Digests LabelDigests::digests_of(bool coarse, int threads,
-                                               std::vector<std::uint8_t>& uniform) const {
-  Digests out(uniform.size());
+LabelDigests::Digests LabelDigests::digests_of(bool coarse, int threads) const {
+  Digests out(static_cast<std::size_t>(bricks_.product()));
   tbb_for_each_index(threads, bricks_, [&](Index3 brick) {
     const Index3 lo{brick.x * kBrick, brick.y * kBrick, brick.z * kBrick};
     const Box3 box = intersection({lo, lo + kBrickShape}, {{0, 0, 0}, grid_.volume()});
-    const LabelBox voxels = coarse ? labels_.shape(box) : labels_.original(box);
     io::DigestMaker maker;
-    add_voxels(voxels, maker);
-    const std::size_t at = raster(brick, bricks_);
-    out[at] = maker.finish();
-    if (!is_uniform(voxels.labels)) uniform[at] = 0;
+    if (const std::optional<Label> only = labels_.only_label(brick)) {
+      maker.add(keys_.key(*only));
+    } else {
+      add_voxels(coarse ? labels_.shape(box) : labels_.original(box), maker);
+    }
+    out[raster(brick, bricks_)] = maker.finish();
   });
   return out;
 }
@@ -110,7 +105,7 @@ bool LabelDigests::all_uniform(const Box3& voxels) const {
   bool all = true;
   if (is_empty(inside)) return all;
   for_each_index(cells_of(inside, kBrickShape),
-                 [&](Index3 brick) { all = all && uniform_[raster(brick, bricks_)] != 0; });
+                 [&](Index3 brick) { all = all && labels_.only_label(brick).has_value(); });
   return all;
 }
 
@@ -150,7 +145,7 @@ io::ContentDigest LabelDigests::exact(const SeenLabels& seen) const {
 
 std::uint64_t label_digest_bytes(Index3 shape) {
   const Index3 bricks = cells_of({{0, 0, 0}, shape}, kBrickShape).hi;
-  return static_cast<std::uint64_t>(bricks.product()) * (2 * sizeof(io::ContentDigest) + 2);
+  return static_cast<std::uint64_t>(bricks.product()) * 2 * sizeof(io::ContentDigest);
 }
 
 }  // namespace mw::engine

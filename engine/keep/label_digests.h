@@ -39,9 +39,8 @@ class LabelDigests {
  private:
   using Digests = std::vector<io::ContentDigest>;
 
-  /// Returns the digests of all bricks.  uniform: set to 0 for those with several labels.
-  [[nodiscard]] Digests digests_of(bool coarse, int threads,
-                                   std::vector<std::uint8_t>& uniform) const;
+  /// Returns the digests of all bricks.
+  [[nodiscard]] Digests digests_of(bool coarse, int threads) const;
   [[nodiscard]] Box3 around(const Box3& content) const;
   void add_bricks(const Digests& digests, const Box3& voxels, io::DigestMaker& to) const;
   void add_voxels(const LabelBox& labels, io::DigestMaker& to) const;
@@ -55,8 +54,7 @@ class LabelDigests {
   std::optional<std::int64_t> reach_;  ///< of the distance bound; none: there is none
   Index3 bricks_;
   Digests original_;
-  Digests coarse_;                     ///< empty where labels are not coarsened
-  std::vector<std::uint8_t> uniform_;  ///< by brick: one label, before and after coarsening
+  Digests coarse_;  ///< empty where labels are not coarsened
 };
 
 /// Memory that they take for a volume of this shape.

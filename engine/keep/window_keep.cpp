@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "io/codec/codec.h"
-#include "io/codec/pack_zstd.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 
@@ -218,6 +217,15 @@ std::vector<KeptPlace> WindowKeep::places_of(const WindowRecord& record) {
   return out;
 }
 
+/// To make one costs more than to pack a window of one label.
+std::unique_ptr<io::ZstdPacker> WindowKeep::take_packer() {
+  const std::lock_guard lock(mutex_);
+  if (packers_.empty()) return std::make_unique<io::ZstdPacker>(kPackLevel);
+  std::unique_ptr<io::ZstdPacker> out = std::move(packers_.back());
+  packers_.pop_back();
+  return out;
+}
+
 std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const LeftBlock> blocks) {
   WindowRecord record{.window = layout_.window(key), .input = {}, .extent = {}, .blocks = {}};
   SeenLabels seen;
@@ -231,11 +239,11 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
   }
   if (record.input.labels.is_none()) record.input.labels = digests_->exact(seen);
   std::vector<std::byte> packed;
-  io::ZstdPacker packer(kPackLevel);
+  std::unique_ptr<io::ZstdPacker> packer = take_packer();
   for (const LeftBlock& block : blocks) {
     const std::vector<std::byte> kept = to_kept(block.bytes, keys_);
     const std::size_t before = packed.size();
-    packer.append(kept, packed);
+    packer->append(kept, packed);
     record.blocks.push_back(
         {.version = {io::content_digest(kept), numbers_of(block.voxels)},
          .size = static_cast<std::uint32_t>(packed.size() - before),
@@ -245,6 +253,7 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
   {
     const std::optional<WindowRecord> old = record_of(record.window);
     const std::lock_guard lock(mutex_);
+    packers_.push_back(std::move(packer));
     record.extent = bytes_.write(packed);
     if (old && old->extent.size > 0) superseded_.push_back(old->extent);
     if (!old) ++live_;

@@ -20,6 +20,7 @@
 #include "engine/store/memory_budget.h"
 #include "engine/store/run_store.h"
 #include "engine/store/table/segment_file.h"
+#include "io/codec/pack_zstd.h"
 
 namespace mw::engine {
 
@@ -81,6 +82,7 @@ class WindowKeep : public BlockKeeper {
   [[nodiscard]] Known look_up(const WindowKey& key) const;
   [[nodiscard]] std::optional<WindowRecord> record_of(std::uint64_t window) const;
   void leave(const WindowKey& key, const WindowRecord& record);
+  [[nodiscard]] std::unique_ptr<io::ZstdPacker> take_packer();
   [[nodiscard]] static std::vector<KeptPlace> places_of(const WindowRecord& record);
   void write_group();
   void compact_log();
@@ -100,7 +102,8 @@ class WindowKeep : public BlockKeeper {
   std::vector<std::uint64_t> record_at_;  ///< by window, 1 more than where its fact is; 0: none
   std::map<std::uint64_t, Known> known_;  ///< of windows that are asked for and not done
   std::vector<WindowRecord> group_;       ///< not durable yet
-  std::vector<Extent> superseded_;        ///< by what is in the group
+  std::vector<std::unique_ptr<io::ZstdPacker>> packers_;  ///< that nobody uses
+  std::vector<Extent> superseded_;                        ///< by what is in the group
   Clock::time_point group_since_ = Clock::now();
   std::uint64_t live_ = 0;  ///< windows with a fact
   KeepFacts facts_;

@@ -64,6 +64,12 @@ class PreparedLabels {
   [[nodiscard]] bool has_source() const { return source_.has_value(); }
   /// The faces of the box that are in the volume.  REQUIRES: has_source().
   [[nodiscard]] SourceSurface source(const Box3& box) const;
+  /// Returns the only label of a brick, before and after coarsening; none where it has several.
+  /// REQUIRES: it is needed.
+  [[nodiscard]] std::optional<Label> only_label(Index3 brick) const {
+    const std::optional<Label> label = original_.uniform_label(brick);
+    return label == shapes().uniform_label(brick) ? label : std::nullopt;
+  }
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
   /// Returns what was counted while the labels were prepared.  REQUIRES: all labels are prepared.

@@ -7,6 +7,7 @@
 
 #include "engine/store/journal/work_file.h"
 #include "tests/engine/store/random_blocks.h"
+#include "tests/oracle/small_volumes.h"
 
 namespace mw::engine {
 namespace {
@@ -20,6 +21,23 @@ std::vector<RawLabel> random_labels(std::mt19937& random, std::size_t count) {
   return out;
 }
 
+/// A block of that number of labels, which are dense.
+std::pair<BlockMesh, std::size_t> dense_block(std::mt19937& random) {
+  BlockMesh mesh = test::random_block(random, 60);
+  std::vector<Label> labels;
+  for (const BlockTet& t : mesh.tets) labels.push_back(t.label);
+  for (const BlockSample& s : mesh.samples) labels.push_back(s.side);
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  const auto rank = [&](Label& label) {
+    label =
+        static_cast<Label>(std::lower_bound(labels.begin(), labels.end(), label) - labels.begin());
+  };
+  for (BlockTet& t : mesh.tets) rank(t.label);
+  for (BlockSample& s : mesh.samples) rank(s.side);
+  return {std::move(mesh), std::max<std::size_t>(labels.size(), 1)};
+}
+
 BlockMesh relabelled(BlockMesh mesh, const io::LabelTable& from, const io::LabelTable& to) {
   for (BlockTet& t : mesh.tets) t.label = to.dense(from.raw(t.label));
   for (BlockSample& s : mesh.samples) s.side = to.dense(from.raw(s.side));
@@ -31,11 +49,7 @@ TEST(KeptBlock, IsTheSameWhateverOtherLabelsThereAre) {
   for (int i = 0; i < 60; ++i) {
     const bool is_signed = i % 2 == 0;
     const BlockKey key{below(random, 3), {below(random, 9), below(random, 9), below(random, 9)}};
-    const BlockMesh mesh = test::random_block(random);
-    Label labels = 1;
-    for (const BlockTet& t : mesh.tets) labels = std::max(labels, t.label + 1);
-    for (const BlockSample& s : mesh.samples) labels = std::max(labels, s.side + 1);
-    if (labels > 10000) continue;
+    const auto [mesh, labels] = dense_block(random);
     std::vector<RawLabel> some = random_labels(random, labels), more = some;
     const std::vector<RawLabel> others = random_labels(random, 1 + below(random, 50));
     more.insert(more.end(), others.begin(), others.end());
@@ -52,7 +66,8 @@ TEST(KeptBlock, IsTheSameWhateverOtherLabelsThereAre) {
 TEST(KeptBlock, RefusesALabelThatIsGone) {
   std::mt19937 random(3512);
   const BlockKey key{0, {1, 2, 3}};
-  BlockMesh mesh = test::random_block(random);
+  BlockMesh mesh;
+  while (mesh.tets.empty()) mesh = test::random_block(random, 60);
   for (BlockTet& t : mesh.tets) t.label = 1;
   for (BlockSample& s : mesh.samples) s.side = 1;
   std::sort(mesh.tets.begin(), mesh.tets.end());

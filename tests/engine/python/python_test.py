@@ -693,5 +693,42 @@ class Errors(InFolder):
         self.assertEqual(mwmesh.Mesh(points, tets * 1.0, [2.0]).tets.tolist(), tets.tolist())
 
 
+class Sessions(InFolder):
+
+    def expect_fresh(self, session):
+        fresh = mwmesh.mesh(session.array, order="colour", window=8)
+        self.assertTrue(np.array_equal(session.mesh.points, fresh.points))
+        self.assertTrue(np.array_equal(session.mesh.tets, fresh.tets))
+        self.assertTrue(np.array_equal(session.mesh.labels, fresh.labels))
+
+    def test_ten_edits_give_the_meshes_of_fresh_runs(self):
+        random = np.random.default_rng(5)
+        session = mwmesh.Session(grains() * 3, window=8)
+        self.expect_fresh(session)
+        for step in range(10):
+            lo = [int(random.integers(0, n - 3)) for n in (22, 18, 20)]
+            hi = [n + 3 for n in lo]
+            old = session.array.copy()
+            if step % 3 == 2:
+                mesh, delta = session.update(np.where(old == old[9, 9, 9], old[0, 0, 0], old))
+            else:
+                mesh, delta = session.update((lo, hi), int(old[9, 9, 9]) + step % 2)
+            self.assertIs(mesh, session.mesh)
+            self.assertEqual(delta["voxels_changed"], int((old != session.array).sum()))
+            self.expect_fresh(session)
+
+    def test_edits_that_make_no_sense_change_nothing(self):
+        session = mwmesh.Session(grains(), keep=self.path("kept"), window=8)
+        before = session.array.copy()
+        for wrong in [(((0, 0, 0), (99, 1, 1)), 1), (before[1:],), (), (1, 2, 3)]:
+            with self.assertRaises(mwmesh.UsageError):
+                session.update(*wrong)
+        self.assertTrue(np.array_equal(session.array, before))
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.Session(before, order="raster")
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.Session(before, keep=self.path("kept"), window=8)
+
+
 if __name__ == "__main__":
     unittest.main()
