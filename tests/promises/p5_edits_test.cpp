@@ -87,8 +87,8 @@ void run_chain(Trial trial, std::mt19937& random, int edits, Chain& chain) {
 TEST(Promise5SameBytes, AfterEditsFromWhatWasKept) {
   std::mt19937 random(3501);
   Chain chain;
-  for (std::uint32_t i = 0; i < 16 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{12 + below(random, 12)}; };
+  for (std::uint32_t i = 0; i < 12 && !HasFailure(); ++i) {
+    const auto edge = [&] { return std::int64_t{10 + below(random, 10)}; };
     const auto x = edge(), y = edge(), z = edge();
     const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
     Trial trial = random_trial(
