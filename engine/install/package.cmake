@@ -73,7 +73,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library_name} (= ${PROJECT_VERSION})")
 # What the static library is linked with.
 string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libblosc-dev libbz2-dev libdraco-dev
-  libhdf5-dev liblz4-dev liblzma-dev libnetcdf-dev libpng-dev libpugixml-dev libssl-dev
+  libhdf5-dev liblz4-dev liblzma-dev libpng-dev libpugixml-dev libssl-dev
   libtbb-dev libtiff-dev libzstd-dev zlib1g-dev pkgconf)
 if(TARGET mwmesh-codt)
   mw_package(worker mwmesh-codt "labelled voxels to tetrahedral meshes - TetGen worker"

@@ -57,7 +57,8 @@ void add_sizes(std::mt19937& random, Trial& trial) {
     if (below(random, 2) == 0) continue;
     rules.labels.push_back({raw_label(label), size()});
   }
-  trial.settings.sizes.gradation = 0.25 * below(random, 5);
+  const double gradation = 0.25 * below(random, 5);
+  if (rules.any()) trial.settings.sizes.gradation = gradation;
 }
 
 Trial random_sized(std::mt19937& random, int i) {

@@ -134,6 +134,7 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .value = "FILE.toml",
                .help = "a key for each option, '-' as '_'; MW_NAME and flags are stronger",
                .group = kRunGroup,
+               .listed = Listed::kInHelpAll,
                .only_flag = true});
   options.add({.name = "print-config",
                .help = "prints the effective config and exits",

@@ -1,33 +1,33 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A netCDF file that is written through the library and gets its name when it is whole.
+// Writes netCDF files of the classic model.  The library itself is not used, because it crashes
+// where memory is refused.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/file/sink/atomic_file.h"
 
 namespace mw::io {
 
-/// A file of netCDF's 64-bit offset form, which all versions of the library read.  First dimensions
-/// and variables are defined, then begin_data() is called, then values are written in any order.
+/// A file of netCDF's 64-bit offset form ("CDF-2" of its format specification), which every version
+/// of the library reads.  First dimensions, variables and attributes are added, then begin_data()
+/// is called, then values are written in any order.  Values that are not written are zeros.
 /// Thread safety: none.
-/// ERRORS (all members): mw::Error(kResource) when the disk is full, and kUsage when the path
-/// cannot be written or the mesh is too large for the form; both name the file.
+/// ERRORS (all members): those of AtomicFile; mw::Error(kUsage) in begin_data() where a variable
+/// has more than 4 GiB, which the form cannot hold.
 class NetcdfOutput {
  public:
-  explicit NetcdfOutput(const std::filesystem::path& path);
-  ~NetcdfOutput();
-  NetcdfOutput(const NetcdfOutput&) = delete;
-  NetcdfOutput& operator=(const NetcdfOutput&) = delete;
+  explicit NetcdfOutput(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
 
   /// Returns the id of a dimension.  length: 0 for the one that may grow.
   int add_dimension(const std::string& name, std::uint64_t length);
-  /// Return the id of a variable over those dimensions.
+  /// Return the id of a variable over dimensions that do not grow.
   int add_integers(const std::string& name, const std::vector<int>& dimensions);
   int add_doubles(const std::string& name, const std::vector<int>& dimensions);
   int add_texts(const std::string& name, const std::vector<int>& dimensions);
@@ -38,22 +38,47 @@ class NetcdfOutput {
   void add_attribute(int variable, const std::string& name, int value);
   void add_attribute(int variable, const std::string& name, float value);
 
+  /// Places the variables and writes what tells of them.
   void begin_data();
   /// Write rows from `first` on.  columns: values of a row.
   void put(int variable, std::uint64_t first, std::span<const int> values, std::size_t columns = 1);
   void put(int variable, std::uint64_t first, std::span<const double> values);
-  /// Writes one text; what is longer than max_bytes is cut.
+  /// Writes one text into a row of max_bytes + 1 characters; what is longer than max_bytes is cut.
   void put_text(int variable, std::uint64_t row, const std::string& value, std::size_t max_bytes);
-  /// Closes the file and gives it its name together with `beside`, a file that belongs to it.
-  void commit(AtomicFile& beside);
+  /// Gives the file its name together with `beside`, a file that belongs to it.
+  void commit(AtomicFile& beside) { commit_together({beside, file_}); }
 
  private:
-  void check(int status) const;
-  int add_variable(const std::string& name, int type, const std::vector<int>& dimensions);
+  enum class Type : std::uint32_t { kText = 2, kInteger = 4, kFloat = 5, kDouble = 6 };
+  struct Attribute {
+    std::string name;
+    Type type = Type::kText;
+    std::uint64_t count = 0;
+    std::string bytes;  ///< as in the file, without padding
+  };
+  struct Dimension {
+    std::string name;
+    std::uint64_t length = 0;
+  };
+  struct Variable {
+    std::string name;
+    Type type = Type::kInteger;
+    std::vector<int> dimensions;
+    std::vector<Attribute> attributes;
+    std::uint64_t bytes = 0;  ///< with padding
+    std::uint64_t begin = 0;
+  };
+
+  int add_variable(const std::string& name, Type type, const std::vector<int>& dimensions);
+  void add(int variable, Attribute attribute);
+  [[nodiscard]] std::string header() const;
+  void write(int variable, std::uint64_t offset, const std::string& bytes);
 
   std::string name_;  ///< what errors call the file
   AtomicFile file_;
-  int netcdf_ = -1;  ///< the library's id; -1: closed
+  std::vector<Dimension> dimensions_;
+  std::vector<Variable> variables_;
+  std::vector<Attribute> attributes_;  ///< of the whole file
 };
 
 }  // namespace mw::io
