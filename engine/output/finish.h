@@ -57,9 +57,10 @@ struct EdgeRatios {
   static constexpr std::array<double, 7> kBounds{0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.5};
   std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(kBounds.size() + 1);
 
+  /// A ratio that is a bound counts below it.
   void add(double ratio) {
-    const auto above = std::upper_bound(kBounds.begin(), kBounds.end(), ratio);
-    ++counts[static_cast<std::size_t>(above - kBounds.begin())];
+    const auto bound = std::lower_bound(kBounds.begin(), kBounds.end(), ratio);
+    ++counts[static_cast<std::size_t>(bound - kBounds.begin())];
   }
 };
 

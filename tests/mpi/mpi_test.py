@@ -226,7 +226,7 @@ class SharedRuns(unittest.TestCase):
         done = subprocess.run(mpirun(3, "mesh", "--help"), capture_output=True, text=True,
                               timeout=LIMIT, env=environment())
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout.count("--quality-floor"), 1)
+        self.assertEqual(done.stdout.count("--max-distance"), 1)
 
     def kill_a_rank(self, chance, ranks, resume):
         """Starts a run, kills one of its processes after a while; whether the mesh was done."""
