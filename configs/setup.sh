@@ -70,12 +70,11 @@ install_packages() {
 }
 
 build() {
-  local tests=ON whole_folders=OFF
-  [[ "$what" == program ]] && tests=OFF && whole_folders=ON
+  local tests=ON
+  [[ "$what" == program ]] && tests=OFF
   cd "$root"
   echo "setup: building build/release"
-  quietly cmake --preset release -DMW_BUILD_TESTS=$tests -DMW_BUILD_BENCH=$tests \
-    -DCMAKE_UNITY_BUILD=$whole_folders || die "cmake failed (see above)"
+  quietly cmake --preset release -DMW_BUILD_TESTS=$tests -DMW_BUILD_BENCH=$tests || die "cmake failed (see above)"
   quietly cmake --build --preset release --parallel 2 || die "the build failed (see above)"
 }
 

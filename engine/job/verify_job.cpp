@@ -21,14 +21,14 @@ namespace mw::engine {
 namespace {
 
 /// The labels that a mesh is to hold, and who says so where nobody was asked.
-struct KeptLabels {
-  audit::KeptLabels labels;
+struct ChosenLabels {
+  audit::ChosenLabels labels;
   std::string told;
 };
 
-audit::KeptLabels empty_if_all(audit::KeptLabels kept) {
+audit::ChosenLabels empty_if_all(audit::ChosenLabels kept) {
   const bool leaves_out = std::find(kept.begin(), kept.end(), false) != kept.end();
-  return leaves_out ? std::move(kept) : audit::KeptLabels{};
+  return leaves_out ? std::move(kept) : audit::ChosenLabels{};
 }
 
 /// "2, 3, 4 and 95 more".
@@ -43,12 +43,12 @@ std::string list_of(const std::vector<RawLabel>& labels, bool is_signed) {
 }
 
 /// What a run has left out, its record tells.
-KeptLabels recorded_labels(const io::MeshRecord& record, const io::LabelTable& table) {
+ChosenLabels recorded_labels(const io::MeshRecord& record, const io::LabelTable& table) {
   const bool are_left_out = record.only_labels.empty();
   const auto& named = are_left_out ? record.without_labels : record.only_labels;
   if (named.empty()) return {};
   const io::LabelTable found(named, table.is_signed());
-  audit::KeptLabels kept;
+  audit::ChosenLabels kept;
   for (Label l = 0; l < table.size(); ++l) {
     kept.push_back(found.contains(table.raw(l)) != are_left_out);
   }
@@ -57,7 +57,7 @@ KeptLabels recorded_labels(const io::MeshRecord& record, const io::LabelTable& t
 }
 
 /// A file that tells of no run holds the labels that it holds.
-KeptLabels found_labels(const audit::KeptLabels& in_mesh, const io::LabelTable& table) {
+ChosenLabels found_labels(const audit::ChosenLabels& in_mesh, const io::LabelTable& table) {
   std::vector<RawLabel> missing;
   for (Label l = 0; l < table.size(); ++l) {
     if (!in_mesh[l]) missing.push_back(table.raw(l));
@@ -67,15 +67,15 @@ KeptLabels found_labels(const audit::KeptLabels& in_mesh, const io::LabelTable& 
                        ", which the file does not have"};
 }
 
-KeptLabels kept_labels(const LabelChoice& choice, const io::MeshRecord& record,
-                       const MeshTiles& mesh, const io::LabelTable& table) {
+ChosenLabels kept_labels(const LabelChoice& choice, const io::MeshRecord& record,
+                         const MeshTiles& mesh, const io::LabelTable& table) {
   if (choice.labels || choice.background) return {kept_labels(choice, table), ""};
   if (record.promises) return recorded_labels(record, table);
   return found_labels(mesh.labels(), table);
 }
 
 report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
-                         const KeptLabels& kept) {
+                         const ChosenLabels& kept) {
   report::Bounds out{.promises = record.promises.value_or(report::kOtherPromises),
                      .of_run = record.promises.has_value()};
   io::MeshPromises& bounds = out.promises;
@@ -121,7 +121,7 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   MeshTiles mesh(info, verdict.table, {job.folder, job.memory / 8});
   deliver(mesh);
   const io::MeshRecord& record = mesh.header().record;
-  const KeptLabels kept = kept_labels(job.choice, record, mesh, verdict.table);
+  const ChosenLabels kept = kept_labels(job.choice, record, mesh, verdict.table);
   verdict.bounds = bounds_of(job.asked, record, kept);
   VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space),
                   .threads = thread_count(job.threads),
@@ -140,9 +140,9 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   return verdict;
 }
 
-audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& table) {
+audit::ChosenLabels kept_labels(const LabelChoice& choice, const io::LabelTable& table) {
   const engine::WantedLabel wanted = wanted_labels(choice, table);
-  audit::KeptLabels kept;
+  audit::ChosenLabels kept;
   for (Label label = 0; wanted && label < table.size(); ++label) {
     kept.push_back(wanted(table.raw(label)));
   }

@@ -17,10 +17,10 @@
 namespace mw::engine {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x534C4542414C574DU;  // "MWLABELS"
+constexpr std::uint64_t kLabelsMagic = 0x534C4542414C574DU;  // "MWLABELS"
 constexpr std::uint64_t kVersion = 1;
 constexpr std::size_t kHeadNumbers = 10;
-constexpr int kPackLevel = 1;
+constexpr int kLabelPackLevel = 1;
 
 [[noreturn]] void fail_damaged(const char* reason) {
   throw DamagedWork("labels", reason);
@@ -80,7 +80,7 @@ std::optional<KeptLabels> KeptLabels::open(const std::filesystem::path& path, In
   io::FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.valid()) return std::nullopt;
   std::vector<std::uint64_t> head = read_numbers(file.get(), 0, kHeadNumbers);
-  if (head[0] != kMagic || head[1] != kVersion) fail_damaged("it begins as another file");
+  if (head[0] != kLabelsMagic || head[1] != kVersion) fail_damaged("it begins as another file");
   const io::VolumeInfo info = layout_of(head);
   if (!(info.shape == shape)) return std::nullopt;
   const std::uint64_t tiles = head[9];
@@ -118,7 +118,7 @@ void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
   const ReadingTiles tiles(info);
   const auto number = [](std::int64_t v) { return static_cast<std::uint64_t>(v); };
   const std::uint64_t count = number(tiles.count().product());
-  std::vector<std::uint64_t> head{kMagic,
+  std::vector<std::uint64_t> head{kLabelsMagic,
                                   kVersion,
                                   number(info.shape.x),
                                   number(info.shape.y),
@@ -130,7 +130,7 @@ void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
                                   count};
   const std::size_t head_bytes = (kHeadNumbers + 2 * count + 1) * sizeof(std::uint64_t);
   file.append(std::vector<std::byte>(head_bytes));
-  io::ZstdPacker packer(kPackLevel);
+  io::ZstdPacker packer(kLabelPackLevel);
   std::vector<RawLabel> labels;
   std::vector<std::byte> packed;
   for_each_index(tiles.count(), [&](Index3 tile) {
