@@ -22,13 +22,13 @@ namespace {
 
 /// The labels that a mesh is to hold, and who says so where nobody was asked.
 struct ChosenLabels {
-  audit::ChosenLabels labels;
+  audit::KeptLabels labels;
   std::string told;
 };
 
-audit::ChosenLabels empty_if_all(audit::ChosenLabels kept) {
+audit::KeptLabels empty_if_all(audit::KeptLabels kept) {
   const bool leaves_out = std::find(kept.begin(), kept.end(), false) != kept.end();
-  return leaves_out ? std::move(kept) : audit::ChosenLabels{};
+  return leaves_out ? std::move(kept) : audit::KeptLabels{};
 }
 
 /// "2, 3, 4 and 95 more".
@@ -48,7 +48,7 @@ ChosenLabels recorded_labels(const io::MeshRecord& record, const io::LabelTable&
   const auto& named = are_left_out ? record.without_labels : record.only_labels;
   if (named.empty()) return {};
   const io::LabelTable found(named, table.is_signed());
-  audit::ChosenLabels kept;
+  audit::KeptLabels kept;
   for (Label l = 0; l < table.size(); ++l) {
     kept.push_back(found.contains(table.raw(l)) != are_left_out);
   }
@@ -57,7 +57,7 @@ ChosenLabels recorded_labels(const io::MeshRecord& record, const io::LabelTable&
 }
 
 /// A file that tells of no run holds the labels that it holds.
-ChosenLabels found_labels(const audit::ChosenLabels& in_mesh, const io::LabelTable& table) {
+ChosenLabels found_labels(const audit::KeptLabels& in_mesh, const io::LabelTable& table) {
   std::vector<RawLabel> missing;
   for (Label l = 0; l < table.size(); ++l) {
     if (!in_mesh[l]) missing.push_back(table.raw(l));
@@ -140,9 +140,9 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   return verdict;
 }
 
-audit::ChosenLabels kept_labels(const LabelChoice& choice, const io::LabelTable& table) {
+audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& table) {
   const engine::WantedLabel wanted = wanted_labels(choice, table);
-  audit::ChosenLabels kept;
+  audit::KeptLabels kept;
   for (Label label = 0; wanted && label < table.size(); ++label) {
     kept.push_back(wanted(table.raw(label)));
   }
