@@ -9,6 +9,7 @@ namespace mw::cli {
 
 using report::add_colour;
 using report::append_with_rows;
+using report::betti_json;
 using report::interfaces_json;
 using report::kRows;
 using report::label_json;

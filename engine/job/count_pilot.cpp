@@ -14,6 +14,7 @@
 #include "engine/labels/voxel_lattice.h"
 #include "engine/output/label_selection.h"
 #include "engine/window/inner_quality.h"
+#include "io/mesh/no_sink.h"
 #include "io/volume/cropped_volume.h"
 #include "kernels/core/index.h"
 #include "kernels/start/cells/cell.h"
@@ -52,15 +53,6 @@ class Whole : public io::VolumeView {
  public:
   explicit Whole(const io::LabelVolume& volume) : VolumeView(volume) {}
   void read(const Box3& box, std::span<RawLabel> out) const override { below().read(box, out); }
-};
-
-class NoSink : public io::MeshSink {
- public:
-  void begin(const io::MeshHeader& /*header*/) override {}
-  void write_vertices(std::span<const io::Position> /*positions*/) override {}
-  void write_tets(std::span<const io::TetRows> /*tets*/,
-                  std::span<const RawLabel> /*labels*/) override {}
-  void finish() override {}
 };
 
 /// Which cubes are meshed: their chances are as their weights, and each place along the sum of all
@@ -278,7 +270,7 @@ class Pilot {
     std::optional<SizeImage> image;
     if (task_.image != nullptr) image.emplace(task_.image->scaled(scale));
     hooks.sizes = image ? &*image : nullptr;
-    NoSink sink;
+    io::NoSink sink;
     voxels_ += shape.product();
     return mesh_volume(labels, settings, sink, hooks);
   }

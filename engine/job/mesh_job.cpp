@@ -245,6 +245,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
   check(opened.info(), job.settings);
+  check_keep(job.run, job.settings);
   check_unpacking(opened, reading_room(job));
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const StoppableVolume from_file(opened, job.stop);

@@ -10,6 +10,7 @@
 
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
+#include "engine/report/mesh_facts.h"
 #include "engine/verify/tile_grid.h"
 #include "engine/verify/volume_stage.h"
 #include "io/labels/label_table.h"
@@ -17,13 +18,6 @@
 
 namespace mw::engine {
 namespace {
-
-Box3 with(const Box3& box, Index3 voxel) {
-  if (box == Box3{}) return {voxel, voxel + Index3{1, 1, 1}};
-  return {{std::min(box.lo.x, voxel.x), std::min(box.lo.y, voxel.y), std::min(box.lo.z, voxel.z)},
-          {std::max(box.hi.x, voxel.x + 1), std::max(box.hi.y, voxel.y + 1),
-           std::max(box.hi.z, voxel.z + 1)}};
-}
 
 /// Returns the labels of voxels that changed, both of before and after.
 std::set<RawLabel> compare(const io::LabelVolume& before, const io::LabelVolume& after,
@@ -44,7 +38,7 @@ std::set<RawLabel> compare(const io::LabelVolume& before, const io::LabelVolume&
       ++at;
       if (was == is) return;
       ++out.voxels;
-      out.box = with(out.box, voxel);
+      out.box = hull(out.box, {voxel, voxel + Index3{1, 1, 1}});
       touched.insert({was, is});
     });
   });
@@ -92,34 +86,15 @@ std::vector<ContactChange> contact_changes(const io::LabelVolume& before,
   return out;
 }
 
-io::Json label_json(RawLabel label, bool is_signed) {
-  if (is_signed) return static_cast<std::int64_t>(label);
-  return label;
-}
-
-io::Json betti_json(const audit::Betti& betti) {
-  io::Json out;
-  for (const std::int64_t b : {betti.b0, betti.b1, betti.b2}) out.push_back(b);
-  return out;
-}
-
 io::Json facts_json(const std::optional<LabelFacts>& facts) {
   if (!facts) return nullptr;
   return {{"voxels", facts->voxels},
-          {"betti_closed", betti_json(facts->betti.closed)},
-          {"betti_open", betti_json(facts->betti.open)}};
+          {"betti_closed", report::betti_json(facts->betti.closed)},
+          {"betti_open", report::betti_json(facts->betti.open)}};
 }
 
 io::Json faces_json(const std::array<std::uint64_t, 3>& faces) {
-  io::Json out;
-  for (const std::uint64_t n : faces) out.push_back(n);
-  return out;
-}
-
-io::Json index_json(Index3 at) {
-  io::Json out;
-  for (const std::int64_t v : {at.x, at.y, at.z}) out.push_back(v);
-  return out;
+  return {faces[0], faces[1], faces[2]};
 }
 
 io::Json size_json(const MeshSize& size) {
@@ -148,21 +123,20 @@ io::Json delta_json(const VolumeDelta& delta, const std::optional<MeshSize>& bef
   out["voxels_changed"] = delta.voxels;
   out["box"] = nullptr;
   if (delta.voxels > 0) {
-    out["box"] = {{"from", index_json(delta.box.lo)}, {"to", index_json(delta.box.hi)}};
+    out["box"] = {{"from", report::index_json(delta.box.lo)},
+                  {"to", report::index_json(delta.box.hi)}};
   }
   out["labels"] = io::Json::array();
   for (const LabelChange& change : delta.labels) {
-    out["labels"].push_back({{"label", label_json(change.label, delta.labels_signed)},
+    out["labels"].push_back({{"label", report::label_json(change.label, delta.labels_signed)},
                              {"before", facts_json(change.before)},
                              {"after", facts_json(change.after)}});
   }
   out["contacts"] = io::Json::array();
   for (const ContactChange& change : delta.contacts) {
-    io::Json labels;
-    for (const RawLabel label : {change.first, change.second}) {
-      labels.push_back(label_json(label, delta.labels_signed));
-    }
-    out["contacts"].push_back({{"labels", labels},
+    out["contacts"].push_back({{"labels",
+                                {report::label_json(change.first, delta.labels_signed),
+                                 report::label_json(change.second, delta.labels_signed)}},
                                {"faces_before", faces_json(change.before)},
                                {"faces_after", faces_json(change.after)}});
   }

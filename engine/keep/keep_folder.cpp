@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
 #include <sstream>
 
 #include "engine/store/journal/mapped_file.h"
@@ -38,13 +37,6 @@ bool is_left_over(const std::string& name) {
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw Error(ErrorKind::kUsage, path.string() + ": " + why);
-}
-
-std::string content_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
 }
 
 }  // namespace
@@ -102,7 +94,7 @@ void KeepFolder::settle(const std::string& settings) const {
     file.commit();
     return;
   }
-  const std::string before = content_of(path_ / kSettingsFile);
+  const std::string before = settings_in(path_ / kSettingsFile);
   if (before == settings) return;
   const std::string different = differences(before, settings);
   if (different.empty()) {
@@ -113,7 +105,7 @@ void KeepFolder::settle(const std::string& settings) const {
 }
 
 std::string KeepFolder::text(const char* name) const {
-  return content_of(path_ / name);
+  return settings_in(path_ / name);
 }
 
 void KeepFolder::put_text(const char* name, const std::string& text) const {
@@ -124,7 +116,7 @@ void KeepFolder::put_text(const char* name, const std::string& text) const {
 
 std::vector<Box3> KeepFolder::begin_change(const std::vector<Box3>& boxes) const {
   std::vector<Box3> all = boxes;
-  std::istringstream before(content_of(path_ / kChangingFile));
+  std::istringstream before(settings_in(path_ / kChangingFile));
   for (Box3 box; before >> box.lo.x >> box.lo.y >> box.lo.z >> box.hi.x >> box.hi.y >> box.hi.z;) {
     all.push_back(box);
   }

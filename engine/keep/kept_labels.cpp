@@ -49,11 +49,6 @@ std::vector<std::uint64_t> read_numbers(int file, std::uint64_t offset, std::siz
   return numbers_in(bytes);
 }
 
-bool do_meet(const Box3& a, const Box3& b) {
-  const Box3 both = intersection(a, b);
-  return both.lo.x < both.hi.x && both.lo.y < both.hi.y && both.lo.z < both.hi.z;
-}
-
 /// Copies the voxels of `part` from one box to another, both x fastest.
 void copy_box(const Box3& part, const Box3& from_box, std::span<const RawLabel> from,
               const Box3& to_box, std::span<RawLabel> to) {
@@ -156,8 +151,9 @@ void PatchedVolume::read(const Box3& box, std::span<RawLabel> out) const {
   std::vector<RawLabel> labels;
   for_each_index(over, [&](Index3 tile) {
     const Box3 tile_box = kept_.tiles().box(tile), part = intersection(tile_box, box);
-    const bool has_changed = std::any_of(changed_.begin(), changed_.end(),
-                                         [&](const Box3& c) { return do_meet(c, tile_box); });
+    const bool has_changed = std::any_of(changed_.begin(), changed_.end(), [&](const Box3& c) {
+      return !is_empty(intersection(c, tile_box));
+    });
     if (!has_changed) return copy_box(part, tile_box, kept_.read(tile), box, out);
     labels.resize(static_cast<std::size_t>(part.voxels()));
     below().read(part, labels);

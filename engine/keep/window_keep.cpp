@@ -21,14 +21,6 @@ std::uint64_t index_bytes_of(const RunLayout& layout) {
          label_digest_bytes(layout.grid(0).volume());
 }
 
-/// The smallest box with both; an empty one adds nothing.
-Box3 joined(const Box3& a, const Box3& b) {
-  if (a.lo.x >= a.hi.x) return b;
-  if (b.lo.x >= b.hi.x) return a;
-  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
-          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
-}
-
 std::array<std::int32_t, 6> numbers_of(const Box3& box) {
   const auto number = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
   return {number(box.lo.x), number(box.lo.y), number(box.lo.z),
@@ -139,7 +131,7 @@ WindowKeep::Known WindowKeep::look_up(const WindowKey& key) const {
     const KeptVersion& version = versions_[layout_.slot(block)];
     if (version.digest.is_none()) return false;
     blocks.add(version.digest);
-    out.seen.content = joined(out.seen.content, version.box());
+    out.seen.content = hull(out.seen.content, version.box());
     return true;
   };
   for (const BlockKey& block : blocks_of(key)) {
@@ -154,7 +146,7 @@ WindowKeep::Known WindowKeep::look_up(const WindowKey& key) const {
     out.seen.starts.push_back(block.block);
     Box3 box = layout_.grid(0).block_box(block.block);
     box.hi = box.hi + Index3{1, 1, 1};  // vertices lie on its far sides, too
-    out.seen.content = joined(out.seen.content, box);
+    out.seen.content = hull(out.seen.content, box);
   }
   out.input.blocks = blocks.finish();
   out.input.bricks = digests_->of_bricks(out.seen);

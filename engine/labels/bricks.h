@@ -6,15 +6,10 @@
 #include <cstdint>
 
 #include "io/labels/brick_volume.h"
-#include "kernels/core/index.h"
 
 namespace mw::engine {
 
 /// Voxels along each edge of a brick.
 inline constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
-
-[[nodiscard]] inline bool is_empty(const Box3& box) {
-  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
-}
 
 }  // namespace mw::engine

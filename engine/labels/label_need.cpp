@@ -59,11 +59,4 @@ NeededBricks bricks_of(const LabelNeed& need, Index3 volume, const MeshSettings&
   return out;
 }
 
-Box3 hull(const Box3& a, const Box3& b) {
-  if (is_empty(a)) return b;
-  if (is_empty(b)) return a;
-  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
-          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
-}
-
 }  // namespace mw::engine

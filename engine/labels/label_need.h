@@ -34,7 +34,4 @@ struct NeededBricks {
 [[nodiscard]] NeededBricks bricks_of(const LabelNeed& need, Index3 volume,
                                      const MeshSettings& settings);
 
-/// Returns the smallest box that holds both; an empty box adds nothing.
-[[nodiscard]] Box3 hull(const Box3& a, const Box3& b);
-
 }  // namespace mw::engine

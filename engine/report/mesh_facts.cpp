@@ -57,6 +57,14 @@ Json label_json(RawLabel label, bool is_signed) {
   return label;
 }
 
+Json betti_json(const audit::Betti& betti) {
+  return {betti.b0, betti.b1, betti.b2};
+}
+
+Json index_json(Index3 at) {
+  return {at.x, at.y, at.z};
+}
+
 void write_json(io::AtomicFile& file, const Json& value) {
   file.append(value.dump_indented());
   file.append("\n");

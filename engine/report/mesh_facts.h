@@ -21,6 +21,8 @@
 #include "kernels/audit/shape/shape.h"
 #include "kernels/audit/shape/volumes.h"
 #include "kernels/audit/subject.h"
+#include "kernels/audit/topology/betti.h"
+#include "kernels/core/index.h"
 
 namespace mw::report {
 
@@ -45,6 +47,12 @@ void print_quality(const audit::QualityReport& quality);
 
 /// A label as a JSON number.
 [[nodiscard]] io::Json label_json(RawLabel label, bool is_signed);
+
+/// [b0, b1, b2].
+[[nodiscard]] io::Json betti_json(const audit::Betti& betti);
+
+/// [x, y, z].
+[[nodiscard]] io::Json index_json(Index3 at);
 
 /// Writes the value, indented, and gives the file its name.
 void write_json(io::AtomicFile& file, const io::Json& value);

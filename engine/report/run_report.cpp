@@ -29,10 +29,6 @@ Json input_json(const FinishedRun& run) {
           {"voxels", info.shape.product()}};
 }
 
-Json index_json(Index3 v) {
-  return {v.x, v.y, v.z};
-}
-
 /// What --window, --max-distance and --target-reduction count in.
 Json lattice_json(const engine::LatticeFacts& lattice) {
   return {{"shape_xyz", index_json(lattice.shape)},

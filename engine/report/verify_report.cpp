@@ -94,9 +94,8 @@ Json volume_json(const Verdict& verdict) {
   return out;
 }
 
-Json betti_json(const audit::RegionBetti& betti) {
-  const auto numbers = [](const audit::Betti& b) { return Json{b.b0, b.b1, b.b2}; };
-  return {{"closed", numbers(betti.closed)}, {"open", numbers(betti.open)}};
+Json region_json(const audit::RegionBetti& betti) {
+  return {{"closed", betti_json(betti.closed)}, {"open", betti_json(betti.open)}};
 }
 
 Json asked_json(const Bounds& bounds) {
@@ -153,8 +152,8 @@ Json checks_json(const audit::AuditReport& audit) {
 }
 
 void add_topology(Label label, const audit::AuditReport& report, Json& row) {
-  row["betti_of_volume"] = betti_json(report.voxels[label]);
-  row["betti_of_mesh"] = betti_json(report.mesh[label]);
+  row["betti_of_volume"] = region_json(report.voxels[label]);
+  row["betti_of_mesh"] = region_json(report.mesh[label]);
 }
 
 Json verdict_json(const Verdict& verdict) {

@@ -93,7 +93,7 @@ struct RunHooks {
   const SizeImage* sizes = nullptr;  ///< of SizeRules::image; outlives the run
   StoreOptions store;                ///< memory and disk
   /// With a folder there is no work folder: what memory does not hold, and what a later run can go
-  /// on from, is there.  REQUIRES: then Order::kColour and one process.
+  /// on from, is there.  See check_keep().
   KeepOptions keep;
   codt::PoolOptions workers;  ///< of Optimizer::kTetgen
   /// The processes that the run is divided among; null if it is this one alone.  All of them call
@@ -112,13 +112,17 @@ struct RunHooks {
   bool owns_process = false;
 };
 
+/// For those who want to know before any work whether a run can keep what KeepOptions ask for.
+/// ERRORS: mw::Error(kUsage) where it cannot.
+void check_keep(const RunHooks& hooks, const MeshSettings& settings);
+
 /// Meshes the whole box of the volume into `sink`, on its VoxelLattice, in whose voxels the windows
 /// and bounds of the settings are counted.
 /// ENSURES: promises P1 to P3 and P5 of the README.
 ///          A run that ends early, by an error or because progress throws, leaves what it has done
 ///          in the work folder, if there is one and anything was done; otherwise the folder goes.
 /// ERRORS: whatever volume and sink throw; those of check(volume, settings) (voxel_lattice.h),
-///         Workdir and RunStore.
+///         check_keep(), Workdir and RunStore.
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks = {});
 

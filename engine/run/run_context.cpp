@@ -19,26 +19,13 @@ const MeshSettings& checked(const io::DenseVolume& volume, const MeshSettings& s
   return settings;
 }
 
-/// ERRORS: mw::Error(kUsage) where nothing can be kept.
-void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
-  if (settings.order != Order::kColour) {
-    throw Error(ErrorKind::kUsage,
-                "keep: needs order colour: in raster order an edit changes what all later windows "
-                "see, so nothing could be used again");
-  }
-  if (hooks.processes->count() > 1) {
-    throw Error(ErrorKind::kUsage, "keep: works in one process only, run mwmesh without mpirun");
-  }
-}
-
 RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {
   hooks.output.promises = promises_of(settings);
   hooks.output.layers = layers;
   hooks.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   if (hooks.processes == nullptr) hooks.processes = &one_process();
-  if (hooks.keep.folder.empty()) return hooks;
   check_keep(hooks, settings);
-  hooks.store.workdir.clear();
+  if (!hooks.keep.folder.empty()) hooks.store.workdir.clear();
   return hooks;
 }
 
@@ -101,6 +88,23 @@ RunReport begun_report(const RunContext& run) {
 }
 
 }  // namespace
+
+void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
+  if (hooks.keep.folder.empty()) return;
+  if (settings.order != Order::kColour) {
+    throw Error(ErrorKind::kUsage,
+                "keep: needs order colour: in raster order an edit changes what all later windows "
+                "see, so nothing could be used again");
+  }
+  if (settings.sizes.count > 0) {
+    throw Error(ErrorKind::kUsage,
+                "count: looks at the whole volume, so that an edit anywhere could change sizes "
+                "everywhere; with keep give size instead");
+  }
+  if (hooks.processes != nullptr && hooks.processes->count() > 1) {
+    throw Error(ErrorKind::kUsage, "keep: works in one process only, run mwmesh without mpirun");
+  }
+}
 
 std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings,
                              const LabelNeed* need) {

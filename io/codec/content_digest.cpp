@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 by OpenSSL's low-level functions, which do not allocate (io/mesh/hasher.cpp).
-#define OPENSSL_SUPPRESS_DEPRECATED
 #include "io/codec/content_digest.h"
 
 #include <array>
@@ -10,27 +8,10 @@
 
 namespace mw::io {
 
-DigestMaker::DigestMaker() {
-  SHA256_Init(&context_);
-}
-
-void DigestMaker::add(std::span<const std::byte> bytes) {
-  SHA256_Update(&context_, bytes.data(), bytes.size());
-}
-
-void DigestMaker::add(std::uint64_t word) {
-  std::array<std::byte, sizeof word> bytes{};
-  store_little(word, bytes.data());
-  add(bytes);
-}
-
 ContentDigest DigestMaker::finish() {
-  std::array<unsigned char, SHA256_DIGEST_LENGTH> bytes{};
-  SHA256_Final(bytes.data(), &context_);
-  const auto word = [&](std::size_t at) {
-    return load<std::uint64_t>(std::as_bytes(std::span(bytes)).data() + at, ByteOrder::kLittle);
-  };
-  return {word(0), word(8)};
+  const std::array<std::byte, SHA256_DIGEST_LENGTH> bytes = hasher_.finish_bytes();
+  return {load<std::uint64_t>(bytes.data(), ByteOrder::kLittle),
+          load<std::uint64_t>(bytes.data() + sizeof(std::uint64_t), ByteOrder::kLittle)};
 }
 
 ContentDigest content_digest(std::span<const std::byte> bytes) {

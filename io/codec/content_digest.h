@@ -3,12 +3,12 @@
 // Names for contents: equal digests are taken for equal bytes.
 #pragma once
 
-#include <openssl/sha.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
+
+#include "io/codec/hasher.h"
 
 namespace mw::io {
 
@@ -21,24 +21,21 @@ struct ContentDigest {
   [[nodiscard]] bool is_none() const { return first == 0 && second == 0; }
 };
 
-/// Takes contents piece by piece; where one ends and the next begins is not seen.
-/// Cost: about 1 ns a byte where the processor has instructions for it.
+/// A Hasher that takes and makes these digests.
 class DigestMaker {
  public:
-  DigestMaker();
-  void add(std::span<const std::byte> bytes);
-  void add(std::string_view text) { add(std::as_bytes(std::span(text))); }
-  /// Adds 8 bytes, the least significant first.
-  void add(std::uint64_t word);
+  void add(std::span<const std::byte> bytes) { hasher_.add(bytes); }
+  void add(std::string_view text) { hasher_.add(text); }
+  void add(std::uint64_t word) { hasher_.add(word); }
   void add(const ContentDigest& digest) {
     add(digest.first);
     add(digest.second);
   }
-  /// REQUIRES: called once, nothing is added afterwards.
+  /// REQUIRES: nothing is added afterwards.
   [[nodiscard]] ContentDigest finish();
 
  private:
-  SHA256_CTX context_{};
+  Hasher hasher_;
 };
 
 [[nodiscard]] ContentDigest content_digest(std::span<const std::byte> bytes);

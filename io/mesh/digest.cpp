@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "io/codec/hasher.h"
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
-#include "io/mesh/hasher.h"
 
 namespace mw::io {
 namespace {

@@ -40,6 +40,19 @@ struct Box3 {
   }
 };
 
+/// True if no voxel is in the box.
+[[nodiscard]] inline bool is_empty(const Box3& box) {
+  return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
+}
+
+/// The smallest box that holds both; an empty box adds nothing.
+[[nodiscard]] inline Box3 hull(const Box3& a, const Box3& b) {
+  if (is_empty(a)) return b;
+  if (is_empty(b)) return a;
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
 /// The voxels of both boxes; nothing (lo not below hi) when they do not meet.
 [[nodiscard]] inline Box3 intersection(const Box3& a, const Box3& b) {
   return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Promise 5: a volume that was edited and is meshed from what an earlier run has kept gives the
 // bytes of a run that begins afresh.
-#include <gtest/gtest.h>
-
 #include "tests/engine/keep/edits.h"
 #include "tests/engine/memory_run.h"
 #include "tests/temp_folder.h"
+#include "tests/testing.h"
 
 namespace mw::engine {
 namespace {
@@ -62,9 +61,11 @@ struct Chain {
   std::uint64_t skipped = 0;
 };
 
-void run_chain(Trial trial, std::mt19937& random, int edits, Chain& chain) {
+/// Edits the volume and returns what it did.
+using Edit = std::function<std::string(test::SmallVolume& volume)>;
+
+void run_chain(Trial trial, std::mt19937& random, int edits, const Edit& edit, Chain& chain) {
   const TempFolder folder;
-  Editor editor(random);
   KeepUse use = KeepUse::kBegin;
   std::string done = "begun";
   for (int i = 0; i <= edits && !testing::Test::HasFailure(); ++i) {
@@ -79,10 +80,40 @@ void run_chain(Trial trial, std::mt19937& random, int edits, Chain& chain) {
       chain.skipped += skipped(kept.facts);
     }
     use = KeepUse::kUpdate;
-    Box3 box;
-    done = editor.edit(trial.volume, box);
+    done = edit(trial.volume);
   }
 }
+
+/// Edits of every kind.
+Edit any_edit(Editor& editor) {
+  return [&editor](test::SmallVolume& volume) {
+    Box3 box;
+    return editor.edit(volume, box);
+  };
+}
+
+/// A dot of one label somewhere, in the place of one that was there before.
+class Dot {
+ public:
+  Dot(std::mt19937& random, Label label) : random_(random), label_(label) {}
+
+  std::string move(test::SmallVolume& volume) {
+    for (const auto& [at, label] : covered_) volume.labels[at] = label;
+    covered_.clear();
+    const auto x = std::int64_t{below(random_, static_cast<std::uint32_t>(volume.shape.x - 1))};
+    const Box3 all{{0, 0, 0}, volume.shape}, dot{{x, 4, 4}, {x + 2, 6, 6}};
+    for_each_index(dot, [&](Index3 v) {
+      const auto at = static_cast<std::size_t>(all.offset(v));
+      covered_.emplace_back(at, std::exchange(volume.labels[at], label_));
+    });
+    return "a dot at " + std::to_string(x);
+  }
+
+ private:
+  std::mt19937& random_;
+  Label label_;
+  std::vector<std::pair<std::size_t, Label>> covered_;  ///< and what was there
+};
 
 TEST(Promise5SameBytes, AfterEditsFromWhatWasKept) {
   std::mt19937 random(3501);
@@ -97,12 +128,39 @@ TEST(Promise5SameBytes, AfterEditsFromWhatWasKept) {
     trial.settings.window = kWindows[below(random, 3)];
     trial.settings.marches = static_cast<int>(1 + below(random, 2));
     trial.settings.order = Order::kColour;
-    run_chain(std::move(trial), random, 5, chain);
+    Editor editor(random);
+    run_chain(std::move(trial), random, 5, any_edit(editor), chain);
   }
   EXPECT_GT(chain.skipped, chain.visited / 2);
   EXPECT_GT(chain.visited, 100U);
   RecordProperty("visited", std::to_string(chain.visited));
   RecordProperty("skipped", std::to_string(chain.skipped));
+}
+
+/// Interfaces that are fitted to a source surface look farther than the bound does, and the limits
+/// of a label with a small size reach twenty voxels out of it where they grow slowly.  The volume
+/// is long, so that most windows are beyond what an edit reaches.
+TEST(Promise5SameBytes, AfterEditsFromWhatWasKeptWithSizes) {
+  std::mt19937 random(3502);
+  Chain chain;
+  for (int i = 0; i < 6 && !HasFailure(); ++i) {
+    Trial trial{.volume = test::with_room(random_volume_of(random, VolumeKind::kBlobs, {72, 10, 10},
+                                                           4 + below(random, 4))),
+                .settings = {.window = 4, .marches = 1, .order = Order::kColour},
+                .frame = {}};
+    constexpr Label kDot = 1;  // between those that with_room() leaves
+    const bool is_slow = i % 2 == 1;
+    trial.settings.sizes = {
+        .rules = {.labels = {{test::raw_label(kDot), 1.6}}, .others = is_slow ? 4.0 : 2.5},
+        .gradation = is_slow ? 0.1 : 1.0};
+    Editor editor(random);
+    Dot dot(random, kDot);
+    dot.move(trial.volume);
+    const Edit move = [&](test::SmallVolume& volume) { return dot.move(volume); };
+    run_chain(std::move(trial), random, 3, is_slow ? move : any_edit(editor), chain);
+  }
+  EXPECT_GT(chain.skipped, 20U);
+  EXPECT_GT(chain.visited, 100U);
 }
 
 }  // namespace

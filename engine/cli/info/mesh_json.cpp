@@ -12,10 +12,6 @@ namespace {
 
 using io::Json;
 
-Json betti_json(const audit::Betti& betti) {
-  return {betti.b0, betti.b1, betti.b2};
-}
-
 Json label_row(const MeshInfo& facts, Label rank, double total) {
   const LabelStats& label = facts.mesh.labels[rank];
   const RawLabel raw = facts.table.raw(rank);

@@ -22,6 +22,7 @@
 #include "io/file/errors.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"
+#include "io/mesh/no_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
 #include "io/volume/open_volume.h"
@@ -35,23 +36,13 @@ std::size_t digest_memory(std::uint64_t budget) {
   return std::clamp<std::uint64_t>(budget / 64, kMin, io::DigestSink::kMemoryBytes);
 }
 
-/// The sink of a process that writes nothing through it.
-class NoSink : public io::MeshSink {
- public:
-  void begin(const io::MeshHeader& /*header*/) override {}
-  void write_vertices(std::span<const io::Position> /*positions*/) override {}
-  void write_tets(std::span<const io::TetRows> /*tets*/,
-                  std::span<const RawLabel> /*labels*/) override {}
-  void finish() override {}
-};
-
 /// Whether this process leaves the mesh to another one, or to all of them.
 bool has_no_sink(const SharedOutput& shared) {
   return !run_processes().speaks() || shared.mesh != nullptr;
 }
 
 std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const SharedOutput& shared) {
-  if (has_no_sink(shared)) return std::make_unique<NoSink>();
+  if (has_no_sink(shared)) return std::make_unique<io::NoSink>();
   return io::open_mesh_sink(request.output, request.element,
                             request.ascii ? io::Encoding::kText : io::Encoding::kUsual);
 }
@@ -259,10 +250,6 @@ int run_mesh(MeshRequest& request, const OptionSet& options) {
     request.size_tables.push_back(std::move(file));
   }
   check_mesh_request(request);
-  if (runs_are_divided() && !request.job.run.keep.folder.empty()) {
-    throw Error(ErrorKind::kUsage,
-                "--keep: what is kept is that of one process; run mwmesh instead of mwmesh-mpi");
-  }
   start_log(run_processes().speaks() ? request.log_level : "off");
   take_part(request);
   int& threads = request.job.run.threads;

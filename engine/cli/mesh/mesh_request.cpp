@@ -202,37 +202,22 @@ void require_memory_for_page(const MeshRequest& request) {
 /// with.
 void settle_keep(MeshRequest& request) {
   engine::KeepOptions& keep = request.job.run.keep;
-  if (!request.keep.empty() && !request.from.empty() && request.keep != request.from) {
+  const bool updates = !request.from.empty();
+  if (updates && !request.keep.empty() && request.keep != request.from) {
     throw Error(ErrorKind::kUsage,
                 "--keep: --from updates the folder that it names, give one of the two");
   }
-  if (request.keep.empty() && request.from.empty()) {
-    if (keep.changed.empty() && request.delta.empty()) return;
+  if (!updates && !(keep.changed.empty() && request.delta.empty())) {
     throw Error(ErrorKind::kUsage, std::string(keep.changed.empty() ? "--delta" : "--changed") +
                                        ": says what changed since a run, give --from as well");
-  }
-  if (request.from.empty() && !keep.changed.empty()) {
-    throw Error(ErrorKind::kUsage, "--changed: goes with --from");
-  }
-  if (request.from.empty() && !request.delta.empty()) {
-    throw Error(ErrorKind::kUsage, "--delta: says what changed since a run, give --from as well");
   }
   request.job.wants_delta = !request.delta.empty();
   const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
   for (Box3& box : keep.changed) box = {box.lo - first, box.hi - first};
-  keep.folder = request.from.empty() ? request.keep : request.from;
-  keep.use = !request.from.empty()          ? engine::KeepUse::kUpdate
+  keep.folder = updates ? request.from : request.keep;
+  keep.use = updates                        ? engine::KeepUse::kUpdate
              : request.job.run.store.resume ? engine::KeepUse::kGoOn
                                             : engine::KeepUse::kBegin;
-  if (request.job.settings.sizes.count > 0) {
-    throw Error(ErrorKind::kUsage,
-                "--count: looks at the whole volume, so that an edit anywhere could change sizes "
-                "everywhere; give --size with --keep");
-  }
-  if (request.job.settings.order == engine::Order::kColour) return;
-  throw Error(ErrorKind::kUsage,
-              "--keep: leave out --order raster: there an edit reaches all windows behind it, so "
-              "that nothing could be used again");
 }
 
 /// What follows from other values.

@@ -81,17 +81,6 @@ bool is_plain(const std::string& text) {
                      [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
 }
 
-/// What the settings of a run could be; a damaged file may be anything.
-std::string content_of(const fs::path& path) {
-  std::error_code failed;
-  const std::uintmax_t size = fs::file_size(path, failed);
-  std::string content(failed ? 0 : std::min(size, kMaxSettings), '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(content.data(), static_cast<std::streamsize>(content.size()));
-  content.resize(static_cast<std::size_t>(in.gcount()));
-  return content;
-}
-
 /// Nothing is there afterwards.
 void clear_away(const fs::path& path) {
   std::error_code error;
@@ -123,6 +112,16 @@ std::string volume_text(const io::VolumeInfo& volume) {
 }
 
 }  // namespace
+
+std::string settings_in(const fs::path& path) {
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(path, failed);
+  std::string content(failed ? 0 : std::min(size, kMaxSettings), '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(in.gcount()));
+  return content;
+}
 
 std::string differences(const std::string& before, const std::string& now) {
   const Lines old_lines = lines_of(before), new_lines = lines_of(now);
@@ -168,11 +167,11 @@ Workdir::~Workdir() {
 }
 
 std::optional<std::string> saved_value(const fs::path& path, const std::string& name) {
-  return value_of(lines_of(content_of(path / kSettingsFile)), name);
+  return value_of(lines_of(settings_in(path / kSettingsFile)), name);
 }
 
 bool is_identity_of(const fs::path& path, const std::string& settings) {
-  return content_of(path / kSettingsFile) == settings;
+  return settings_in(path / kSettingsFile) == settings;
 }
 
 void Workdir::make_folder() {
@@ -215,7 +214,7 @@ bool Workdir::has_saved_work() {
 }
 
 void Workdir::check_settings(const std::string& settings) const {
-  const std::string before = content_of(path_ / kSettingsFile);
+  const std::string before = settings_in(path_ / kSettingsFile);
   if (before == settings) return;
   const std::string different = differences(before, settings);
   if (different.empty() || !is_plain(before)) {

@@ -60,6 +60,9 @@ class Workdir : public WorkFiles {
   bool keep_ = false;
 };
 
+/// What a small file of a run says; of a damaged one, which may be anything, the first 16 MiB.
+[[nodiscard]] std::string settings_in(const std::filesystem::path& file);
+
 /// A value among the settings in a folder, by its name; none: it has no such value.
 [[nodiscard]] std::optional<std::string> saved_value(const std::filesystem::path& path,
                                                      const std::string& name);

@@ -168,8 +168,11 @@ class Keep(unittest.TestCase):
 
     def test_refusals(self):
         self.refused(2, "begin it by --keep", "mesh", "v.npy", "-o", "m.vtu", "--from", "k")
-        self.refused(2, "--order raster", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k", "--order",
-                     "raster")
+        self.refused(2, "needs order colour", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k",
+                     "--order", "raster")
+        self.refused(2, "an edit anywhere", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k",
+                     "--count", "1000")
+        self.assertFalse(os.path.exists("k"))
         self.refused(2, "give --from", "mesh", "v.npy", "-o", "m.vtu", "--changed", "0,0,0,1,1,1")
         self.refused(2, "give one of the two", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k",
                      "--from", "l")

@@ -14,15 +14,6 @@ namespace {
 using namespace audit::test;
 using namespace test;
 
-/// Keeps nothing.
-class NoSink : public io::MeshSink {
- public:
-  void begin(const io::MeshHeader&) override {}
-  void write_vertices(std::span<const io::Position>) override {}
-  void write_tets(std::span<const io::TetRows>, std::span<const RawLabel>) override {}
-  void finish() override {}
-};
-
 /// What the histogram, lines of homes and lists of blocks of a few vertices take.
 constexpr std::uint64_t kFixedBytes = 128 << 10;
 /// What a vertex takes in VertexRows while a list is merged.
@@ -38,7 +29,7 @@ void expect_held(const Trial& trial, bool measured) {
   std::uint64_t held = 0;
   OutputOptions options{.measure_quality = measured, .measure_shape = measured};
   options.hold = [&](std::uint64_t bytes) { held = bytes; };
-  NoSink sink;
+  io::NoSink sink;
   const std::uint64_t before = mw::test::allocated_bytes();
   mw::test::start_peak();
   const FinishedMesh finished = finish({blocks, blocks.grid(), volume}, sink, options);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Records come back to the bit, through text and through every format that keeps them.
 #include "io/mesh/mesh_record.h"
+#include "io/codec/hasher.h"
 #include "io/mesh/digest.h"
-#include "io/mesh/hasher.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/read_back.h"
 #include "tests/io/mesh/sample_mesh.h"

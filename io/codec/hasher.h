@@ -1,23 +1,31 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 of a stream of 64-bit words.
+// SHA-256 of a stream of bytes and 64-bit words.
 #pragma once
 
 #include <openssl/sha.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace mw::io {
 
+/// Takes contents piece by piece; where one ends and the next begins is not seen.
+/// Cost: about 1 ns a byte where the processor has instructions for it.
 class Hasher {
  public:
   Hasher();
-  void add(std::string_view characters);
+  void add(std::span<const std::byte> bytes);
+  void add(std::string_view characters) { add(std::as_bytes(std::span(characters))); }
   /// Adds a number as 8 bytes, least significant first.
   void add(std::uint64_t word);
+  /// REQUIRES: nothing is added afterwards.
+  [[nodiscard]] std::array<std::byte, SHA256_DIGEST_LENGTH> finish_bytes();
   /// 64 hexadecimal digits.  REQUIRES: nothing is added afterwards.
   [[nodiscard]] std::string finish();
 

@@ -3,9 +3,7 @@
 // SHA-256 by OpenSSL: its low-level functions, since the others (EVP) allocate, and crash where an
 // allocation fails.
 #define OPENSSL_SUPPRESS_DEPRECATED
-#include "io/mesh/hasher.h"
-
-#include <array>
+#include "io/codec/hasher.h"
 
 #include "io/file/byte_order.h"
 
@@ -20,9 +18,9 @@ Hasher::Hasher() {
   SHA256_Init(&context_);
 }
 
-void Hasher::add(std::string_view characters) {
+void Hasher::add(std::span<const std::byte> bytes) {
   flush();
-  SHA256_Update(&context_, characters.data(), characters.size());
+  SHA256_Update(&context_, bytes.data(), bytes.size());
 }
 
 void Hasher::add(std::uint64_t word) {
@@ -31,15 +29,19 @@ void Hasher::add(std::uint64_t word) {
   if (buffer_.size() >= kBufferBytes) flush();
 }
 
-std::string Hasher::finish() {
+std::array<std::byte, SHA256_DIGEST_LENGTH> Hasher::finish_bytes() {
   flush();
-  std::array<unsigned char, SHA256_DIGEST_LENGTH> bytes{};
-  SHA256_Final(bytes.data(), &context_);
+  std::array<std::byte, SHA256_DIGEST_LENGTH> bytes{};
+  SHA256_Final(reinterpret_cast<unsigned char*>(bytes.data()), &context_);
+  return bytes;
+}
+
+std::string Hasher::finish() {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string hex;
-  for (const unsigned char byte : bytes) {
-    hex.push_back(kDigits[byte >> 4]);
-    hex.push_back(kDigits[byte & 15]);
+  for (const std::byte byte : finish_bytes()) {
+    hex.push_back(kDigits[std::to_integer<unsigned>(byte) >> 4]);
+    hex.push_back(kDigits[std::to_integer<unsigned>(byte) & 15]);
   }
   return hex;
 }

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A sink for those who want to know what a run tells of its mesh, and not the mesh.
+#pragma once
+
+#include "io/mesh/mesh_sink.h"
+
+namespace mw::io {
+
+/// Takes a mesh and writes nothing.
+class NoSink : public MeshSink {
+ public:
+  void begin(const MeshHeader& /*header*/) override {}
+  void write_vertices(std::span<const Position> /*positions*/) override {}
+  void write_tets(std::span<const TetRows> /*tets*/,
+                  std::span<const RawLabel> /*labels*/) override {}
+  void finish() override {}
+};
+
+}  // namespace mw::io
