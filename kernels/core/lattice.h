@@ -30,6 +30,17 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
+/// A position's coordinate along an axis: 0 for x, 1 for y, 2 for z.
+[[nodiscard]] constexpr std::int32_t along(Point p, unsigned axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// The position with another coordinate along an axis.
+[[nodiscard]] constexpr Point with_coordinate(Point p, unsigned axis, std::int32_t place) {
+  (axis == 0 ? p.x : axis == 1 ? p.y : p.z) = place;
+  return p;
+}
+
 /// Six times the signed volume of tetrahedron (a, b, c, d) in cubic lattice units: the
 /// determinant of (b - a, c - a, d - a); positive in the orientation that VTK asks for.
 /// REQUIRES: extents within kMaxTetExtent.  ENSURES: exact.

@@ -24,6 +24,8 @@ constexpr double kQuadricShare = 0.1;
 /// rest (bench/parameters.md, "Constants").
 constexpr double kMinGain = 0.002;
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
 /// Steps of the search around a fold, shares of the mean edge.
 constexpr std::array<double, 4> kSearchSteps{0.4, 0.2, 0.1, 0.05};
 constexpr int kHalvings = 2;
@@ -48,6 +50,9 @@ class Mover {
     }
   }
 
+  /// From now on moves stay in a plane that x lies in.
+  void keep_to(const FlatPlane& plane) { fixed_ |= 1U << plane.axis; }
+
   /// The lattice point at `offset` from x, if the quadric and the planes of the vertex let it go
   /// there.
   [[nodiscard]] std::optional<Point> target(Point x, Vec3 offset) const {
@@ -56,9 +61,8 @@ class Mover {
     }
     const Point y = metric_.moved(x, offset);
     if (y == x) return std::nullopt;
-    if (quadric_limit_) {
-      if (mesh_.quadric(v_).value(from_start(y)) > *quadric_limit_) return std::nullopt;
-    }
+    const bool is_limited = quadric_limit_ < kNoLimit;
+    if (is_limited && mesh_.quadric(v_).value(from_start(y)) > quadric_limit_) return std::nullopt;
     return y;
   }
 
@@ -84,8 +88,8 @@ class Mover {
     const Vec3 at = from_start(x);
     StarTerms terms = star_.terms_at(at);
     if (surface_ != nullptr) surface_->add_derivatives(at, terms.value, terms);
-    if (quadric_limit_) {
-      const double weight = kQuadricShare * terms.value / *quadric_limit_;
+    if (quadric_limit_ < kNoLimit) {
+      const double weight = kQuadricShare * terms.value / quadric_limit_;
       const Quadric q = mesh_.quadric(v_).shifted(at);
       terms.gradient += 2.0 * weight * q.linear();
       terms.hessian += 2.0 * weight * q.matrix();
@@ -116,7 +120,7 @@ class Mover {
   unsigned fixed_;
   double present_;
   double min_;
-  std::optional<double> quadric_limit_;
+  double quadric_limit_ = kNoLimit;
 };
 
 struct Best {
@@ -132,6 +136,17 @@ struct Best {
     return true;
   }
 };
+
+/// Begins with the foot in the plane, and keeps to the plane, if the tets there are good enough.
+void begin_in(const FlatPlane& plane, Mover& mover, Best& best) {
+  const Point foot = with_coordinate(best.position, plane.axis, plane.place);
+  if (foot != best.position) {
+    const double energy = mover.all_positive(foot) ? mover.energy(foot, kNoLimit) : kNoLimit;
+    if (!(energy < kNoLimit)) return;
+    best = {foot, energy};
+  }
+  mover.keep_to(plane);
+}
 
 void search(const Mover& mover, Best& best, int steps) {
   for (int i = 0; i < steps; ++i) {
@@ -212,6 +227,18 @@ void Smoother::collect_surface(LocalVertex v) {
                           weights.with_pressure ? &curvature_ : nullptr, debts_);
 }
 
+/// Where all faces that the star carries lie in one plane across an axis, and so does the ring, v
+/// belongs there, too, whatever shapes would gain beside it.
+/// REQUIRES: the surface is collected.
+std::optional<FlatPlane> Smoother::plane_to_keep(LocalVertex v) {
+  const std::span<const FanTriangle> fan = surface_.fan();
+  const std::optional<FlatPlane> plane = flat_plane(*guard_, v, fan);
+  if (!plane || (fixed_axes(mesh_.planes(v)) >> plane->axis & 1U) != 0) return std::nullopt;
+  if (has_ring(*plane, mesh_, fan)) return plane;
+  const bool goes_there = options_.flattens && wide_plane_.holds(*plane, mesh_, *guard_, fan);
+  return goes_there ? plane : std::nullopt;
+}
+
 bool Smoother::smooth(LocalVertex v) {
   const bool fitted = fits_interfaces() && mesh_.on_interface(v);
   star_.collect(mesh_, metric_, v);
@@ -220,14 +247,16 @@ bool Smoother::smooth(LocalVertex v) {
   if (fitted) collect_surface(v);
   const double min =
       min_allowed(present.worst, fitted ? kFloorOnSurface : kDecentRatio, options_.quality_floor);
-  const Mover mover(mesh_, metric_, star_, fitted ? &surface_energy_ : nullptr, v, present, min);
+  Mover mover(mesh_, metric_, star_, fitted ? &surface_energy_ : nullptr, v, present, min);
   const Point start = mesh_.position(v);
   Best best{start, present.energy};
+  const std::optional<FlatPlane> plane = fitted ? plane_to_keep(v) : std::nullopt;
+  if (plane) begin_in(*plane, mover, best);
+  const double enough = best.position == start ? (1.0 - kMinGain) * present.energy : best.energy;
   search(mover, best, options_.newton_steps);
   const bool folded =
       fitted && options_.surface->bend > 0.0 && surface_energy_.min_cosine() < kSharpCosine;
   if (folded) search_around(mover, surface_, best);
-  const double enough = (1.0 - kMinGain) * present.energy;
   const bool moved = take(mover, start, best, enough, folded || limits_.any() ? kHalvings : 0,
                           [&](Point x) { return move_to(v, x); });
   if (fitted && debts_ != nullptr) {

@@ -9,6 +9,7 @@
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/star_batch.h"
 #include "kernels/size/edge_limits.h"
+#include "kernels/surface/flat_plane.h"
 #include "kernels/surface/surface_energy.h"
 #include "kernels/surface/surface_star.h"
 
@@ -20,6 +21,9 @@ struct SmoothOptions {
   /// With a guard: interface vertices, however good their tets, go where SurfaceEnergy and the
   /// shape energy together are least.  None, or no guard: where shapes are best within the slack.
   std::optional<SurfaceWeights> surface;
+  /// Interface vertices go to the plane across an axis in which all faces lie that they and their
+  /// neighbours carry, even where the neighbours are beside it.
+  bool flattens = false;
   int newton_steps = 2;              ///< the most that a vertex takes in a call
   const SizeField* sizes = nullptr;  ///< edges keep to these limits; null: none
 };
@@ -47,6 +51,7 @@ class Smoother {
 
  private:
   void collect_surface(LocalVertex v);
+  [[nodiscard]] std::optional<FlatPlane> plane_to_keep(LocalVertex v);
   bool move_to(LocalVertex v, Point target);
 
   TetMesh& mesh_;
@@ -60,6 +65,7 @@ class Smoother {
   std::vector<FanTriangle> triangles_;  ///< at an interface vertex that is not fitted
   SurfaceStar surface_;                 ///< of one that is
   SurfaceEnergy surface_energy_;
+  WideFlatPlane wide_plane_;
   CurvatureField curvature_;  ///< as it was before the first move
 };
 

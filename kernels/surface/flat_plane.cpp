@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Most fans carry faces across several axes, which the first few of them tell.
+#include "kernels/surface/flat_plane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mw {
+namespace {
+
+FlatPlane plane_of(const DistanceGuard::Piece& piece) {
+  const double place = kUnitsPerVoxel * piece.middle[static_cast<int>(piece.axis)];
+  return {.axis = piece.axis, .place = static_cast<std::int32_t>(std::lround(place))};
+}
+
+/// False if the fan carries a face elsewhere.  An empty plane becomes that of the first face.
+bool add_fan(const DistanceGuard& guard, LocalVertex v, std::span<const FanTriangle> fan,
+             std::optional<FlatPlane>& plane) {
+  bool is_flat = true;
+  const auto add = [&](const DistanceGuard::Piece& piece) {
+    const FlatPlane found = plane_of(piece);
+    if (!plane) plane = found;
+    is_flat = is_flat && found == *plane;
+  };
+  for (const FanTriangle& t : fan) {
+    guard.for_each_piece(triangle_key(v, t.a, t.b), t.low, add);
+    if (!is_flat) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<FlatPlane> flat_plane(const DistanceGuard& guard, LocalVertex v,
+                                    std::span<const FanTriangle> fan) {
+  std::optional<FlatPlane> plane;
+  return add_fan(guard, v, fan, plane) ? plane : std::nullopt;
+}
+
+bool has_ring(const FlatPlane& plane, const TetMesh& mesh, std::span<const FanTriangle> fan) {
+  const auto is_in_plane = [&](LocalVertex w) {
+    return along(mesh.position(w), plane.axis) == plane.place;
+  };
+  return std::all_of(fan.begin(), fan.end(),
+                     [&](const FanTriangle& t) { return is_in_plane(t.a) && is_in_plane(t.b); });
+}
+
+bool WideFlatPlane::holds(const FlatPlane& plane, const TetMesh& mesh, const DistanceGuard& guard,
+                          std::span<const FanTriangle> fan) {
+  const auto is_flat_around = [&](LocalVertex w) {
+    fans_.collect(mesh, w, fan_);
+    std::optional<FlatPlane> same = plane;
+    return add_fan(guard, w, fan_, same);
+  };
+  return std::all_of(fan.begin(), fan.end(), [&](const FanTriangle& t) {
+    return is_flat_around(t.a) && is_flat_around(t.b);
+  });
+}
+
+}  // namespace mw

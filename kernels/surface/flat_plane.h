@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where the input is flat across an axis, so that the mesh can be flat to the last bit.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "kernels/distance/distance_guard.h"
+#include "kernels/distance/interface_fan.h"
+
+namespace mw {
+
+/// A plane across an axis.
+struct FlatPlane {
+  unsigned axis = 0;
+  std::int32_t place = 0;  ///< along the axis, lattice units
+
+  friend bool operator==(const FlatPlane&, const FlatPlane&) = default;
+};
+
+/// The one plane in which all faces lie that the triangles of a fan carry; empty if there is none.
+[[nodiscard]] std::optional<FlatPlane> flat_plane(const DistanceGuard& guard, LocalVertex v,
+                                                  std::span<const FanTriangle> fan);
+
+/// True if all vertices of a fan but its centre lie in the plane.
+[[nodiscard]] bool has_ring(const FlatPlane& plane, const TetMesh& mesh,
+                            std::span<const FanTriangle> fan);
+
+/// Asks the neighbours of a vertex as well.
+class WideFlatPlane {
+ public:
+  /// True if all faces lie in the plane that the fans of the neighbours carry.
+  [[nodiscard]] bool holds(const FlatPlane& plane, const TetMesh& mesh, const DistanceGuard& guard,
+                           std::span<const FanTriangle> fan);
+
+ private:
+  InterfaceFan fans_;
+  std::vector<FanTriangle> fan_;
+};
+
+}  // namespace mw
