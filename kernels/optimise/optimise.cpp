@@ -175,7 +175,6 @@ std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const Optimise
                     {.smooth_below = options.smooth_below,
                      .quality_floor = options.quality_floor,
                      .surface = weights,
-                     .flattens = true,
                      .newton_steps = 1,
                      .sizes = options.demands.sizes},
                     guard);

@@ -227,16 +227,16 @@ void Smoother::collect_surface(LocalVertex v) {
                           weights.with_pressure ? &curvature_ : nullptr, debts_);
 }
 
-/// Where all faces that the star carries lie in one plane across an axis, and so does the ring, v
-/// belongs there, too, whatever shapes would gain beside it.
+/// The plane that v belongs to, if the faces that it carries are flat, and the ring is or what it
+/// carries.  A step that the ring carries is part of a slope, which must not become a staircase.
 /// REQUIRES: the surface is collected.
 std::optional<FlatPlane> Smoother::plane_to_keep(LocalVertex v) {
   const std::span<const FanTriangle> fan = surface_.fan();
-  const std::optional<FlatPlane> plane = flat_plane(*guard_, v, fan);
+  const std::optional<FlatPlane> plane = flat_plane(mesh_, *guard_, v, fan);
   if (!plane || (fixed_axes(mesh_.planes(v)) >> plane->axis & 1U) != 0) return std::nullopt;
-  if (has_ring(*plane, mesh_, fan)) return plane;
-  const bool goes_there = options_.flattens && wide_plane_.holds(*plane, mesh_, *guard_, fan);
-  return goes_there ? plane : std::nullopt;
+  const bool belongs_there =
+      has_ring(*plane, mesh_, fan) || wide_plane_.holds(*plane, mesh_, *guard_, fan);
+  return belongs_there ? plane : std::nullopt;
 }
 
 bool Smoother::smooth(LocalVertex v) {

@@ -21,9 +21,6 @@ struct SmoothOptions {
   /// With a guard: interface vertices, however good their tets, go where SurfaceEnergy and the
   /// shape energy together are least.  None, or no guard: where shapes are best within the slack.
   std::optional<SurfaceWeights> surface;
-  /// Interface vertices go to the plane across an axis in which all faces lie that they and their
-  /// neighbours carry, even where the neighbours are beside it.
-  bool flattens = false;
   int newton_steps = 2;              ///< the most that a vertex takes in a call
   const SizeField* sizes = nullptr;  ///< edges keep to these limits; null: none
 };
@@ -31,12 +28,14 @@ struct SmoothOptions {
 /// Moves vertices to where the shape energy of their stars (kernels/quality/star_batch.h) is
 /// clearly lower.
 ///
-/// Inner vertices move freely, box vertices within their planes.  Interface vertices move by
-/// SurfaceEnergy as well; those with a fold at them search along the normal and across it too,
-/// because Newton's steps end in the nearest minimum.  Without a surface energy they go only where
-/// their quadric stays below max(present value, a quarter voxel squared per accumulated plane): the
-/// slack is absolute, so it does not add up over visits.  With a guard they keep the distance bound
-/// as well.
+/// Inner vertices move freely, box vertices within their planes.  Where the faces that an interface
+/// vertex carries are flat (flat_plane.h), it goes to their plane and stays there, whatever shapes
+/// would gain beside it: what is flat in the input is flat in the mesh, to the last bit.  Interface
+/// vertices move by SurfaceEnergy as well; those with a fold at them search along the normal and
+/// across it too, because Newton's steps end in the nearest minimum.  Without a surface energy they
+/// go only where their quadric stays below max(present value, a quarter voxel squared per
+/// accumulated plane): the slack is absolute, so it does not add up over visits.  With a guard they
+/// keep the distance bound as well.
 class Smoother {
  public:
   /// debts: those of the sweep before, which become those of this one; null: none.

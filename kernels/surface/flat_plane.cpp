@@ -30,12 +30,22 @@ bool add_fan(const DistanceGuard& guard, LocalVertex v, std::span<const FanTrian
   return true;
 }
 
+std::optional<FlatPlane> plane_of(const TetMesh& mesh, LocalVertex v,
+                                  std::span<const FanTriangle> fan) {
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const FlatPlane plane{.axis = axis, .place = along(mesh.position(v), axis)};
+    if (has_ring(plane, mesh, fan)) return plane;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::optional<FlatPlane> flat_plane(const DistanceGuard& guard, LocalVertex v,
+std::optional<FlatPlane> flat_plane(const TetMesh& mesh, const DistanceGuard& guard, LocalVertex v,
                                     std::span<const FanTriangle> fan) {
   std::optional<FlatPlane> plane;
-  return add_fan(guard, v, fan, plane) ? plane : std::nullopt;
+  if (!add_fan(guard, v, fan, plane)) return std::nullopt;
+  return plane ? plane : plane_of(mesh, v, fan);
 }
 
 bool has_ring(const FlatPlane& plane, const TetMesh& mesh, std::span<const FanTriangle> fan) {

@@ -20,9 +20,10 @@ struct FlatPlane {
   friend bool operator==(const FlatPlane&, const FlatPlane&) = default;
 };
 
-/// The one plane in which all faces lie that the triangles of a fan carry; empty if there is none.
-[[nodiscard]] std::optional<FlatPlane> flat_plane(const DistanceGuard& guard, LocalVertex v,
-                                                  std::span<const FanTriangle> fan);
+/// The one plane in which all faces lie that the triangles of a fan carry, or where they carry none
+/// the triangles themselves; empty if there is no such plane.
+[[nodiscard]] std::optional<FlatPlane> flat_plane(const TetMesh& mesh, const DistanceGuard& guard,
+                                                  LocalVertex v, std::span<const FanTriangle> fan);
 
 /// True if all vertices of a fan but its centre lie in the plane.
 [[nodiscard]] bool has_ring(const FlatPlane& plane, const TetMesh& mesh,
