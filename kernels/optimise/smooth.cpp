@@ -29,6 +29,8 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// Steps of the search around a fold, shares of the mean edge.
 constexpr std::array<double, 4> kSearchSteps{0.4, 0.2, 0.1, 0.05};
 constexpr int kHalvings = 2;
+/// Of the way to a plane.
+constexpr int kHalvingsToPlane = 4;
 
 /// What a move of one vertex has to respect, and what it costs.
 class Mover {
@@ -50,7 +52,7 @@ class Mover {
     }
   }
 
-  /// From now on moves stay in a plane that x lies in.
+  /// From now on moves go along a plane.
   void keep_to(const FlatPlane& plane) { fixed_ |= 1U << plane.axis; }
 
   /// The lattice point at `offset` from x, if the quadric and the planes of the vertex let it go
@@ -137,15 +139,23 @@ struct Best {
   }
 };
 
-/// Begins with the foot in the plane, and keeps to the plane, if the tets there are good enough.
+Point between(Point a, Point b) {
+  return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2, a.z + (b.z - a.z) / 2};
+}
+
+/// Begins with the foot in the plane, or as near to it as the tets stay good enough, and then moves
+/// along the plane only.
 void begin_in(const FlatPlane& plane, Mover& mover, Best& best) {
-  const Point foot = with_coordinate(best.position, plane.axis, plane.place);
-  if (foot != best.position) {
-    const double energy = mover.all_positive(foot) ? mover.energy(foot, kNoLimit) : kNoLimit;
-    if (!(energy < kNoLimit)) return;
-    best = {foot, energy};
-  }
   mover.keep_to(plane);
+  Point foot = with_coordinate(best.position, plane.axis, plane.place);
+  for (int halving = 0; halving <= kHalvingsToPlane && foot != best.position; ++halving) {
+    const double energy = mover.all_positive(foot) ? mover.energy(foot, kNoLimit) : kNoLimit;
+    if (energy < kNoLimit) {
+      best = {foot, energy};
+      return;
+    }
+    foot = between(best.position, foot);
+  }
 }
 
 void search(const Mover& mover, Best& best, int steps) {
@@ -186,10 +196,6 @@ void search_around(const Mover& mover, const SurfaceStar& star, Best& best) {
       best.offer(mover, mover.target(best.position, -step * edge * way));
     }
   }
-}
-
-Point between(Point a, Point b) {
-  return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2, a.z + (b.z - a.z) / 2};
 }
 
 /// Moves to the best place by move(place), or where that is refused to places half as far.
