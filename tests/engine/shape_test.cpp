@@ -133,6 +133,41 @@ TEST(SmoothSurface, TiltedPlanesAreFlat) {
   }
 }
 
+/// Layers across an axis, whose labels take turns.
+SmallVolume layers(int axis, const std::vector<std::int64_t>& ends, std::int64_t edge) {
+  return body(edge, 2, [&](const Vec3& p) {
+    const auto below = [&](std::int64_t end) { return static_cast<double>(end) < p[axis]; };
+    return static_cast<Label>(std::count_if(ends.begin(), ends.end(), below) % 2);
+  });
+}
+
+TEST(SmoothSurface, FlatLayersAreFlatToTheLastBit) {
+  std::mt19937 random(333);
+  for (int i = 0; i < 9; ++i) {
+    std::vector<std::int64_t> ends;
+    for (std::int64_t end = 3 + audit::test::below(random, 12); end < 45;) {
+      ends.push_back(end);
+      end += 3 + audit::test::below(random, 16);
+    }
+    const Result r = run(layers(i % 3, ends, 48));
+    for (std::size_t l = 0; l < r.report.label_voxels.size(); ++l) {
+      EXPECT_EQ(r.report.label_volumes6[l], Int128{kVoxelVolume6} * r.report.label_voxels[l]);
+    }
+    EXPECT_EQ(r.report.shape->bend_max_deg, 0.0);
+  }
+}
+
+/// The floor holds some vertices back: without it a plate would be flat as well.
+TEST(SmoothSurface, PlatesOfOneVoxelAreFlatAndNotThick) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::int64_t place : {20, 21}) {
+      const Result r = run(layers(axis, {place, place + 1}, 40));
+      EXPECT_LT(r.volume_error(), 0.05);
+      EXPECT_LT(r.report.shape->bend_p95_deg, 5.0);
+    }
+  }
+}
+
 TEST(SmoothSurface, TwoVoxelSheetsAreFlatOnBothSides) {
   const Vec3 normal = Vec3(0.3, 0.5, 0.81).normalized();
   const Result r = run(body(64, 2, [&](const Vec3& p) {
