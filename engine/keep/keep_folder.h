@@ -56,6 +56,9 @@ class KeepFolder : public WorkFiles {
   io::FileDescriptor lock_;
 };
 
+/// Changes with what is in the files; it is one of the settings, so a folder of another is refused.
+inline constexpr int kFolderFormat = 2;
+
 inline constexpr const char* kVersionsFile = "versions";
 inline constexpr const char* kWindowsFile = "windows";
 inline constexpr const char* kLabelsFile = "labels";

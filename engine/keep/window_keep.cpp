@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/codec/codec.h"
+#include "engine/keep/window_pack.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 
@@ -25,12 +25,6 @@ std::array<std::int32_t, 6> numbers_of(const Box3& box) {
   const auto number = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
   return {number(box.lo.x), number(box.lo.y), number(box.lo.z),
           number(box.hi.x), number(box.hi.y), number(box.hi.z)};
-}
-
-/// More than any block of this size in memory takes as it is kept.
-std::size_t max_kept_bytes(std::uint32_t memory_kib) {
-  constexpr std::size_t kSmall = 1 << 16;
-  return kSmall + std::size_t{memory_kib} * 2048;
 }
 
 std::uint32_t sum_of(const io::ContentDigest& digest) {
@@ -200,11 +194,11 @@ void WindowKeep::leave(const WindowKey& key, const WindowRecord& record) {
 }
 
 std::vector<KeptPlace> WindowKeep::places_of(const WindowRecord& record) {
+  const auto size = static_cast<std::uint32_t>(record.extent.size);
   std::vector<KeptPlace> out;
-  std::uint64_t offset = record.extent.offset;
   for (const KeptBlock& block : record.blocks) {
-    out.push_back({offset, block.size, sum_of(block.version.digest), block.memory_kib});
-    offset += block.size;
+    out.push_back({record.extent.offset, size, sum_of(block.version.digest), block.memory_kib,
+                   static_cast<std::uint8_t>(out.size())});
   }
   return out;
 }
@@ -230,17 +224,15 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
     known_.erase(known);
   }
   if (record.input.labels.is_none()) record.input.labels = digests_->exact(seen);
-  std::vector<std::byte> packed;
-  std::unique_ptr<io::ZstdPacker> packer = take_packer();
+  std::vector<std::vector<std::byte>> kept;
   for (const LeftBlock& block : blocks) {
-    const std::vector<std::byte> kept = to_kept(block.bytes, keys_);
-    const std::size_t before = packed.size();
-    packer->append(kept, packed);
+    kept.push_back(to_kept(block.bytes, keys_));
     record.blocks.push_back(
-        {.version = {io::content_digest(kept), numbers_of(block.voxels)},
-         .size = static_cast<std::uint32_t>(packed.size() - before),
+        {.version = {io::content_digest(kept.back()), numbers_of(block.voxels)},
          .memory_kib = static_cast<std::uint32_t>((block.memory_bytes + 1023) / 1024)});
   }
+  std::unique_ptr<io::ZstdPacker> packer = take_packer();
+  const std::vector<std::byte> packed = pack_blocks(kept, *packer);
   bool full = false;
   {
     const std::optional<WindowRecord> old = record_of(record.window);
@@ -266,7 +258,9 @@ std::vector<std::byte> WindowKeep::read(const BlockKey& key, const KeptPlace& pl
   std::vector<std::byte> kept;
   bytes_.read({place.offset, place.size}, [&](std::span<const std::byte> packed) {
     try {
-      kept = io::unpack_zstd(packed, max_kept_bytes(place.memory_kib), "versions");
+      kept = unpack_block(packed, place.part);
+    } catch (const BadBytes& bad) {
+      throw DamagedWork(name(key), bad.reason);
     } catch (const Error& error) {
       throw DamagedWork(name(key), error.what());
     }

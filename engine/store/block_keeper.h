@@ -15,9 +15,10 @@ namespace mw::engine {
 /// Where a kept version of a block is.
 struct KeptPlace {
   std::uint64_t offset = 0;
-  std::uint32_t size = 0;  ///< not 0
+  std::uint32_t size = 0;  ///< of all that the window left together; not 0
   std::uint32_t sum = 0;   ///< of what is there
   std::uint32_t memory_kib = 0;
+  std::uint8_t part = 0;  ///< which of the window's blocks it is
 };
 
 /// A block as a window left it.

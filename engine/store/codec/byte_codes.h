@@ -4,6 +4,7 @@
 // codec share; the layout itself is told in block_codec.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,11 @@ class ByteWriter {
     room(sizeof value);
     io::store_little(value, bytes_.data() + size_);
     size_ += count;
+  }
+  void append(std::span<const std::byte> bytes) {
+    room(bytes.size());
+    std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += bytes.size();
   }
   [[nodiscard]] std::size_t size() const { return size_; }
   /// What was written; can be changed in place.
@@ -80,6 +86,13 @@ class ByteReader {
     }
     rest_ = rest_.subspan(count);
     return value;
+  }
+  /// The next bytes as they are.
+  [[nodiscard]] std::span<const std::byte> bytes(std::size_t count) {
+    if (count > rest_.size()) throw BadBytes{"it ends too early"};
+    const std::span<const std::byte> out = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return out;
   }
   /// A number of things that take at least one byte each, so that nobody makes room for more.
   [[nodiscard]] std::size_t count() {

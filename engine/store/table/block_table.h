@@ -34,11 +34,12 @@ struct StoredBlock {
   std::uint32_t sum = 0;
   std::uint32_t memory_kib = 0;
   bool recorded = false;  ///< a record of the journal, written or being written, points to it
-  bool kept = false;      ///< offset, size and sum are those of a KeptPlace
+  bool kept = false;      ///< offset, size, sum and part are those of a KeptPlace
+  std::uint8_t part = 0;
 
   [[nodiscard]] Extent extent() const { return {offset, size}; }
   /// REQUIRES: kept.
-  [[nodiscard]] KeptPlace place() const { return {offset, size, sum, memory_kib}; }
+  [[nodiscard]] KeptPlace place() const { return {offset, size, sum, memory_kib, part}; }
   [[nodiscard]] bool empty() const { return cached == nullptr && size == 0; }
 };
 
