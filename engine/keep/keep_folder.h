@@ -34,6 +34,8 @@ class KeepFolder : public WorkFiles {
   void settle(const std::string& settings) const;
 
   [[nodiscard]] std::unique_ptr<WorkFile> open(const std::string& name) override;
+  /// A file without a name.
+  [[nodiscard]] std::unique_ptr<WorkFile> open_scratch() const;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Bytes of all its files.
   [[nodiscard]] std::uint64_t bytes() const;

@@ -38,6 +38,7 @@ ByteWriter encode(const WindowRecord& record) {
     put(out, block.version.digest);
     for (const std::int32_t v : block.version.voxels) out.varint(zigzag(v));
     out.varint(block.memory_kib);
+    out.varint(std::uint64_t{block.is_kept});
   }
   return out;
 }
@@ -58,6 +59,7 @@ WindowRecord decode_window_record(std::span<const std::byte> bytes) {
       v = static_cast<std::int32_t>(unzigzag(in.varint()));
     }
     block.memory_kib = get_number(in);
+    block.is_kept = in.below(2) == 1;
   }
   if (!in.at_end()) throw BadBytes{"a record has a wrong length"};
   return out;
