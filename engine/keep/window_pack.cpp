@@ -256,7 +256,29 @@ class ColumnReader {
     return {bytes.begin(), bytes.end()};
   }
 
+  /// Goes past the next block: what later ones share with it is known then.
+  void pass() {
+    in_[kCounts].pass(in_[kCounts].varint());
+    static_cast<void>(read_vertices(in_[kCounts].varint()));
+    const std::uint64_t tets = in_[kCounts].varint();
+    in_[kFirstRows].pass(tets);
+    in_[kOtherRows].pass(3 * tets);
+    in_[kTetLabels].pass(tets);
+    const std::uint64_t samples = in_[kCounts].varint(), lists = in_[kCounts].varint();
+    in_[kFirstCorners].pass(lists);
+    in_[kOtherCorners].pass(2 * lists);
+    in_[kSides].pass(lists);
+    in_[kListSizes].pass(lists);
+    static_cast<void>(in_[kQuarters].bytes(samples));
+    for (std::size_t i = 0; i < 3; ++i) in_[kAlong + i].pass(samples);
+  }
+
  private:
+  struct Vertices {
+    std::vector<std::uint64_t> steps;  ///< of their ids
+    std::vector<KnownVertex> all;
+  };
+
   std::uint64_t copy(std::size_t column, ByteWriter& out) {
     const std::uint64_t value = in_[column].varint();
     out.varint(value);
@@ -268,25 +290,25 @@ class ColumnReader {
     for (std::uint64_t n = copy(kCounts, out); n > 0; --n) copy(kCounts, out);
   }
 
-  void vertices(ByteWriter& out) {
-    const std::uint64_t count = copy(kCounts, out);
-    std::vector<KnownVertex> all;
+  void vertices(ByteWriter& out) { write(read_vertices(copy(kCounts, out)), out); }
+
+  Vertices read_vertices(std::uint64_t count) {
+    Vertices out;
     std::uint64_t id = 0;
-    std::vector<std::uint64_t> steps;
     for (std::uint64_t n = count; n > 0; --n) {
-      steps.push_back(in_[kIds].varint());
-      id += steps.back();
+      out.steps.push_back(in_[kIds].varint());
+      id += out.steps.back();
       const KnownVertex* const known = known_.find(id);
       if (byte(kSeen) == 0) {
-        all.push_back(read(id));
+        out.all.push_back(read(id));
       } else if (known != nullptr) {
-        all.push_back(*known);
+        out.all.push_back(*known);
       } else {
         throw BadBytes{"a vertex is in no earlier block"};
       }
     }
     known_.end_block();
-    write(all, steps, out);
+    return out;
   }
 
   KnownVertex read(std::uint64_t id) {
@@ -309,17 +331,16 @@ class ColumnReader {
     return vertex;
   }
 
-  void write(const std::vector<KnownVertex>& vertices, const std::vector<std::uint64_t>& steps,
-             ByteWriter& out) const {
+  void write(const Vertices& vertices, ByteWriter& out) const {
     std::array<std::int64_t, 3> least{};
-    if (!vertices.empty()) least = vertices[0].position;
-    for (const KnownVertex& v : vertices) {
+    if (!vertices.all.empty()) least = vertices.all[0].position;
+    for (const KnownVertex& v : vertices.all) {
       for (std::size_t i = 0; i < 3; ++i) least[i] = std::min(least[i], v.position[i]);
     }
     for (std::int64_t c : least) out.varint(zigzag(c));
-    for (std::size_t n = 0; n < vertices.size(); ++n) {
-      const KnownVertex& v = vertices[n];
-      out.varint(steps[n]);
+    for (std::size_t n = 0; n < vertices.all.size(); ++n) {
+      const KnownVertex& v = vertices.all[n];
+      out.varint(vertices.steps[n]);
       for (std::size_t i = 0; i < 3; ++i) {
         out.varint(static_cast<std::uint64_t>(v.position[i] - least[i]));
       }
@@ -425,7 +446,7 @@ std::vector<std::byte> pack_blocks(std::span<const std::vector<std::byte>> block
 std::vector<std::byte> unpack_block(std::span<const std::byte> packed, std::size_t index) {
   const std::array<std::vector<std::byte>, kColumns> columns = unpack_columns(packed);
   ColumnReader reader(columns);
-  for (std::size_t i = 0; i < index; ++i) static_cast<void>(reader.next());
+  for (std::size_t i = 0; i < index; ++i) reader.pass();
   return reader.next();
 }
 

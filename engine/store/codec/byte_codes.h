@@ -106,6 +106,12 @@ class ByteReader {
     if (value >= limit) throw BadBytes{"a number is out of range"};
     return value;
   }
+  /// Goes past some varints.
+  void pass(std::uint64_t varints) {
+    while (varints > 0) {
+      if (next() < std::byte{0x80}) --varints;
+    }
+  }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   /// What was not read yet.
   [[nodiscard]] std::span<const std::byte> rest() const { return rest_; }
