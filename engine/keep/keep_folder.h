@@ -15,7 +15,7 @@ namespace mw::engine {
 /// A folder with
 ///     lock          held (flock) by the process that works here
 ///     settings.txt  what the facts here depend on beside the labels: lines "name = value"
-///     versions      bytes of blocks (kept_block.h), packed, where the records say
+///     versions      bytes of blocks (window_pack.h), where the records say
 ///     windows       what went into windows and came out (record_log.h, window_records.h)
 ///     labels        the labels of the run that was complete last (kept_labels.h)
 ///     chosen.txt    what the last run chose by itself
