@@ -81,7 +81,7 @@ class KnownVertices {
     while (next_ < known_.size() && known_[next_].id < id) ++next_;
     return next_ < known_.size() && known_[next_].id == id ? &known_[next_] : nullptr;
   }
-  /// Of the block whose vertices are asked for; find() tells of it from the next block on.
+  /// Takes a vertex of the present block; find() tells of it from the next block on.
   void add(const KnownVertex& vertex) { fresh_.push_back(vertex); }
   void end_block() {
     std::vector<KnownVertex> all;

@@ -17,8 +17,8 @@ namespace mw::engine {
 /// Where a kept version of a block is.
 struct KeptPlace {
   std::uint64_t offset = 0;
-  /// Of all that the window left together; 0: nowhere, since the visit is made again where this
-  /// version is needed.
+  /// The bytes of all that the window left together; 0: it is nowhere, since the visit is made
+  /// again where this version is needed.
   std::uint32_t size = 0;
   std::uint32_t sum = 0;  ///< of what is there
   std::uint32_t memory_kib = 0;
