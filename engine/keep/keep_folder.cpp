@@ -137,6 +137,13 @@ std::unique_ptr<WorkFile> KeepFolder::open(const std::string& name) {
   return std::make_unique<MappedFile>(path_ / name);
 }
 
+std::unique_ptr<WorkFile> KeepFolder::open_scratch() const {
+  const fs::path path = path_ / ".blocks.partial-spilled";
+  auto file = std::make_unique<MappedFile>(path);
+  fs::remove(path);
+  return file;
+}
+
 std::uint64_t KeepFolder::bytes() const {
   std::uint64_t sum = 0;
   for (const char* name : kFiles) {

@@ -15,7 +15,7 @@ namespace mw::engine {
 /// A folder with
 ///     lock          held (flock) by the process that works here
 ///     settings.txt  what the facts here depend on beside the labels: lines "name = value"
-///     versions      bytes of blocks (kept_block.h), packed, where the records say
+///     versions      bytes of blocks (window_pack.h), where the records say
 ///     windows       what went into windows and came out (record_log.h, window_records.h)
 ///     labels        the labels of the run that was complete last (kept_labels.h)
 ///     chosen.txt    what the last run chose by itself
@@ -34,6 +34,8 @@ class KeepFolder : public WorkFiles {
   void settle(const std::string& settings) const;
 
   [[nodiscard]] std::unique_ptr<WorkFile> open(const std::string& name) override;
+  /// A file without a name.
+  [[nodiscard]] std::unique_ptr<WorkFile> open_scratch() const;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Bytes of all its files.
   [[nodiscard]] std::uint64_t bytes() const;
@@ -55,6 +57,9 @@ class KeepFolder : public WorkFiles {
   std::filesystem::path path_;
   io::FileDescriptor lock_;
 };
+
+/// Changes with what is in the files; it is one of the settings, so a folder of another is refused.
+inline constexpr int kFolderFormat = 2;
 
 inline constexpr const char* kVersionsFile = "versions";
 inline constexpr const char* kWindowsFile = "windows";

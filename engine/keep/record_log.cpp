@@ -11,7 +11,7 @@
 namespace mw::engine {
 namespace {
 
-constexpr std::uint64_t kLogMagic = 0x0100474F4C574D2EU;  // ".MWLOG", version 0 1
+constexpr std::uint64_t kLogMagic = 0x0200474F4C574D2EU;  // ".MWLOG", version 0 2
 constexpr std::uint64_t kMagicBytes = 8;
 constexpr std::uint64_t kHeadBytes = 8;  ///< of a record: length and checksum
 constexpr std::uint64_t kGrowBytes = 1 << 20;
@@ -36,7 +36,7 @@ RecordLog::RecordLog(std::unique_ptr<WorkFile> file) : file_(std::move(file)), e
     file_->sync();
   }
   if (number_at<std::uint64_t>(*file_, 0) != kLogMagic) {
-    throw DamagedWork("records of windows", "they do not begin as a log of version 1");
+    throw DamagedWork("records of windows", "they do not begin as a log of version 2");
   }
 }
 

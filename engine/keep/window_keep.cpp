@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/codec/codec.h"
+#include "engine/keep/window_pack.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 
@@ -25,12 +25,6 @@ std::array<std::int32_t, 6> numbers_of(const Box3& box) {
   const auto number = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
   return {number(box.lo.x), number(box.lo.y), number(box.lo.z),
           number(box.hi.x), number(box.hi.y), number(box.hi.z)};
-}
-
-/// More than any block of this size in memory takes as it is kept.
-std::size_t max_kept_bytes(std::uint32_t memory_kib) {
-  constexpr std::size_t kSmall = 1 << 16;
-  return kSmall + std::size_t{memory_kib} * 2048;
 }
 
 std::uint32_t sum_of(const io::ContentDigest& digest) {
@@ -86,9 +80,14 @@ void WindowKeep::replay() {
 }
 
 std::optional<WindowRecord> WindowKeep::record_of(std::uint64_t window) const {
-  if (record_at_[window] == 0) return std::nullopt;
+  std::uint64_t at = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    at = record_at_[window];
+  }
+  if (at == 0) return std::nullopt;
   std::optional<WindowRecord> out;
-  log_->read(record_at_[window] - 1, [&](std::span<const std::byte> bytes) {
+  log_->read(at - 1, [&](std::span<const std::byte> bytes) {
     try {
       out = decode_window_record(bytes);
     } catch (const BadBytes& bad) {
@@ -123,15 +122,22 @@ std::vector<BlockKey> WindowKeep::blocks_of(const WindowKey& key) const {
 }
 
 WindowKeep::Known WindowKeep::look_up(const WindowKey& key) const {
+  return look_up(key, [this](const BlockKey& block) -> const KeptVersion* {
+    const KeptVersion& version = versions_[layout_.slot(block)];
+    return version.digest.is_none() ? nullptr : &version;
+  });
+}
+
+WindowKeep::Known WindowKeep::look_up(const WindowKey& key, const VersionOf& version_of) const {
   Known out;
   io::DigestMaker blocks;
   blocks.add(scope_);
   blocks.add(layout_.window(key));
   const auto add = [&](const BlockKey& block) {
-    const KeptVersion& version = versions_[layout_.slot(block)];
-    if (version.digest.is_none()) return false;
-    blocks.add(version.digest);
-    out.seen.content = hull(out.seen.content, version.box());
+    const KeptVersion* const version = version_of(block);
+    if (version == nullptr) return false;
+    blocks.add(version->digest);
+    out.seen.content = hull(out.seen.content, version->box());
     return true;
   };
   for (const BlockKey& block : blocks_of(key)) {
@@ -160,6 +166,51 @@ WindowKeep::Known WindowKeep::look_up(const WindowKey& key) const {
   return out;
 }
 
+/// Whether the window comes before all that share a block with it.
+bool WindowKeep::is_first(const WindowKey& key) const {
+  return key.march == 0 && layout_.order(0).step(key.window) == 0;
+}
+
+/// The window that takes a block right after a window that is first; nothing where there is none.
+/// In colour order it is the neighbour along x.
+std::optional<WindowKey> WindowKeep::follower(const WindowKey& key, const Index3& block) const {
+  WindowKey next = key;
+  next.window.x += block.x == key.window.x ? -1 : 1;
+  const bool is_there = next.window.x >= 0 && next.window.x < layout_.grid(0).windows().x;
+  return is_there ? std::optional(next) : std::nullopt;
+}
+
+/// Whether a follower will find what it knows, as far as can be told before any window is visited:
+/// if the windows before it, which are first, leave what their facts say.
+bool WindowKeep::will_recall(const WindowKey& follower) const {
+  std::map<std::uint64_t, KeptVersion> left;  // by slot
+  for (const std::int64_t step : {-1, 1}) {
+    WindowKey before = follower;
+    before.window.x += step;
+    if (before.window.x >= layout_.grid(0).windows().x) continue;
+    const Known known = look_up(before, [](const BlockKey&) { return nullptr; });
+    if (!known.record) return false;
+    const std::vector<BlockKey> blocks = blocks_of(before);
+    for (std::size_t i = 0; i < blocks.size() && i < known.record->blocks.size(); ++i) {
+      left.emplace(layout_.slot(blocks[i]), known.record->blocks[i].version);
+    }
+  }
+  const Known known = look_up(follower, [&](const BlockKey& block) -> const KeptVersion* {
+    const auto version = left.find(layout_.slot(block));
+    return version == left.end() ? nullptr : &version->second;
+  });
+  return known.record.has_value();
+}
+
+/// Whether a window may take a block of this first one, whose bytes are nowhere.
+bool WindowKeep::is_needed(const WindowKey& key) const {
+  for (const std::int64_t step : {0, 1}) {
+    const auto next = follower(key, {key.window.x + step, key.window.y, key.window.z});
+    if (next && !will_recall(*next)) return true;
+  }
+  return false;
+}
+
 bool WindowKeep::recalls(const WindowKey& key) {
   const std::uint64_t window = layout_.window(key);
   {
@@ -168,6 +219,7 @@ bool WindowKeep::recalls(const WindowKey& key) {
     if (known != known_.end()) return known->second.record.has_value();
   }
   Known known = look_up(key);
+  if (known.record && is_first(key) && is_needed(key)) known.record.reset();
   const bool out = known.record.has_value();
   const std::lock_guard lock(mutex_);
   known_.emplace(window, std::move(known));
@@ -200,11 +252,17 @@ void WindowKeep::leave(const WindowKey& key, const WindowRecord& record) {
 }
 
 std::vector<KeptPlace> WindowKeep::places_of(const WindowRecord& record) {
+  const auto size = static_cast<std::uint32_t>(record.extent.size);
   std::vector<KeptPlace> out;
-  std::uint64_t offset = record.extent.offset;
+  std::uint8_t part = 0;
   for (const KeptBlock& block : record.blocks) {
-    out.push_back({offset, block.size, sum_of(block.version.digest), block.memory_kib});
-    offset += block.size;
+    KeptPlace place{.sum = sum_of(block.version.digest), .memory_kib = block.memory_kib};
+    if (block.is_kept) {
+      place.offset = record.extent.offset;
+      place.size = size;
+      place.part = part++;
+    }
+    out.push_back(place);
   }
   return out;
 }
@@ -216,6 +274,11 @@ std::unique_ptr<io::ZstdPacker> WindowKeep::take_packer() {
   std::unique_ptr<io::ZstdPacker> out = std::move(packers_.back());
   packers_.pop_back();
   return out;
+}
+
+void WindowKeep::give_back(std::unique_ptr<io::ZstdPacker> packer) {
+  const std::lock_guard lock(mutex_);
+  packers_.push_back(std::move(packer));
 }
 
 std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const LeftBlock> blocks) {
@@ -230,23 +293,28 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
     known_.erase(known);
   }
   if (record.input.labels.is_none()) record.input.labels = digests_->exact(seen);
-  std::vector<std::byte> packed;
-  std::unique_ptr<io::ZstdPacker> packer = take_packer();
-  for (const LeftBlock& block : blocks) {
-    const std::vector<std::byte> kept = to_kept(block.bytes, keys_);
-    const std::size_t before = packed.size();
-    packer->append(kept, packed);
+  const bool first = is_first(key);
+  std::vector<std::vector<std::byte>> kept;
+  for (const BlockKey& at : blocks_of(key)) {
+    const LeftBlock& block = blocks[record.blocks.size()];
+    std::vector<std::byte> bytes = to_kept(block.bytes, keys_);
     record.blocks.push_back(
-        {.version = {io::content_digest(kept), numbers_of(block.voxels)},
-         .size = static_cast<std::uint32_t>(packed.size() - before),
+        {.version = {io::content_digest(bytes), numbers_of(block.voxels)},
+         .is_kept = !first || !follower(key, at.block),
          .memory_kib = static_cast<std::uint32_t>((block.memory_bytes + 1023) / 1024)});
+    if (record.blocks.back().is_kept) kept.push_back(std::move(bytes));
+  }
+  std::vector<std::byte> packed;
+  if (!kept.empty()) {
+    std::unique_ptr<io::ZstdPacker> packer = take_packer();
+    packed = pack_blocks(kept, *packer);
+    give_back(std::move(packer));
   }
   bool full = false;
   {
     const std::optional<WindowRecord> old = record_of(record.window);
     const std::lock_guard lock(mutex_);
-    packers_.push_back(std::move(packer));
-    record.extent = bytes_.write(packed);
+    if (!packed.empty()) record.extent = bytes_.write(packed);
     if (old && old->extent.size > 0) superseded_.push_back(old->extent);
     if (!old) ++live_;
     group_.push_back(record);
@@ -263,10 +331,13 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
 }
 
 std::vector<std::byte> WindowKeep::read(const BlockKey& key, const KeptPlace& place) const {
+  if (place.size == 0) throw Error(ErrorKind::kInternal, name(key) + " is needed and not kept");
   std::vector<std::byte> kept;
   bytes_.read({place.offset, place.size}, [&](std::span<const std::byte> packed) {
     try {
-      kept = io::unpack_zstd(packed, max_kept_bytes(place.memory_kib), "versions");
+      kept = unpack_block(packed, place.part);
+    } catch (const BadBytes& bad) {
+      throw DamagedWork(name(key), bad.reason);
     } catch (const Error& error) {
       throw DamagedWork(name(key), error.what());
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -30,6 +31,10 @@ namespace mw::engine {
 /// holds such facts, the last one of each window; so nothing in it is ever wrong, whatever happened
 /// to the volume or the run.  A window whose input is that of its fact is not visited: its blocks
 /// are those that came out then, by reference.
+///
+/// A window that no other comes before makes its blocks from labels alone.  Those of its blocks
+/// that another window takes next are a quarter of all bytes, so they are not kept: such a window
+/// is visited again where one that takes them will be.
 ///
 /// Blocks and labels are digested by the labels' own numbers, and visits depend on nothing but the
 /// order of these (kernels/README.md, "Determinism").
@@ -58,6 +63,7 @@ class WindowKeep : public BlockKeeper {
                                             std::span<const LeftBlock> blocks) override;
   [[nodiscard]] std::vector<std::byte> read(const BlockKey& key,
                                             const KeptPlace& place) const override;
+  [[nodiscard]] std::unique_ptr<WorkFile> open_spill() override { return folder_->open_scratch(); }
 
   /// What was kept so far survives a power cut.
   void save();
@@ -79,10 +85,18 @@ class WindowKeep : public BlockKeeper {
 
   void replay();
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
+  /// The version of a block that a window takes; null: there is none yet.
+  using VersionOf = std::function<const KeptVersion*(const BlockKey& block)>;
+  [[nodiscard]] Known look_up(const WindowKey& key, const VersionOf& version_of) const;
   [[nodiscard]] Known look_up(const WindowKey& key) const;
+  [[nodiscard]] bool is_first(const WindowKey& key) const;
+  [[nodiscard]] std::optional<WindowKey> follower(const WindowKey& key, const Index3& block) const;
+  [[nodiscard]] bool will_recall(const WindowKey& follower) const;
+  [[nodiscard]] bool is_needed(const WindowKey& key) const;
   [[nodiscard]] std::optional<WindowRecord> record_of(std::uint64_t window) const;
   void leave(const WindowKey& key, const WindowRecord& record);
   [[nodiscard]] std::unique_ptr<io::ZstdPacker> take_packer();
+  void give_back(std::unique_ptr<io::ZstdPacker> packer);
   [[nodiscard]] static std::vector<KeptPlace> places_of(const WindowRecord& record);
   void write_group();
   void compact_log();

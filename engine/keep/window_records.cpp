@@ -37,8 +37,8 @@ ByteWriter encode(const WindowRecord& record) {
   for (const KeptBlock& block : record.blocks) {
     put(out, block.version.digest);
     for (const std::int32_t v : block.version.voxels) out.varint(zigzag(v));
-    out.varint(block.size);
     out.varint(block.memory_kib);
+    out.varint(std::uint64_t{block.is_kept});
   }
   return out;
 }
@@ -51,19 +51,17 @@ WindowRecord decode_window_record(std::span<const std::byte> bytes) {
   out.input.bricks = get_digest(in);
   out.input.labels = get_digest(in);
   out.extent.offset = in.varint();
-  out.extent.size = in.varint();
+  out.extent.size = in.below(kNumbers);
   out.blocks.resize(in.count());
-  std::uint64_t size = 0;
   for (KeptBlock& block : out.blocks) {
     block.version.digest = get_digest(in);
     for (std::int32_t& v : block.version.voxels) {
       v = static_cast<std::int32_t>(unzigzag(in.varint()));
     }
-    block.size = get_number(in);
     block.memory_kib = get_number(in);
-    size += block.size;
+    block.is_kept = in.below(2) == 1;
   }
-  if (!in.at_end() || size != out.extent.size) throw BadBytes{"a record has a wrong length"};
+  if (!in.at_end()) throw BadBytes{"a record has a wrong length"};
   return out;
 }
 

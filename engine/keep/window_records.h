@@ -33,7 +33,7 @@ struct VisitInput {
 
 struct KeptBlock {
   KeptVersion version;
-  std::uint32_t size = 0;  ///< packed; behind those of the blocks before it in the extent
+  bool is_kept = false;  ///< it is in the extent
   std::uint32_t memory_kib = 0;
 };
 
@@ -41,7 +41,7 @@ struct KeptBlock {
 struct WindowRecord {
   std::uint64_t window = 0;
   VisitInput input;
-  Extent extent;
+  Extent extent;                  ///< of the blocks that are kept, packed together (window_pack.h)
   std::vector<KeptBlock> blocks;  ///< in the order of the window's blocks
 };
 

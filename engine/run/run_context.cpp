@@ -74,7 +74,8 @@ std::unique_ptr<WindowKeep> open_keep(RunContext& run, const io::VolumeInfo& inf
   const KeepOptions& options = run.hooks.keep;
   if (options.folder.empty()) return nullptr;
   const std::string settings =
-      options.identity + "results = " + results_id() + "\n" + identity_text(info, run.settings);
+      io::text(options.identity, "folder-format = ", kFolderFormat, "\nresults = ", results_id(),
+               "\n", identity_text(info, run.settings));
   return std::make_unique<WindowKeep>(options, settings, run.layout, run.budget,
                                       run.lattice.labels().table(), run.hooks.store.group);
 }

@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "engine/store/journal/work_file.h"
 #include "engine/store/run_layout.h"
 
 namespace mw::engine {
@@ -15,9 +17,12 @@ namespace mw::engine {
 /// Where a kept version of a block is.
 struct KeptPlace {
   std::uint64_t offset = 0;
-  std::uint32_t size = 0;  ///< not 0
-  std::uint32_t sum = 0;   ///< of what is there
+  /// The bytes of all that the window left together; 0: it is nowhere, since the visit is made
+  /// again where this version is needed.
+  std::uint32_t size = 0;
+  std::uint32_t sum = 0;  ///< of what is there
   std::uint32_t memory_kib = 0;
+  std::uint8_t part = 0;  ///< which of the window's blocks it is
 };
 
 /// A block as a window left it.
@@ -31,7 +36,8 @@ struct LeftBlock {
 class BlockKeeper {
  public:
   virtual ~BlockKeeper() = default;
-  /// Writes down what a window left, in the order of its blocks.  Returns where it is.
+  /// Writes down what a window left, in the order of its blocks.  Returns where it is; the store
+  /// has to hold what is nowhere until no window of this run needs it.
   /// ERRORS: mw::Error(kResource) when the disk is full.
   [[nodiscard]] virtual std::vector<KeptPlace> keep(const WindowKey& window,
                                                     std::span<const LeftBlock> blocks) = 0;
@@ -39,6 +45,8 @@ class BlockKeeper {
   /// ERRORS: DamagedWork when they are not those that were kept.
   [[nodiscard]] virtual std::vector<std::byte> read(const BlockKey& key,
                                                     const KeptPlace& place) const = 0;
+  /// A file for blocks of this run that are nowhere and do not fit in memory.
+  [[nodiscard]] virtual std::unique_ptr<WorkFile> open_spill() = 0;
 };
 
 }  // namespace mw::engine

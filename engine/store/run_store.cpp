@@ -33,9 +33,10 @@ Box3 voxels_of(const BlockMesh& mesh) {
   return out;
 }
 
-std::unique_ptr<SegmentFile> open_disk(WorkFiles* files) {
-  if (files == nullptr) return nullptr;
-  return std::make_unique<SegmentFile>(files->open(kBlocksFile));
+std::unique_ptr<SegmentFile> open_disk(WorkFiles* files, BlockKeeper* keeper) {
+  if (files != nullptr) return std::make_unique<SegmentFile>(files->open(kBlocksFile));
+  if (keeper != nullptr) return std::make_unique<SegmentFile>(keeper->open_spill());
+  return nullptr;
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* fil
       index_room_(budget.reserve(
           Purpose::kIndex, router == nullptr ? index_bytes(layout) : least_index_bytes(layout))),
       done_(layout.windows()),
-      disk_(open_disk(files)),
+      disk_(open_disk(files, keeper)),
       table_(layout, done_, disk_.get(), router == nullptr ? TableRoom() : room_for_index()) {
   for (std::uint32_t m = 0; m < layout.marches(); ++m) {
     marches_.push_back(std::make_unique<March>(*this, m));
@@ -213,7 +214,7 @@ void RunStore::prefetch(const WindowKey& key) const {
     for (const BlockKey& block : blocks_of(key)) find(block, sources);
   }
   for (const Source& s : sources) {
-    if (s.cached == nullptr) disk_->prefetch(s.extent);
+    if (s.cached == nullptr && !s.kept) disk_->prefetch(s.extent);
   }
 }
 
@@ -328,7 +329,7 @@ void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
   }
   done_.insert(layout_.window(key));
   for (std::size_t i = 0; i < slots.size(); ++i) {
-    if (!places.empty()) {
+    if (!places.empty() && (pins.empty() || places[i].size > 0)) {
       table_.put_kept(slots[i], places[i], pins.empty() ? nullptr : std::move(pins[i]));
     } else if (stays(key, blocks[i])) {
       table_.put(slots[i], std::move(pins[i]));

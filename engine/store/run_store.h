@@ -62,7 +62,7 @@ class RunStore {
   /// router: null where all windows are visited here.  With one, work becomes
   /// durable by checkpoint() alone.
   /// keeper: null: nothing is kept.  With one there are no files and no router: what memory does
-  /// not hold is read again from what is kept.
+  /// not hold is read again from what is kept, or was spilled where it is not.
   /// REQUIRES: layout, budget, files (null: none), router and keeper outlive it.
   /// ERRORS: mw::Error(kResource) when the index alone exceeds the budget; kInput when the journal
   /// is damaged.

@@ -4,6 +4,7 @@
 // codec share; the layout itself is told in block_codec.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,11 @@ class ByteWriter {
     room(sizeof value);
     io::store_little(value, bytes_.data() + size_);
     size_ += count;
+  }
+  void append(std::span<const std::byte> bytes) {
+    room(bytes.size());
+    std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += bytes.size();
   }
   [[nodiscard]] std::size_t size() const { return size_; }
   /// What was written; can be changed in place.
@@ -81,6 +87,13 @@ class ByteReader {
     rest_ = rest_.subspan(count);
     return value;
   }
+  /// The next bytes as they are.
+  [[nodiscard]] std::span<const std::byte> bytes(std::size_t count) {
+    if (count > rest_.size()) throw BadBytes{"it ends too early"};
+    const std::span<const std::byte> out = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return out;
+  }
   /// A number of things that take at least one byte each, so that nobody makes room for more.
   [[nodiscard]] std::size_t count() {
     const std::uint64_t value = varint();
@@ -92,6 +105,12 @@ class ByteReader {
     const std::uint64_t value = varint();
     if (value >= limit) throw BadBytes{"a number is out of range"};
     return value;
+  }
+  /// Goes past some varints.
+  void pass(std::uint64_t varints) {
+    while (varints > 0) {
+      if (next() < std::byte{0x80}) --varints;
+    }
   }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   /// What was not read yet.

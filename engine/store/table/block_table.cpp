@@ -88,7 +88,8 @@ void BlockTable::put_kept(std::uint64_t slot, const KeptPlace& place, BlockPin p
                  .size = place.size,
                  .sum = place.sum,
                  .memory_kib = place.memory_kib,
-                 .kept = true};
+                 .kept = true,
+                 .part = place.part};
   if (at(slot).cached != nullptr) cached_.insert(turn(slot));
 }
 

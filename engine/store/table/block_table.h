@@ -34,12 +34,13 @@ struct StoredBlock {
   std::uint32_t sum = 0;
   std::uint32_t memory_kib = 0;
   bool recorded = false;  ///< a record of the journal, written or being written, points to it
-  bool kept = false;      ///< offset, size and sum are those of a KeptPlace
+  bool kept = false;      ///< offset, size, sum and part are those of a KeptPlace
+  std::uint8_t part = 0;
 
   [[nodiscard]] Extent extent() const { return {offset, size}; }
   /// REQUIRES: kept.
-  [[nodiscard]] KeptPlace place() const { return {offset, size, sum, memory_kib}; }
-  [[nodiscard]] bool empty() const { return cached == nullptr && size == 0; }
+  [[nodiscard]] KeptPlace place() const { return {offset, size, sum, memory_kib, part}; }
+  [[nodiscard]] bool empty() const { return cached == nullptr && size == 0 && !kept; }
 };
 
 /// Reserves memory for a table, and may evict blocks from that table to get it.
@@ -63,7 +64,8 @@ class BlockTable {
   void remove(std::uint64_t slot);
   /// REQUIRES: no block there.  ERRORS: those of the room; then nothing has changed.
   void put(std::uint64_t slot, BlockPin block);
-  /// Puts a block there that is kept; it is in memory, too, unless the pin is null.
+  /// Puts a block there that is kept; it is in memory, too, unless the pin is null.  One whose
+  /// place is nowhere (KeptPlace) cannot be read, only be replaced.
   void put_kept(std::uint64_t slot, const KeptPlace& place, BlockPin block = nullptr);
   /// A block that the journal tells of replaces the one that is there; the extents are not yet
   /// taken.  ERRORS: those of the room.
