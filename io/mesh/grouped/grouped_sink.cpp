@@ -16,17 +16,13 @@
 namespace mw::io {
 namespace {
 
-/// The corners of the facet opposite to each corner of a positive tet, normal outwards.
-constexpr std::array<std::array<std::size_t, 3>, 4> kFacets{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
 /// Rows of a facet that lie together: by which the two tets of a triangle find each other.
 std::array<std::uint64_t, 3> key_of(const std::array<std::uint64_t, 4>& face) {
   return {face[0], face[1], face[2]};
 }
 
 std::array<std::uint64_t, 3> facet_rows(const TetRows& tet, std::uint64_t opposite) {
-  const auto& corners = kFacets[opposite];
+  const auto& corners = kTetFacets[opposite];
   return {tet[corners[0]], tet[corners[1]], tet[corners[2]]};
 }
 
