@@ -189,11 +189,11 @@ void PartFinder::count_parts() {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> others;
   for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
     if (!pieces_[p].is_kept) continue;
-    facts_.parts_after += root(&Piece::split_parent, p) == p ? 1 : 0;
+    facts_.parts_after += root(&Piece::split_parent, p) == p ? 1U : 0U;
     if (root(&Piece::parent, p) != p) continue;
     ++facts_.parts;
     facts_.tets += pieces_[p].tets;
-    facts_.small += pieces_[p].tets < kSmallPartTets ? 1 : 0;
+    facts_.small += pieces_[p].tets < kSmallPartTets ? 1U : 0U;
     if (p == largest_) continue;
     const bool hangs = root(&Piece::body_parent, p) == root(&Piece::body_parent, largest_);
     ++(hangs ? facts_.hanging : facts_.free);

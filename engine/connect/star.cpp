@@ -86,7 +86,7 @@ std::vector<std::size_t> StarSets::numbers() const {
 
 std::size_t StarSets::count() const {
   std::size_t out = 0;
-  for (std::size_t t = 0; t < parent_.size(); ++t) out += parent_[t] == t ? 1 : 0;
+  for (std::size_t t = 0; t < parent_.size(); ++t) out += parent_[t] == t ? 1U : 0U;
   return out;
 }
 
