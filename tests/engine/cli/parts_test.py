@@ -184,7 +184,7 @@ class Split(unittest.TestCase):
         for name in ("t.vtkhdf", "t.mesh", "t.msh"):
             self.assertEqual(run("digest", name), run("digest", "three.vtu"))
         sets = meshio.read("t.inp").point_sets
-        one, other = sets["FACE_left_LABEL_2"], sets["FACE_LABEL_2_left"]
+        one, other = sets["FACE_left_2"], sets["FACE_2_left"]
         points = meshio.read("t.inp").points
         self.assertEqual(len(one), len(other))
         self.assertFalse(set(one) == set(other))
