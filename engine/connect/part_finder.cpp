@@ -11,7 +11,7 @@
 namespace mw::engine {
 namespace {
 
-/// Of a tet: its chunk, its piece and itself, both counted in the chunk.
+/// Returns the place of a tet: its chunk, then its piece and itself, both counted in the chunk.
 std::uint64_t place_of(std::uint64_t chunk, std::uint64_t piece, std::uint64_t tet) {
   return chunk << 32 | piece << 16 | tet;
 }

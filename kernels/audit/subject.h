@@ -41,7 +41,7 @@ using KeptLabels = std::vector<bool>;
   return kept.empty() || (label < kept.size() && kept[label]);
 }
 
-/// Of which labels parts were left out, where that is so of some.
+/// Returns whether parts of the label were left out.
 [[nodiscard]] inline bool is_partial(const KeptLabels& partial, Label label) {
   return label < partial.size() && partial[label];
 }

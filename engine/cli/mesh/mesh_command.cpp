@@ -123,7 +123,7 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   }
 }
 
-/// Of a mesh that several processes have written.
+/// Counts parts and hinges in a mesh that several processes have written.
 std::optional<engine::ConnectFacts> parts_of_file(const MeshRequest& request) {
   io::NoSink nowhere;
   const engine::MeshJob& job = request.job;

@@ -146,8 +146,8 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
 
 void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
   options.add({.name = "parts",
-               .value = "RULE",
-               .help = "parts that are written: all, largest, or those of at least N tets",
+               .value = "all|largest|N",
+               .help = "parts that are written; N: those of at least N tets",
                .group = kOutputGroup,
                .kind = ValueKind::kIntegerOrText,
                .fallback = "all",

@@ -76,8 +76,10 @@ void InpWriter::write_head(const GroupedMesh& mesh, const PlainNames& names) {
   line("** Surface FACE_1_2: where labels 1 and 2 meet, faces of the elements of label 1;");
   line("** FACE_2_1: the same faces, of the elements of label 2.");
   line("** Surfaces X_MIN to Z_MAX: sides of the box; OUTER: what else bounds the mesh.");
-  line("** Node sets have the nodes of the surface of the same name (FACE_2_1: see FACE_1_2,");
-  line("** unless vertices were doubled, where both sides have theirs).");
+  line("** Node sets have the nodes of the surface of the same name (FACE_2_1: see FACE_1_2).");
+  if (mesh.header().record.has_doubles) {
+    line("** Vertices were doubled: where sides are apart, FACE_2_1 has a node set of its own.");
+  }
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const LabelName* const row = mesh.names().find(mesh.table().raw(rank));
     if (row != nullptr) line(inp_comment(names.volume(rank), *row, mesh.table().is_signed()));
