@@ -12,7 +12,7 @@
 
 namespace mw::audit::test {
 
-/// Of two neighbours by a face, whether it joins them.
+/// Tells whether the face that two neighbours share joins them.
 using Joins = std::function<bool(std::size_t one, std::size_t other)>;
 
 /// The number of the set of each tet of `among`: tets are in one set when a chain of faces joins

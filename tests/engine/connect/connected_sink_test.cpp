@@ -69,7 +69,7 @@ std::map<std::size_t, std::set<std::size_t>> parts_of(const io::MeshData& mesh) 
   return out;
 }
 
-/// Of several largest parts the one with the first tet.
+/// Returns the largest part, of several the one with the first tet.
 const std::set<std::size_t>& largest(const std::map<std::size_t, std::set<std::size_t>>& parts) {
   auto best = parts.begin();
   for (auto at = parts.begin(); at != parts.end(); ++at) {
