@@ -56,9 +56,12 @@ Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
 std::string connect_text(const engine::ConnectFacts& facts) {
   std::string out;
   const auto add = [&](const std::string& words) { out += (out.empty() ? "" : ", ") + words; };
-  if (facts.found != facts.parts) add(io::text(facts.parts, " of ", facts.found, " kept"));
-  if (facts.parts > 1) {
+  if (facts.found != facts.parts) {
+    add(io::text(facts.parts, " of ", facts.found, " that faces join are written"));
+  } else if (facts.parts > 1) {
     add(io::text(facts.parts, " joined by faces"));
+  }
+  if (facts.parts > 1) {
     add(io::text(facts.hanging, " hang on vertices or edges"));
     add(io::text(facts.free, " are free"));
     add(io::text(facts.small, " have fewer than ", engine::kSmallPartTets, " tets"));

@@ -68,8 +68,10 @@ class Parts(unittest.TestCase):
     def test_those_that_are_asked_for_are_kept(self):
         for rule, parts, labels in (("largest", 1, {1, 2}), (1, 5, {1, 2, 3, 4})):
             for name in ("p.vtu", "p.vtkhdf", "p.mesh"):
-                run("mesh", "v.npy", "-o", name, "--background", 0, "--parts", rule, "--report",
-                    "p.json", "--surface", "voxel", "--certify", "on", "--memory", "1GiB")
+                said = run("mesh", "v.npy", "-o", name, "--background", 0, "--parts", rule,
+                           "--report", "p.json", "--surface", "voxel", "--certify", "on",
+                           "--memory", "1GiB")
+                line = next(x for x in said.splitlines() if x.startswith("parts "))
                 told = report("p.json")
                 self.assertEqual(told["parts"]["written"], parts)
                 info = json.loads(run("info", name, "--json"))
@@ -79,6 +81,8 @@ class Parts(unittest.TestCase):
                                   told["digest"]))
                 self.assertEqual({row["label"] for row in info["volume"]["per_label"]}, labels)
                 out = run("verify", "v.npy", name)
+                kept = "1 of 5 that faces join are written" in line
+                self.assertEqual(kept, parts == 1, line)
                 self.assertEqual("without parts of label 1, 2, 3, 4" in out, parts == 1, out)
         self.assertEqual(report("p.json")["parts"]["doubled"]["copies"], 0)
 
