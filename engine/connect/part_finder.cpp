@@ -137,7 +137,6 @@ void PartFinder::each_star(io::ExternalSort<6>& records,
   if (!star.empty()) visit(row, star);
 }
 
-/// A face is united where its first vertex is.
 void PartFinder::unite_star(std::uint64_t row, std::vector<StarTet>& star) {
   StarSets sets(star.size());
   std::size_t inner_faces = 0;

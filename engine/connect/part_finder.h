@@ -27,7 +27,7 @@ struct CopiedCorner {
 
 /// Memory: `memory_bytes` twice, 0.3 MiB, and 40 bytes a piece.  Disk: 192 bytes a tet in `folder`,
 /// for the time of find().  ENSURES: what is found depends on the mesh alone, not on how it was
-/// divided among calls of add().  Cost: 2 us a tet.
+/// divided among calls of add().  Cost: 3 us a tet.
 class PartFinder {
  public:
   PartFinder(ConnectOptions options, std::filesystem::path folder, std::size_t memory_bytes);
