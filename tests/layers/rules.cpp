@@ -111,7 +111,7 @@ const Room kRooms[] = {
     {"engine/forecast/",
      {"engine/settings/", "engine/labels/", "engine/march/", "engine/store/run_layout.h"}},
     {"engine/output/", {"engine/window/window_grid.h"}},
-    // Looks at a mesh on its way into a file, whoever made it.
+    // Looks at a mesh on its way into a file, and knows no run.
     {"engine/connect/", {"engine/settings/"}},
     {"engine/verify/", {"engine/labels/", "engine/system/"}},
     {"engine/report/",
