@@ -214,7 +214,13 @@ struct Options {
   /// The labels of the mesh; the others are meshed but left out.  Empty: all.
   std::vector<std::uint64_t> labels;
   std::optional<std::uint64_t> background;  ///< the only label that is left out
-  int threads = 0;                          ///< 1 to 1,024; 0: all cores
+  /// Which parts the mesh keeps, tets that faces join being one: "all", "largest", or the least
+  /// number of tets of a part.
+  std::string parts = "all";
+  /// Interfaces whose vertices are doubled so that they open, "1|2,1|3"; "*": all; empty: none.
+  std::string split;
+  bool open_hinges = false;  ///< vertices at which parts hang are doubled, so that they come apart
+  int threads = 0;           ///< 1 to 1,024; 0: all cores
   /// Bytes that the run may take; the mesh in memory, and the volume's arrays, come on top.
   /// 0: half of what the machine has to spare.
   std::uint64_t memory = 0;

@@ -100,6 +100,11 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
           .settings = std::move(values),
           .size_image = std::move(sizes),
           .choice = label_choice(options),
+          .connect = {.parts = engine::parse_parts(options.parts),
+                      .split = options.split.empty() ? engine::SplitRule{}
+                                                     : engine::parse_split(options.split),
+                      .open_hinges = options.open_hinges},
+          .finds_parts = options.report,
           .certify = certify_of(options.certify),
           .is_measured = options.report,
           .wants_delta = options.from_kept && options.report,

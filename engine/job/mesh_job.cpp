@@ -6,6 +6,7 @@
 #include <atomic>
 #include <sstream>
 
+#include "engine/connect/connected_sink.h"
 #include "engine/job/certificate.h"
 #include "engine/job/count_pilot.h"
 #include "engine/job/unpacking.h"
@@ -213,6 +214,12 @@ ReadingRoom reading_room(const MeshJob& job) {
           .beside = program + preparation_bytes(job.settings)};
 }
 
+ConnectTask connect_task(const MeshJob& job) {
+  return {.options = job.connect,
+          .folder = job.folder.empty() ? "." : job.folder,
+          .memory_bytes = ConnectTask::memory_of(job.run.store.memory)};
+}
+
 /// Says where the work is when a run that ends early leaves some.
 RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink& sink,
                 RunHooks run) {
@@ -275,13 +282,17 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     if (sizes) sizes.emplace(sizes->scaled(run.count->scale));
     check(opened.info(), job.settings);
   }
+  check_split(job.connect.split, run.labels);
+  std::optional<ConnectedSink> connected;
+  if (job.finds_parts || job.connect.change_mesh()) connected.emplace(sink, connect_task(job));
+  io::MeshSink& target = connected ? static_cast<io::MeshSink&>(*connected) : sink;
   std::optional<Certifier> certifier;
-  if (plan.why_not.empty()) certifier.emplace(plan, job, labels, sink, job.stop);
+  if (plan.why_not.empty()) certifier.emplace(plan, job, labels, target, job.stop);
   try {
     RunHooks hooks = run_hooks(job, run, memory);
     hooks.sizes = sizes ? &*sizes : nullptr;
     hooks.keep.opened = kept.folder();
-    run.engine = march(labels, job, certifier ? certifier->sink() : sink, std::move(hooks));
+    run.engine = march(labels, job, certifier ? certifier->sink() : target, std::move(hooks));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kCheckFailed) {
       refuse_changed_input(input.volume(), volume.sum(), job.run.threads);
@@ -292,6 +303,11 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   if (job.wants_delta) run.delta = kept.delta(input.volume(), job, size);
   kept.finish(size);
   if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
+  if (connected) run.connected = connected->facts();
+  if (run.connected) {
+    run.engine.vertices = run.connected->vertices;
+    run.engine.tets = run.connected->tets;
+  }
   run.why_no_certificate = plan.why_not;
   run.why_no_volumes = why_no_volumes(promises_of(job.settings));
   if (certifier) run.certificate = certifier->report();

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "engine/connect/connect_options.h"
 #include "engine/output/label_selection.h"
 #include "engine/report/run_report.h"
 #include "engine/run/run.h"
@@ -25,6 +26,8 @@ struct MeshJob {
   MeshSettings settings;
   std::shared_ptr<const io::LabelVolume> size_image;  ///< SizeRules::image, opened
   LabelChoice choice;
+  ConnectOptions connect;  ///< what is left out of the mesh, and doubled in it, when it is written
+  bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is
   Certify certify = Certify::kAuto;
   bool is_measured = false;      ///< whether quality and shape are measured, for a report
   bool wants_delta = false;      ///< what changed since the run that run.keep goes on from
@@ -47,7 +50,8 @@ struct CertificatePlan {
 /// ERRORS: mw::Error(kUsage) when it is asked for and cannot be had.
 [[nodiscard]] CertificatePlan plan_certificate(const MeshJob& job);
 
-/// Meshes a volume into `sink`, begin to finish; a certificate is made before finish().
+/// Meshes a volume into `sink`, begin to finish; a certificate is made before finish(), of the mesh
+/// before parts are left out and vertices doubled.
 /// ENSURES: promises P1 to P3 and P5 of the README.  Digest and resources are the caller's to add.
 /// ERRORS: those of the volume, its steps, mesh_volume() and the sink; kCheckFailed when the
 ///         certificate does not hold; io::fail_input_changed() when that is because the labels

@@ -14,6 +14,7 @@
 #include "engine/verify/verify_mesh.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
+#include "io/mesh/merged_vertices.h"
 #include "kernels/core/error.h"
 #include "kernels/core/layers.h"
 
@@ -74,6 +75,32 @@ ChosenLabels kept_labels(const LabelChoice& choice, const io::MeshRecord& record
   return found_labels(mesh.labels(), table);
 }
 
+void add_words(std::string& text, const std::string& words) {
+  text += (text.empty() ? "" : ", ") + words;
+}
+
+/// Which of the kept labels are there in part; those that are gone are kept no more.
+audit::KeptLabels leave_parts_out(const io::MeshRecord& record, const audit::KeptLabels& in_mesh,
+                                  const io::LabelTable& table, ChosenLabels& kept) {
+  if (record.partial_labels.empty()) return {};
+  const io::LabelTable named(record.partial_labels, table.is_signed());
+  audit::KeptLabels partial(table.size());
+  if (kept.labels.empty()) kept.labels.assign(table.size(), true);
+  for (Label l = 0; l < table.size(); ++l) {
+    if (!kept.labels[l] || !named.contains(table.raw(l))) continue;
+    partial[l] = in_mesh[l];
+    kept.labels[l] = in_mesh[l];
+  }
+  add_words(kept.told,
+            "without parts of label " + list_of(record.partial_labels, table.is_signed()));
+  return partial;
+}
+
+void tell_doubles(const io::MeshRecord& record, std::uint64_t merged, ChosenLabels& kept) {
+  if (!record.has_doubles) return;
+  add_words(kept.told, std::to_string(merged) + " doubled vertices are merged by position here");
+}
+
 report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
                          const ChosenLabels& kept) {
   report::Bounds out{.promises = record.promises.value_or(report::kOtherPromises),
@@ -119,9 +146,12 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   report::Verdict verdict{
       .specks = input.specks(), .table = collect_labels(volume, job.threads), .names = info.names};
   MeshTiles mesh(info, verdict.table, {job.folder, job.memory / 8});
-  deliver(mesh);
+  io::MergedVertices merged(mesh, job.folder);
+  deliver(merged);
   const io::MeshRecord& record = mesh.header().record;
-  const ChosenLabels kept = kept_labels(job.choice, record, mesh, verdict.table);
+  ChosenLabels kept = kept_labels(job.choice, record, mesh, verdict.table);
+  const audit::KeptLabels partial = leave_parts_out(record, mesh.labels(), verdict.table, kept);
+  tell_doubles(record, merged.merged(), kept);
   verdict.bounds = bounds_of(job.asked, record, kept);
   VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space),
                   .threads = thread_count(job.threads),
@@ -134,6 +164,7 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   if (job.asked.max_volume_error) task.options.max_volume_error = *job.asked.max_volume_error;
   verdict.bounds.max_volume_error = task.options.max_volume_error;
   task.options.kept = kept.labels;
+  task.options.partial = partial;
   task.options.label_text = report::label_texts(verdict.table, verdict.names);
   verdict.layers = task.options.layers;
   verdict.audit = verify_mesh(io::DenseVolume(volume, verdict.table), mesh, task);

@@ -181,6 +181,9 @@ void add_options(py::module_& module) {
       .def_readwrite("specks_joined_by_corners", &Options::specks_joined_by_corners)
       .def_readwrite("labels", &Options::labels)
       .def_readwrite("background", &Options::background)
+      .def_readwrite("parts", &Options::parts)
+      .def_readwrite("split", &Options::split)
+      .def_readwrite("open_hinges", &Options::open_hinges)
       .def_readwrite("threads", &Options::threads)
       .def_readwrite("memory", &Options::memory)
       .def_property("workdir", nullptr,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "engine/report/connect_report.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/report/verify_report.h"
 
@@ -235,6 +236,7 @@ Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json 
            {"specks", specks_json(run.specks)},
            {"lattice", lattice_json(run.engine.lattice)},
            {"output", output_json(run, mesh)},
+           {"parts", run.connected ? connect_json(*run.connected, run.labels.is_signed()) : Json()},
            {"quality", quality_json(run.engine.quality.value())},
            {"shape", shape_json(run)},
            {"size", size_json(run)},

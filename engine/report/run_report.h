@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "engine/connect/connect_options.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/report/resource_meter.h"
 #include "engine/run/run.h"
@@ -43,6 +44,7 @@ struct FinishedRun {
   std::string fingerprint;    ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty: none was made
   std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
+  std::optional<engine::ConnectFacts> connected;  ///< empty: nobody counted, or nobody could
   std::string why_no_certificate;
   std::string why_no_volumes;  ///< empty: the run promises volumes of labels (P8)
 };

@@ -49,6 +49,9 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
   findings.voxels = std::move(voxels.betti);
   findings.mesh = std::move(found.betti);
   if (junctions) findings.junctions = junctions->compare();
+  for (Label label = 0; label < volume.table().size(); ++label) {
+    if (audit::is_partial(task.options.partial, label)) voxels.places.volumes[label] = 0;
+  }
   findings.place = audit::judge_places(voxels.places, found.places, volume.info().shape);
   findings.quality = found.quality.report();
   findings.distance = std::move(voxels.distance);

@@ -182,7 +182,17 @@ class VolumeStage {
         .samples = lattice_box,
         .limit = limit_};
     if (!is_all) task.reach = reach;
-    return {whole_rows(names), audit::measure_distances(task)};
+    TileDistances out{whole_rows(names), audit::measure_distances(task)};
+    forget_partial(out);
+    return out;
+  }
+
+  /// Where parts of a label were left out, its voxels may be far from the mesh.
+  void forget_partial(TileDistances& distances) const {
+    for (std::size_t i = 0; i < distances.rows.size(); ++i) {
+      if (!audit::is_partial(task_.options.partial, distances.labels[i])) continue;
+      distances.rows[i].to_mesh = {};
+    }
   }
 
   static std::vector<Label> seen_in(const LoadedVoxels& loaded,

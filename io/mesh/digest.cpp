@@ -4,22 +4,16 @@
 #include "io/mesh/digest.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "io/codec/hasher.h"
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
+#include "io/mesh/sortable.h"
 
 namespace mw::io {
 namespace {
 
 using TetKey = std::array<std::uint64_t, 5>;
-
-/// Bits that order like the double they stand for; a total order, whatever the double.
-std::uint64_t sortable(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x);
-  return (bits >> 63) != 0 ? ~bits : bits | std::uint64_t{1} << 63;
-}
 
 /// The bits of the double.
 std::uint64_t unsortable(std::uint64_t key) {

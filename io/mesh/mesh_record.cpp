@@ -18,6 +18,8 @@ constexpr const char* kNone = "none";
 constexpr const char* kFrame = "frame";
 constexpr const char* kOnly = "only_labels";
 constexpr const char* kWithout = "without_labels";
+constexpr const char* kPartial = "partial_labels";
+constexpr const char* kDoubled = "doubled_vertices";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 Json box_json(const MeshBox& box) {
@@ -92,6 +94,8 @@ std::string record_text(const MeshRecord& record) {
   if (record.frame != WorldFrame::kOwn) out[kFrame] = name(record.frame);
   add_labels(record.only_labels, kOnly, out);
   add_labels(record.without_labels, kWithout, out);
+  add_labels(record.partial_labels, kPartial, out);
+  if (record.has_doubles) out[kDoubled] = true;
   return out.empty() ? std::string() : out.dump();
 }
 
@@ -109,6 +113,8 @@ MeshRecord parse_record(std::string_view text, std::string_view file) {
   }
   record.only_labels = labels_in(fields, kOnly);
   record.without_labels = labels_in(fields, kWithout);
+  record.partial_labels = labels_in(fields, kPartial);
+  record.has_doubles = fields.has(kDoubled) && fields.flag(kDoubled);
   if (!record.only_labels.empty() && !record.without_labels.empty()) {
     fields.fail(kWithout, "contradicts only_labels");
   }

@@ -46,15 +46,19 @@ struct MeshRecord {
   // What the volume's labels are that the mesh holds; at most one has any, neither where all are.
   std::vector<RawLabel> only_labels;
   std::vector<RawLabel> without_labels;
+  /// Labels of which parts were left out (--parts), ascending.
+  std::vector<RawLabel> partial_labels;
+  /// Whether there are vertices that were doubled (--split, --open-hinges).
+  bool has_doubles = false;
 
   friend bool operator==(const MeshRecord&, const MeshRecord&) = default;
 };
 
 /// {"box": {"origin": [...], "x": [...], "y": [...], "z": [...]}, "promises": {"max_distance": 1.5,
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none"},
-/// "frame": "ras", "only_labels": [...], "without_labels": [...]}, without what is not known; empty
-/// when nothing is.  Labels are numbers of 64 bits with a sign.  ASCII, no line end; numbers come
-/// back to the bit.
+/// "frame": "ras", "only_labels": [...], "without_labels": [...], "partial_labels": [...],
+/// "doubled_vertices": true}, without what is not known; empty when nothing is.  Labels are numbers
+/// of 64 bits with a sign.  ASCII, no line end; numbers come back to the bit.
 [[nodiscard]] std::string record_text(const MeshRecord& record);
 
 /// Nothing of an empty text.  ERRORS: mw::Error(kInput) naming file and field.  Whether a run can

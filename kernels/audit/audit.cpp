@@ -29,14 +29,25 @@ void forget_left_out(const KeptLabels& kept, AuditReport& report) {
   }
 }
 
+bool has_no_more(const Betti& after, const Betti& before) {
+  return after.b0 <= before.b0 && after.b1 <= before.b1 && after.b2 <= before.b2;
+}
+
+/// Open regions of parts that share no face add up, so what is left has no more of anything.
+bool is_kept(const RegionBetti& before, const RegionBetti& after, bool is_partial) {
+  return is_partial ? has_no_more(after.open, before.open) : before == after;
+}
+
 /// looked_at: rows that are compared.
-Check compare_topology(AuditReport& report, std::size_t looked_at, const LabelText& names) {
+Check compare_topology(AuditReport& report, std::size_t looked_at, const AuditOptions& options) {
+  const LabelText& names = options.label_text;
   const std::size_t exterior = report.voxels.size() - 1;
   Offenders changed("labels changed");
   for (std::size_t row = 0; row <= exterior; ++row) {
     const RegionBetti& before = report.voxels[row];
     const RegionBetti& after = report.mesh[row];
-    if (before == after) continue;
+    const bool is_part = is_partial(options.partial, static_cast<Label>(row));
+    if (is_kept(before, after, is_part)) continue;
     const Label label = row == exterior ? kExterior : static_cast<Label>(row);
     report.labels_changed.push_back(label);
     changed.add([&] {
@@ -45,6 +56,11 @@ Check compare_topology(AuditReport& report, std::size_t looked_at, const LabelTe
     });
   }
   std::string detail = changed.text() + " of " + std::to_string(looked_at);
+  const auto parts = std::count(options.partial.begin(), options.partial.end(), true);
+  if (parts > 0) {
+    detail += ", of which " + std::to_string(parts) +
+              " are there in part and have no more components, tunnels or cavities";
+  }
   if (report.topology_is_indicative) detail += "; only indicative, as P2 fails";
   return {"P1 topology", changed.count() == 0, detail};
 }
@@ -98,10 +114,12 @@ std::string distance_text(const DistanceReport& distance, const LabelText& names
          (distance.is_finite() ? ", mean " + number(distance.mean_voxels) : "");
 }
 
-/// Without the labels that were left out.
-VolumeReport only_kept(VolumeReport report, const KeptLabels& kept) {
-  if (kept.empty()) return report;
-  std::erase_if(report.per_label, [&](const VolumeRow& row) { return !keeps(kept, row.label); });
+/// Without the labels that were left out, whole or in part.
+VolumeReport only_kept(VolumeReport report, const AuditOptions& options) {
+  if (options.kept.empty() && options.partial.empty()) return report;
+  std::erase_if(report.per_label, [&](const VolumeRow& row) {
+    return !keeps(options.kept, row.label) || is_partial(options.partial, row.label);
+  });
   VolumeMeter meter;
   for (const VolumeRow& row : report.per_label) meter.add(row);
   report.summary = meter.summary();
@@ -192,7 +210,7 @@ AuditReport judge(AuditFindings findings, const AuditOptions& options) {
   const std::size_t looked_at =
       options.kept.empty() ? report.voxels.size() : static_cast<std::size_t>(kept);
   report.checks.push_back(std::move(findings.place));
-  report.checks.push_back(compare_topology(report, looked_at, options.label_text));
+  report.checks.push_back(compare_topology(report, looked_at, options));
   report.junctions = std::move(findings.junctions);
   judge_junctions(report, options.label_text);
   report.quality = findings.quality;
@@ -201,7 +219,7 @@ AuditReport judge(AuditFindings findings, const AuditOptions& options) {
   if (report.distance && (options.max_distance || !report.distance->is_finite())) {
     report.checks.push_back(judge_distance(*report.distance, options));
   }
-  report.volumes = only_kept(std::move(findings.volumes), options.kept);
+  report.volumes = only_kept(std::move(findings.volumes), options);
   if (options.max_volume_error) {
     report.checks.push_back(
         judge_volumes(report.volumes, *options.max_volume_error, options.label_text));

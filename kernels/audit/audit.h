@@ -30,6 +30,10 @@ struct AuditOptions {
   /// The labels that the mesh is to hold; empty: all.  With some left out P1, P4 and P8 are about
   /// the others, P2 as check_validity() says.  Then REQUIRES: !count_junctions.
   KeptLabels kept = {};
+  /// Kept labels of which parts were left out: for these P1 says that the open region has no more
+  /// components, tunnels and cavities than that of the voxels, P4 is one-sided, from the mesh to
+  /// the voxels, and P8 says nothing.  Empty: none.
+  KeptLabels partial = {};
   /// Names labels in the details of checks.
   LabelText label_text = {};
   /// P8 fails above this share (volume_bound()), for labels of at least kMinJudgedVoxels; empty: no

@@ -41,6 +41,11 @@ using KeptLabels = std::vector<bool>;
   return kept.empty() || (label < kept.size() && kept[label]);
 }
 
+/// Returns whether parts of the label were left out.
+[[nodiscard]] inline bool is_partial(const KeptLabels& partial, Label label) {
+  return label < partial.size() && partial[label];
+}
+
 /// The input.  labels: shape.product() dense labels, x fastest.
 struct VoxelLabels {
   Index3 shape;

@@ -19,7 +19,8 @@ import volumes
 
 TIMEOUT = 600  # s; the slowest of these volumes takes a thirtieth of it on an idle core
 REFUSALS = {  # the only ways in which these settings may be refused
-    2: [r"quality-floor .* cannot be promised for voxels", r"--background: it is the only label"],
+    2: [r"quality-floor .* cannot be promised for voxels", r"--background: it is the only label",
+        r"--parts .*: no part is that large"],
 }
 JUDGED = ("vtkhdf", "vtu", "mesh")
 
@@ -168,7 +169,8 @@ class Case:
         if max(self.volume.values()) > 2**63 - 1:  # the judge reads no such number in a text
             meshes = [p for p in meshes if not p.endswith(".mesh")]
         flags = self.settings.flags
-        if (self.judge is None or not meshes or self.volume.turned or "element" in flags
+        if (self.judge is None or not meshes or self.volume.turned
+                or {"element", "split", "open-hinges"} & set(flags)
                 or self.settings.chosen or "drop-specks" in self.settings.prepare):
             return
         volume = self.prepared(self.settings)

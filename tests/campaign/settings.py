@@ -101,6 +101,18 @@ def draw_sizes(random, settings, values, spacing):
         settings.flags["across"] = random.choice(["1", "2", "4"])
 
 
+def draw_connected(random, settings):
+    """Only where the file tells of it: `verify` has to know."""
+    if settings.output.split(".")[1] not in KEEP_PROMISES:
+        return
+    if random.random() < 0.15:
+        settings.flags["parts"] = random.choice(["largest", "1", "2"])
+    if random.random() < 0.15:
+        settings.flags["split"] = "*"
+    if random.random() < 0.1:
+        settings.flags["open-hinges"] = None
+
+
 def draw_flags(random, settings):
     flags = settings.flags
 
@@ -135,6 +147,7 @@ def draw(random, volume, values_of):
     settings.output = "m." + random.choice(FORMATS + ("vtkhdf", "vtu", "mesh"))
     if random.random() < 0.1 and settings.output != "m.mesh":
         settings.flags["element"] = "tet10"
+    draw_connected(random, settings)
     if settings.output == "m.msh" and random.random() < 0.3:
         settings.flags["ascii"] = None
     return settings

@@ -127,7 +127,7 @@ class SharedRuns(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         alone, shared = json.loads(one.read_text()), json.loads(all_of_them.read_text())
         self.assertEqual(shared["engine"]["written_by"], "all")
-        for part in ("input", "lattice", "quality", "size"):
+        for part in ("input", "lattice", "parts", "quality", "size"):
             self.assertEqual(shared[part], alone[part], part)
         for key, value in alone["shape"].items():
             is_missing = key == "area" or key.startswith("bend") or key == "sharp_share"
@@ -152,6 +152,15 @@ class SharedRuns(unittest.TestCase):
             self.assertEqual(of_all["engine"]["written_by"], "first")
             for part in ("quality", "size", "digest"):
                 self.assertEqual(of_all[part], of_one[part], part)
+
+    def test_parts_and_splits_are_those_of_one_process(self):
+        self.synth("spheres", "24,24,40", 6)
+        options = ["--window", "8", "--background", "0", "--parts", "3", "--split", "*"]
+        expected = self.alone(*options)
+        done = self.run_shared(3, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, "written by  rank 0: it leaves parts out, or doubles vertices")
+        self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
 
     def limit_files(self, run, rank, size):
         """From now on that rank of a run cannot write beyond `size` bytes of any file."""

@@ -11,8 +11,11 @@
 #include "engine/cli/info/volume_facts.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "engine/connect/connected_sink.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"
+#include "io/mesh/merged_vertices.h"
+#include "io/mesh/no_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
 #include "io/names/read_names.h"
@@ -43,12 +46,19 @@ MeshInfo look_at_mesh(const InfoJob& job) {
   io::DigestSink digest(io::scratch_folder());
   ShapeSink shape(io::scratch_folder());
   io::TeeSink measured(sink, shape);
-  io::TeeSink all(measured, digest);
+  io::MergedVertices merged(measured, io::scratch_folder());
+  io::NoSink nowhere;
+  engine::ConnectedSink connected(nowhere, {.options = {}, .folder = io::scratch_folder()});
+  io::TeeSink told(merged,
+                   connected);  // in this order: rows have been checked when places are told
+  io::TeeSink all(told, digest);
   io::copy_mesh(job.file, all);
   io::GroupedMesh& mesh = sink.mesh();
   return {.file = job.file.string(),
-          .vertices = mesh.vertex_count(),
+          .vertices = mesh.vertex_count() + merged.merged(),
           .tets = mesh.tet_count(),
+          .doubled = merged.merged(),
+          .parts = connected.facts().value(),
           .table = mesh.table(),
           .names = mesh.names().merged_with(more_names),
           .mesh = measure_mesh(mesh, job.betti),

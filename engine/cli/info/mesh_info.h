@@ -11,6 +11,7 @@
 
 #include "engine/cli/info/mesh_stats.h"
 #include "engine/cli/options/volume_options.h"
+#include "engine/connect/connect_options.h"
 #include "io/labels/label_table.h"
 #include "io/names/label_names.h"
 #include "kernels/audit/shape/shape.h"
@@ -37,6 +38,8 @@ struct MeshInfo {
   std::string file;
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
+  std::uint64_t doubled = 0;  ///< vertices, among them, that double earlier ones
+  engine::ConnectFacts parts;
   io::LabelTable table;
   io::LabelNames names;
   MeshStats mesh;  ///< by rank of label

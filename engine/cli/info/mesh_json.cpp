@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/cli/report_names.h"
+#include "engine/report/connect_report.h"
 
 namespace mw::cli {
 namespace {
@@ -88,6 +89,13 @@ Json volumes_json(const MeshInfo& facts) {
   return out;
 }
 
+/// A mesh in a file is not changed any more.
+Json parts_json(const MeshInfo& facts) {
+  Json out = report::connect_json(facts.parts, facts.table.is_signed());
+  for (const char* key : {"found", "doubled"}) out.erase(key);
+  return out;
+}
+
 }  // namespace
 
 Json mesh_json(const MeshInfo& facts, bool contacts) {
@@ -95,8 +103,10 @@ Json mesh_json(const MeshInfo& facts, bool contacts) {
            {"file", facts.file},
            {"vertices", facts.vertices},
            {"tets", facts.tets},
+           {"doubled_vertices", facts.doubled},
            {"labels", labels_json(facts.table)},
            {"box", box_json(facts.mesh)},
+           {"parts", parts_json(facts)},
            {"shape", interfaces_json(facts.shape)},
            {"volume", volumes_json(facts)}};
   if (contacts) {

@@ -13,6 +13,7 @@
 #include "engine/cli/mesh/run_processes.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/page/run_page.h"
+#include "engine/connect/connected_sink.h"
 #include "engine/report/run_report.h"
 #include "engine/settings/promises.h"
 #include "engine/settings/size_text.h"
@@ -120,6 +121,18 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   } catch (const engine::StoppedAfterSave&) {
     throw Interrupted{work};
   }
+}
+
+/// Counts parts and hinges in a mesh that several processes have written.
+std::optional<engine::ConnectFacts> parts_of_file(const MeshRequest& request) {
+  io::NoSink nowhere;
+  const engine::MeshJob& job = request.job;
+  engine::ConnectedSink sink(
+      nowhere, {.options = {},
+                .folder = job.folder.empty() ? "." : job.folder,
+                .memory_bytes = engine::ConnectTask::memory_of(job.run.store.memory)});
+  io::copy_mesh(request.output, sink);
+  return sink.facts();
 }
 
 /// Says who wrote the mesh, where that could be several processes.
@@ -234,6 +247,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
   report::FinishedRun run = mesh_into(request, *volume, files);
   if (!run_processes().speaks()) return kExitDone;
+  if (!run.connected && files.shared.mesh != nullptr) run.connected = parts_of_file(request);
   tell_resume(request, run.engine.store);
   if (run.engine.keep) tell_keep(*run.engine.keep);
   run.resources = meter.read();

@@ -144,6 +144,31 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .only_flag = true});
 }
 
+void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
+  options.add({.name = "parts",
+               .value = "all|largest|N",
+               .help = "parts that are written; N: those of at least N tets",
+               .group = kOutputGroup,
+               .kind = ValueKind::kIntegerOrText,
+               .fallback = "all",
+               .listed = Listed::kInHelpAll,
+               .assign = into(connect.parts, engine::parse_parts)});
+  options.add({.name = "split",
+               .value = "A|B,...",
+               .help = "doubles the vertices of interfaces, so that they open; *: of all",
+               .group = kOutputGroup,
+               .listed = Listed::kInHelpAll,
+               .has_labels = true,
+               .assign = into(connect.split, engine::parse_split)});
+  options.add({.name = "open-hinges",
+               .help = "doubles the vertices at which parts hang, so that they come apart",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .listed = Listed::kInHelpAll,
+               .assign = into(connect.open_hinges)});
+}
+
 void add_output_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "output",
                .value = "OUTPUT",
@@ -158,6 +183,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .fallback = "tet4",
                .choices = {"tet4", "tet10"},
                .assign = into(request.element, parse_element)});
+  add_connect_options(options, request.job.connect);
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes figures of the run and of the finished mesh",
@@ -230,6 +256,7 @@ void settle_job(MeshRequest& request) {
   job.steps = request.volume.steps;
   job.folder = request.output.parent_path();
   job.is_measured = !request.report.empty() || !request.html.empty();
+  job.finds_parts = true;
   job.run.owns_process = true;
   store.stays = job.is_measured || !request.trace.empty();
 }

@@ -9,6 +9,7 @@
 #include "engine/cli/log.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/report_names.h"
+#include "engine/report/connect_report.h"
 #include "io/file/errors.h"
 
 namespace mw::cli {
@@ -67,6 +68,11 @@ void print_count(const report::FinishedRun& run) {
     log_warning(io::text("--count ", count.asked, ": more tets than ", run.engine.tets,
                          " cannot be had from voxels of this size"));
   }
+}
+
+void print_parts(const report::FinishedRun& run) {
+  const std::string parts = run.connected ? report::connect_text(*run.connected) : "";
+  if (!parts.empty()) std::cout << "parts       " << parts << "\n";
 }
 
 void print_across(const report::FinishedRun& run) {
@@ -145,6 +151,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
             << "tets        " << run.engine.tets << "\n";
   print_labels(run, tets);
   print_background(run, request, tets);
+  print_parts(run);
   report::print_specks(run.specks);
   print_lattice(run.engine.lattice);
   print_space(run.volume.space);

@@ -65,7 +65,7 @@ def _size_place(volume, key):
 
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
              drop_specks=None, workdir=None, resume=False, keep=None, from_kept=False,
-             changed=(), certify="auto", report=True):
+             changed=(), certify="auto", report=True, parts="all", split=(), open_hinges=False):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:
@@ -79,6 +79,12 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
             raise UsageError("labels: the list is empty")
     if background is not None:
         options.background = label(volume, background, "background")
+    options.parts = text(parts, "parts") if isinstance(parts, str) else str(whole(parts, "parts"))
+    if options.parts not in ("all", "largest") and not (options.parts.isdecimal()
+                                                        and int(options.parts)):
+        raise unexpected("parts", "all, largest, or a number of tets", parts)
+    options.split = _split_text(volume, split)
+    options.open_hinges = switch(open_hinges, "open_hinges")
     options.merge = {label(volume, a, "merge"): label(volume, b, "merge")
                      for a, b in (merge or {}).items()}
     specks, corners = drop_specks if isinstance(drop_specks, tuple) else (drop_specks, 6)
@@ -97,6 +103,21 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.certify = known[certify]
     options.report = switch(report, "report")
     return options
+
+
+def _split_text(volume, split):
+    """"*", or pairs of labels."""
+    if isinstance(split, str) and split == "*":
+        return split
+    if isinstance(split, str) or not isinstance(split, (list, tuple, set)):
+        raise unexpected("split", "pairs of labels, or *", split)
+    for pair in split:
+        if not isinstance(pair, tuple) or len(pair) != 2:
+            raise unexpected("split", "pairs of labels such as (1, 2)", pair)
+    pairs = [tuple(label(volume, one, "split") for one in pair) for pair in split]
+    if any(a == b for a, b in pairs):
+        raise UsageError("split: two labels make a pair")
+    return ",".join(f"{a}|{b}" for a, b in pairs)
 
 
 def _box(box, name):
@@ -136,7 +157,8 @@ def _progress(wanted):
 
 
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
-            "resume", "keep", "from_kept", "changed", "certify", "report")
+            "resume", "keep", "from_kept", "changed", "certify", "report", "parts", "split",
+            "open_hinges")
 
 
 def _check_known(arguments):
@@ -191,6 +213,11 @@ def mesh(volume, *, progress=None, **arguments):
         label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.
     labels, background
         the labels that the mesh is to have, or the one that is left out; all of them are meshed.
+    parts, split, open_hinges
+        "all", "largest" or the least number of tets of a part, which is what faces join; pairs of
+        labels, [(1, 2), ("Liver", "Lesion")], whose interfaces open because their points are
+        doubled, or "*" for all; whether points at which parts hang are doubled, too.  The report
+        counts parts and hinges ("parts").
     threads, memory
         number of threads (0: all cores); bytes, or a text like "8GiB", in addition to the arrays of
         volume and mesh (half of what is free by default).

@@ -162,6 +162,9 @@ def mesh(
     changed: Sequence[_Box] = ...,
     certify: _Certify = ...,
     report: bool = ...,
+    parts: Literal["all", "largest"] | int = ...,
+    split: Literal["*"] | Sequence[tuple[_Label, _Label]] = ...,
+    open_hinges: bool = ...,
     **settings: _Setting,
 ) -> Mesh: ...
 class Session:

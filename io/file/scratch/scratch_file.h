@@ -58,6 +58,18 @@ class ScratchFile {
   [[nodiscard]] std::uint64_t size() const { return flushed_ + buffer_.size(); }
   /// REQUIRES: offset + out.size() <= size().
   void read_at(std::uint64_t offset, std::span<std::byte> out);
+  /// Calls visit(std::span<const Record>) on all records in their order, some thousands at once.
+  /// REQUIRES: nothing else was appended.
+  template <typename Record, class Visit>
+  void each_batch(Visit visit) {
+    constexpr std::uint64_t kBatch = 4096;
+    std::vector<Record> batch;
+    for (std::uint64_t at = 0; at < size(); at += batch.size() * sizeof(Record)) {
+      batch.resize(std::min(kBatch, (size() - at) / sizeof(Record)));
+      read_at(at, std::as_writable_bytes(std::span(batch)));
+      visit(std::span<const Record>(batch));
+    }
+  }
   /// The file itself, all bytes in it.  REQUIRES: the object is not used afterwards.
   [[nodiscard]] FileDescriptor release();
 

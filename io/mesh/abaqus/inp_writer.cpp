@@ -48,7 +48,10 @@ void InpWriter::write(GroupedMesh& mesh) {
     write_elements(mesh, mesh.label_tets()[rank], names.volume(rank));
   }
   for (const NamedFacets& set : named_facets(mesh, names)) {
-    write_node_set(mesh, set.name, set.group.facets);
+    write_node_set(mesh, set.name, set.group.facets, false);
+    if (!set.other.empty() && mesh.header().record.has_doubles) {
+      write_node_set(mesh, set.other, set.group.facets, true);
+    }
     write_surface(mesh, set.name, set.group.facets, false);
     if (!set.other.empty()) write_surface(mesh, set.other, set.group.facets, true);
   }
@@ -74,6 +77,9 @@ void InpWriter::write_head(const GroupedMesh& mesh, const PlainNames& names) {
   line("** FACE_2_1: the same faces, of the elements of label 2.");
   line("** Surfaces X_MIN to Z_MAX: sides of the box; OUTER: what else bounds the mesh.");
   line("** Node sets have the nodes of the surface of the same name (FACE_2_1: see FACE_1_2).");
+  if (mesh.header().record.has_doubles) {
+    line("** Vertices were doubled: where sides are apart, FACE_2_1 has a node set of its own.");
+  }
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const LabelName* const row = mesh.names().find(mesh.table().raw(rank));
     if (row != nullptr) line(inp_comment(names.volume(rank), *row, mesh.table().is_signed()));
@@ -111,19 +117,21 @@ void InpWriter::write_surface(GroupedMesh& mesh, const std::string& name, RowRan
   }
 }
 
-void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets) {
+void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets,
+                               bool of_second) {
   constexpr std::size_t kMaxItems = 16;  // of a data line
   line("*NSET, NSET=", name);
   std::string items;
   std::size_t count = 0;
-  for_each_facet_node(mesh, facets, folder_, [&](std::uint64_t row) {
+  const auto add = [&](std::uint64_t row) {
     if (count++ == kMaxItems) {
       line(items);
       items.clear();
       count = 1;
     }
     items += text(items.empty() ? "" : ", ", row + 1);
-  });
+  };
+  for_each_facet_node(mesh, facets, folder_, add, of_second);
   line(items);
 }
 

@@ -32,7 +32,7 @@ class InpWriter : public GroupedWriter {
   void write_nodes(GroupedMesh& mesh);
   void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);
   void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
-  void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets);
+  void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void line(std::string_view line, std::string_view more = {});
 
   std::filesystem::path folder_;

@@ -87,9 +87,17 @@ ExodusWriter::Plan ExodusWriter::plan_of(GroupedMesh& mesh) const {
     if (!set.other.empty()) {
       plan.side_sets.push_back({.name = set.other, .facets = facets, .of_second = true});
     }
-    std::uint64_t nodes = 0;
-    for_each_facet_node(mesh, facets, folder_, [&](std::uint64_t /*row*/) { ++nodes; });
-    plan.node_sets.push_back({.name = set.name, .facets = facets, .nodes = nodes});
+    const bool has_two = !set.other.empty() && mesh.header().record.has_doubles;
+    for (const bool of_second : {false, true}) {
+      if (of_second && !has_two) continue;
+      std::uint64_t nodes = 0;
+      for_each_facet_node(
+          mesh, facets, folder_, [&](std::uint64_t /*row*/) { ++nodes; }, of_second);
+      plan.node_sets.push_back({.name = of_second ? set.other : set.name,
+                                .facets = facets,
+                                .nodes = nodes,
+                                .of_second = of_second});
+    }
   }
   return plan;
 }
@@ -203,10 +211,11 @@ void ExodusWriter::write_node_set(GroupedMesh& mesh, const NodeSet& set) {
     written += nodes.size();
     nodes.clear();
   };
-  for_each_facet_node(mesh, set.facets, folder_, [&](std::uint64_t row) {
+  const auto add = [&](std::uint64_t row) {
     nodes.push_back(number(row));
     if (nodes.size() == kRowsAtOnce) flush();
-  });
+  };
+  for_each_facet_node(mesh, set.facets, folder_, add, set.of_second);
   flush();
 }
 

@@ -41,6 +41,7 @@ class ExodusWriter : public GroupedWriter {
     std::string name;
     RowRange facets;
     std::uint64_t nodes = 0;
+    bool of_second = false;
     int variable = 0;
   };
   /// What is written, with the variables that hold it.

@@ -9,15 +9,17 @@
 
 namespace mw::io {
 
-/// Calls visit(row) once for each node of the facets, ascending.  Memory: 8 MiB; what is more goes
-/// to a temporary file in `folder`.  ERRORS: see ScratchFile.
+/// Calls visit(row) once for each node of the facets, ascending; of_second: of those of an
+/// interface as GroupedMesh::of_second() has them.  Memory: 8 MiB; what is more goes to a temporary
+/// file in `folder`.  ERRORS: see ScratchFile.
 template <class Visit>
 void for_each_facet_node(GroupedMesh& mesh, RowRange facets, const std::filesystem::path& folder,
-                         Visit visit) {
+                         Visit visit, bool of_second = false) {
   constexpr std::size_t kSortBytes = 8 << 20;
   ExternalSort<1> rows(folder, kSortBytes);
   for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
-    for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) rows.add({row});
+    const Facet facet = of_second ? mesh.of_second(mesh.facet(f)) : mesh.facet(f);
+    for (const std::uint64_t row : mesh.facet_nodes(facet)) rows.add({row});
   }
   std::uint64_t last = mesh.node_count();
   rows.each([&](const std::array<std::uint64_t, 1>& row) {

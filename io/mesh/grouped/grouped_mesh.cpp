@@ -96,6 +96,15 @@ NodeRows GroupedMesh::tet_nodes(std::uint64_t number) {
   return out;
 }
 
+Facet GroupedMesh::of_second(const Facet& facet) {
+  Facet out = facet;
+  std::swap(out.tet, out.second_tet);
+  std::swap(out.opposite, out.second_opposite);
+  const TetRows tet = tets_[out.tet];
+  for (std::size_t i = 0; i < 3; ++i) out.rows[i] = tet[kTetFacets[out.opposite][i]];
+  return out;
+}
+
 NodeRows GroupedMesh::facet_nodes(const Facet& facet) {
   NodeRows out;
   out.add(facet.rows);

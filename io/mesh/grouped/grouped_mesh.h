@@ -45,6 +45,10 @@ struct Facet {
   std::uint64_t second_opposite = 0;
 };
 
+/// The corners of the facet opposite to each corner of a positive tet, normal outwards.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> kTetFacets{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
 /// The six edges of a tet by its corners, in the order of VTK's, Abaqus' and FEBio's ten nodes.
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
@@ -103,6 +107,8 @@ class GroupedMesh {
   [[nodiscard]] std::uint64_t facet_count() const { return facets_.size(); }
   /// Facets are numbered by group, in a group by tet.
   [[nodiscard]] Facet facet(std::uint64_t number) { return facets_[number]; }
+  /// The facet of an interface as label `second` has it: other rows where vertices were doubled.
+  [[nodiscard]] Facet of_second(const Facet& facet);
   /// Rows of the middles of the facet's edges 0 1, 1 2 and 2 0.  REQUIRES: kTet10.
   [[nodiscard]] std::array<std::uint64_t, 3> facet_middles(const Facet& facet);
   [[nodiscard]] NodeRows facet_nodes(const Facet& facet);

@@ -9,15 +9,12 @@
 #include "io/file/scratch/external_sort.h"
 #include "io/labels/label_set.h"
 #include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/merged_vertices.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
 namespace {
-
-/// The corners of the facet opposite to each corner of a positive tet, normal outwards.
-constexpr std::array<std::array<std::size_t, 3>, 4> kFacets{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 /// Rows of a facet that lie together: by which the two tets of a triangle find each other.
 std::array<std::uint64_t, 3> key_of(const std::array<std::uint64_t, 4>& face) {
@@ -25,7 +22,7 @@ std::array<std::uint64_t, 3> key_of(const std::array<std::uint64_t, 4>& face) {
 }
 
 std::array<std::uint64_t, 3> facet_rows(const TetRows& tet, std::uint64_t opposite) {
-  const auto& corners = kFacets[opposite];
+  const auto& corners = kTetFacets[opposite];
   return {tet[corners[0]], tet[corners[1]], tet[corners[2]]};
 }
 
@@ -36,7 +33,10 @@ class MeshGrouping {
  public:
   MeshGrouping(const std::filesystem::path& folder, Element element);
 
-  void begin(const MeshHeader& header) { mesh_.header_ = header; }
+  void begin(const MeshHeader& header) {
+    mesh_.header_ = header;
+    if (header.record.has_doubles) doubles_.emplace(folder_, kSortBytes);
+  }
   void add_vertices(std::span<const Position> positions);
   void add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
   /// Called once, after everything was added.
@@ -45,7 +45,7 @@ class MeshGrouping {
 
  private:
   static constexpr std::size_t kSortBytes = 8 << 20;
-  /// Three ascending rows, and 4 * tet + opposite corner.
+  /// Three ascending rows, of doubled vertices the first, and 4 * tet + opposite corner.
   using FaceRecord = std::array<std::uint64_t, 4>;
   using Faces = ExternalSort<4>;
   /// Side << 32 | first, second, 4 * tet + opposite corner of the first, and of the second.
@@ -63,6 +63,7 @@ class MeshGrouping {
   GroupedMesh mesh_;
   ScratchFile tets_;  ///< four rows and the label of each, as they came
   LabelSet labels_;
+  std::optional<DoubledVertices> doubles_;
   Position lo_{};
   Position hi_{};
 };
@@ -81,6 +82,7 @@ void MeshGrouping::add_vertices(std::span<const Position> positions) {
     }
     mesh_.vertices_.append(p);
   }
+  if (doubles_) doubles_->add(positions);
 }
 
 void MeshGrouping::add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
@@ -97,6 +99,7 @@ void MeshGrouping::group() {
   check_sink_counts("mesh", mesh_.header_, tets_.size() / sizeof(std::array<std::uint64_t, 5>));
   mesh_.table_ = LabelTable(labels_.values(), mesh_.header_.labels_signed);
   find_box();
+  if (doubles_) doubles_->find();
   Facets facets(folder_, kSortBytes);
   {
     Faces faces(folder_, kSortBytes);
@@ -152,6 +155,7 @@ void MeshGrouping::place_tet(TetRows tet, Faces& faces) {
   mesh_.tets_.append(tet);
   for (std::uint64_t opposite = 0; opposite < 4; ++opposite) {
     std::array<std::uint64_t, 3> rows = facet_rows(tet, opposite);
+    for (std::uint64_t& row : rows) row = doubles_ ? doubles_->first(row) : row;
     std::sort(rows.begin(), rows.end());
     faces.add({rows[0], rows[1], rows[2], number << 2 | opposite});
   }

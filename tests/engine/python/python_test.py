@@ -337,6 +337,31 @@ class Figures(unittest.TestCase):
         self.assertIn("P2 orientation", [name for name, passed, _ in verdict.checks if not passed])
         self.assertIn("FAIL", repr(verdict))
 
+    def test_parts_and_splits(self):
+        labels = np.zeros((12, 12, 20), np.uint8)
+        labels[2:10, 2:10, 2:6] = 1
+        labels[2:10, 2:10, 6:10] = 2
+        labels[4:8, 4:8, 14:18] = 3
+        place = {"names": {1: "left"}, "background": 0}
+        whole = mwmesh.mesh(labels, **place)
+        self.assertEqual([whole.report["parts"][k] for k in ("written", "hanging", "free")], [2, 0, 1])
+        largest = mwmesh.mesh(labels, parts="largest", **place)
+        self.assertEqual(list(largest.label_list()), [1, 2])
+        self.assertEqual(mwmesh.mesh(labels, parts=len(largest.tets), **place).digest, largest.digest)
+        self.assertTrue(largest.verify(labels))
+        split = mwmesh.mesh(labels, split=[("left", 2)], open_hinges=True, **place)
+        np.testing.assert_array_equal(split.points[split.tets], whole.points[whole.tets])
+        one, other = (set(split.tets[split.labels == label].ravel()) for label in (1, 2))
+        self.assertFalse(one & other)
+        copies = split.report["parts"]["doubled"]["copies"]
+        self.assertEqual(len(split.points) - len(whole.points), copies)
+        self.assertEqual(split.report["parts"]["doubled"]["parts_after"], 3)
+        self.assertTrue(split.verify(labels))
+        same = mwmesh.mesh(labels, split="*", **place)
+        self.assertEqual((same.digest, len(same.points)), (split.digest, len(split.points)))
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.mesh(labels, parts=10**9, **place)
+
     def test_choices(self):
         mesh = mwmesh.mesh(self.volume, labels=[-1, 2], merge={1: 2}, names={2: "ball"})
         self.assertEqual(list(mesh.label_list()), [-1, 2])
@@ -608,7 +633,8 @@ class Errors(InFolder):
             "merge": ({2**64: 1}, {1: 2**64}, {1: -1}, {"a": 1}, {1: 1.5}),
             "drop_specks": (-1, 2.5, 10**30, (5, 7), "x", True),
             "workdir": (3, "a\0b"), "resume": ("yes", 2), "certify": (True, "maybe", []),
-            "report": ("no",), "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
+            "report": ("no",), "parts": (0, -1, "most", 1.5, None, True), "open_hinges": ("yes", 2),
+            "split": ("1|2", 3, [1], [(1, 1)], [(1, 2, 0)], [(1, "x")], [(1, 77)]), "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
             "window": (5, 1e3, 2**40, True, nan, "x", [32]), "max_distance": (nan, inf, -1, "x"),
             "surface": ("smoth", 1), "preset": ("quick",), "gradation": (0.2, -1),
         }

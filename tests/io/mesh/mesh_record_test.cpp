@@ -29,6 +29,8 @@ MeshRecord random_record(unsigned seed) {
   const std::vector<RawLabel> labels{random(), random() % 9, ~RawLabel{0} - random() % 9};
   if (seed % 5 == 1) record.only_labels = labels;
   if (seed % 5 == 2) record.without_labels = labels;
+  if (seed % 7 == 1) record.partial_labels = labels;
+  record.has_doubles = seed % 7 == 2;
   if (seed % 3 == 0) return record;
   record.promises = MeshPromises{.quality_floor = std::abs(number()),
                                  .interfaces = random() % 2 == 0,

@@ -91,6 +91,25 @@ TEST(Audit, ChangeOfTheOpenRegionAloneIsAChange) {
 }
 
 /// Labels 0 and 1 change places: each is a ball as before, but 1 no longer touches 2.
+/// Closed regions may change where parts that touched them are gone.
+TEST(Audit, MoreInALabelThatIsThereInPartIsAChange) {
+  const RegionBetti voxels{.closed = {1, 2, 0}, .open = {3, 1, 1}};
+  const auto topology_of = [&](const Betti& open, bool is_part) {
+    AuditFindings findings{.voxels = {{}, voxels, {}},
+                           .mesh = {{}, {.closed = {2, 3, 0}, .open = open}, {}}};
+    findings.validity.checks = {{"P2 input", true, ""}};
+    AuditOptions options{.kept = {false, true}};
+    if (is_part) options.partial = {false, true};
+    return check(judge(std::move(findings), options), "P1 topology").passed;
+  };
+  EXPECT_TRUE(topology_of({3, 1, 1}, true));
+  EXPECT_TRUE(topology_of({1, 0, 0}, true));
+  EXPECT_FALSE(topology_of({1, 0, 0}, false));
+  for (const Betti& more : {Betti{4, 1, 1}, Betti{1, 2, 0}, Betti{1, 0, 2}}) {
+    EXPECT_FALSE(topology_of(more, true));
+  }
+}
+
 TEST(Audit, ChangeOfAnInterfaceAloneFailsOnlyWhenAskedFor) {
   const auto row = [](std::array<Label, 4> labels) {
     return volume_from({4, 1, 1}, 3,

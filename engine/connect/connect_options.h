@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What of a mesh is written, where its vertices are doubled, and what is told of its parts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/labels/label_table.h"
+#include "io/mesh/mesh_record.h"
+
+namespace mw::engine {
+
+/// Which parts are written.  A part is a set of tets that faces join, whatever their labels.
+struct PartsRule {
+  bool only_largest = false;     ///< the one with the most tets, the first of several
+  std::uint64_t least_tets = 0;  ///< only parts of at least that many
+
+  [[nodiscard]] bool leaves_out() const { return only_largest || least_tets > 0; }
+  friend bool operator==(const PartsRule&, const PartsRule&) = default;
+};
+
+/// Interfaces at which a mesh comes apart.
+struct SplitRule {
+  bool all = false;
+  std::vector<std::pair<RawLabel, RawLabel>> pairs;  ///< smaller number first; ascending
+
+  [[nodiscard]] bool any() const { return all || !pairs.empty(); }
+  [[nodiscard]] bool cuts(RawLabel one, RawLabel other) const;
+};
+
+struct ConnectOptions {
+  PartsRule parts;
+  SplitRule split;
+  bool open_hinges = false;
+
+  /// Whether the mesh that is written differs from the one that was made.
+  [[nodiscard]] bool change_mesh() const {
+    return parts.leaves_out() || split.any() || open_hinges;
+  }
+};
+
+/// "all", "largest", or the least number of tets.  ERRORS: mw::Error(kUsage).
+[[nodiscard]] PartsRule parse_parts(std::string_view text);
+/// "1|2,1|3", or "*": all interfaces.  ERRORS: mw::Error(kUsage).
+[[nodiscard]] SplitRule parse_split(std::string_view text);
+/// ERRORS: mw::Error(kUsage) for a label that the volume does not have.
+void check_split(const SplitRule& split, const io::LabelTable& table);
+
+/// Parts of fewer tets are counted apart.
+inline constexpr std::uint64_t kSmallPartTets = 20;
+/// Parts, and hinges, of which a place is told.
+inline constexpr std::size_t kMostPlaces = 20;
+
+struct PartPlace {
+  std::uint64_t tets = 0;
+  bool is_free = false;   ///< it does not even touch the largest part, nor one that does
+  RawLabel label = 0;     ///< of one of its tets
+  std::uint64_t row = 0;  ///< of one of its vertices, in the mesh as it was made
+  io::Position place{};   ///< of that vertex
+};
+
+/// A vertex at which tets meet that neither faces nor edges join there, or an edge at which tets
+/// meet that no faces join there.
+struct HingePlace {
+  bool is_edge = false;
+  std::array<RawLabel, 2> labels{};     ///< of two tets that meet
+  std::array<std::uint64_t, 2> rows{};  ///< as PartPlace::row; equal for a vertex
+  std::array<io::Position, 2> places{};
+};
+
+/// What hangs together in a mesh, before vertices are doubled.
+struct ConnectFacts {
+  std::uint64_t found = 0;    ///< parts, before any was left out
+  std::uint64_t parts = 0;    ///< parts that are written; all that follows is about these
+  std::uint64_t hanging = 0;  ///< parts that only vertices or edges join to the largest one
+  std::uint64_t free = 0;     ///< parts that nothing joins to the largest one
+  std::uint64_t small = 0;    ///< parts of fewer than kSmallPartTets tets
+  std::uint64_t largest_tets = 0;
+  std::uint64_t tets = 0;  ///< that are written
+  std::uint64_t vertices = 0;
+  std::uint64_t hinge_vertices = 0;
+  std::uint64_t hinge_edges = 0;
+  std::vector<PartPlace> others;   ///< parts without the largest, those of the fewest tets first
+  std::vector<HingePlace> hinges;  ///< in the order of rows
+  std::uint64_t doubled = 0;       ///< vertices that were doubled
+  std::uint64_t copies = 0;        ///< vertices that were added by that
+  std::uint64_t parts_after = 0;   ///< parts of the mesh with its doubled vertices
+};
+
+}  // namespace mw::engine

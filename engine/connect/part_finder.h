@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Parts and hinges of a mesh that comes tet by tet.
+#pragma once
+
+#include <span>
+
+#include "engine/connect/connect_options.h"
+#include "engine/connect/star.h"
+#include "io/file/scratch/external_sort.h"
+#include "io/mesh/mesh_sink.h"
+
+namespace mw::engine {
+
+// Tets are taken in by chunks.  What faces join within a chunk is a piece, the only thing that is
+// remembered of its tets.  The star of each vertex then comes out of a sort: its faces unite
+// pieces, and a star that is no ball or half ball may be a hinge, or a place where vertices are
+// doubled. Such pinched stars wait until all parts are known, since parts that are left out make no
+// hinges.
+
+/// A corner of a tet whose vertex is replaced by a copy.
+struct CopiedCorner {
+  std::uint64_t tet = 0;   ///< as it came
+  std::uint64_t row = 0;   ///< the vertex
+  std::uint64_t copy = 0;  ///< number of the copy
+};
+
+/// Memory: `memory_bytes` twice, 0.3 MiB, and 40 bytes a piece.  Disk: 192 bytes a tet in `folder`,
+/// for the time of find().  ENSURES: what is found depends on the mesh alone, not on how it was
+/// divided among calls of add().  Cost: 3 us a tet.
+class PartFinder {
+ public:
+  PartFinder(ConnectOptions options, std::filesystem::path folder, std::size_t memory_bytes);
+
+  void add(std::span<const io::TetRows> tets, std::span<const RawLabel> labels);
+  /// Called once, when all tets were added.
+  /// ERRORS: mw::Error(kUsage) when no part has the tets that are asked for.
+  void find();
+
+  // REQUIRES (all that follow): find().
+  /// Rows are not yet places.
+  [[nodiscard]] ConnectFacts& facts() { return facts_; }
+  /// Fast where neighbours are asked for together.
+  [[nodiscard]] bool keeps(std::uint64_t tet);
+  /// By number, ascending: the row that a copy is of.
+  [[nodiscard]] io::ScratchFile& copies() { return copies_; }
+  /// Visits corners with a copy, ascending by tet.  Called once.
+  void each_copied_corner(const std::function<void(const CopiedCorner&)>& visit);
+
+ private:
+  static constexpr std::size_t kChunkTets = 1024;
+
+  struct Piece {
+    // Trees of pieces: joined by faces that are not split; by any faces; by vertices.
+    std::uint32_t split_parent = 0;
+    std::uint32_t parent = 0;
+    std::uint32_t body_parent = 0;
+    bool is_kept = true;
+    std::uint64_t tets = 0;  ///< at the root of its part: of the whole part
+    std::uint64_t row = 0;   ///< a vertex of its first tet
+    RawLabel label = 0;      ///< of that tet
+  };
+  using Tree = std::uint32_t Piece::*;
+
+  /// Vertex; the three others of the tet; place of the tet (place_of()); label.
+  using StarRecord = std::array<std::uint64_t, 6>;
+
+  void close_chunk();
+  [[nodiscard]] std::vector<std::uint32_t> pieces_of_chunk();
+  void each_star(io::ExternalSort<6>& records,
+                 const std::function<void(std::uint64_t, std::vector<StarTet>&)>& visit);
+  void unite_star(std::uint64_t row, std::vector<StarTet>& star);
+  void choose_parts();
+  void count_parts();
+  void look_at_pinched(std::uint64_t row, std::vector<StarTet>& star);
+  void count_hinges(std::uint64_t row, std::span<const StarTet> star, StarSets joined);
+  void add_hinge(const HingePlace& hinge);
+  void double_vertex(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
+
+  [[nodiscard]] std::uint32_t root(Tree tree, std::uint32_t piece);
+  void unite(Tree tree, std::uint32_t one, std::uint32_t other);
+  [[nodiscard]] std::uint32_t piece_at(std::uint64_t place) const;
+
+  ConnectOptions options_;
+  std::filesystem::path folder_;
+  std::size_t memory_bytes_;
+  std::vector<io::TetRows> tets_;  ///< of the chunk
+  std::vector<RawLabel> labels_;
+  std::vector<std::uint32_t> first_pieces_;  ///< by chunk
+  std::vector<Piece> pieces_;
+  io::ExternalSort<6> stars_;
+  io::ExternalSort<6> pinched_;
+  io::ExternalSort<3> copied_;  ///< tet, row, copy
+  io::ScratchFile copies_;
+  io::ScratchFile tet_pieces_;  ///< the piece of each tet; only where parts are left out
+  std::uint64_t loaded_chunk_ = ~std::uint64_t{0};
+  std::vector<std::uint32_t> loaded_;  ///< pieces of that chunk's tets
+  std::uint32_t largest_ = 0;          ///< the root of that part
+  ConnectFacts facts_;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Words and rows.
+#include "engine/report/connect_report.h"
+
+#include "engine/report/mesh_facts.h"
+#include "io/file/errors.h"
+
+namespace mw::report {
+namespace {
+
+using io::Json;
+
+Json other_json(const engine::PartPlace& part, bool is_signed) {
+  return {{"tets", part.tets},
+          {"free", part.is_free},
+          {"label", label_json(part.label, is_signed)},
+          {"place", part.place}};
+}
+
+Json hinge_json(const engine::HingePlace& hinge, bool is_signed) {
+  Json out{
+      {"kind", hinge.is_edge ? "edge" : "vertex"},
+      {"labels", {label_json(hinge.labels[0], is_signed), label_json(hinge.labels[1], is_signed)}},
+      {"place", hinge.places[0]}};
+  if (hinge.is_edge) out["end"] = hinge.places[1];
+  return out;
+}
+
+}  // namespace
+
+Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
+  Json others = Json::array(), hinges = Json::array();
+  for (const engine::PartPlace& part : facts.others) {
+    others.push_back(other_json(part, labels_signed));
+  }
+  for (const engine::HingePlace& hinge : facts.hinges) {
+    hinges.push_back(hinge_json(hinge, labels_signed));
+  }
+  return {{"found", facts.found},
+          {"written", facts.parts},
+          {"hanging", facts.hanging},
+          {"free", facts.free},
+          {"small", {{"below_tets", engine::kSmallPartTets}, {"parts", facts.small}}},
+          {"largest_tets", facts.largest_tets},
+          {"others", std::move(others)},
+          {"hinge_vertices", facts.hinge_vertices},
+          {"hinge_edges", facts.hinge_edges},
+          {"hinges", std::move(hinges)},
+          {"doubled",
+           {{"vertices", facts.doubled},
+            {"copies", facts.copies},
+            {"parts_after", facts.parts_after}}}};
+}
+
+std::string connect_text(const engine::ConnectFacts& facts) {
+  std::string out;
+  const auto add = [&](const std::string& words) { out += (out.empty() ? "" : ", ") + words; };
+  if (facts.found != facts.parts) {
+    add(io::text(facts.parts, " of ", facts.found, " that faces join are written"));
+  } else if (facts.parts > 1) {
+    add(io::text(facts.parts, " joined by faces"));
+  }
+  if (facts.parts > 1) {
+    add(io::text(facts.hanging, " hang on vertices or edges"));
+    add(io::text(facts.free, " are free"));
+    add(io::text(facts.small, " have fewer than ", engine::kSmallPartTets, " tets"));
+  }
+  if (facts.hinge_vertices + facts.hinge_edges > 0) {
+    add(io::text("hinges: ", facts.hinge_vertices, " vertices, ", facts.hinge_edges, " edges"));
+  }
+  if (facts.copies > 0) {
+    add(io::text(facts.doubled, " vertices doubled by ", facts.copies, " copies, then ",
+                 facts.parts_after, " parts"));
+  }
+  return out;
+}
+
+}  // namespace mw::report

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What hangs together in a mesh, as JSON and as a line.
+#pragma once
+
+#include <string>
+
+#include "engine/connect/connect_options.h"
+#include "io/json/json.h"
+
+namespace mw::report {
+
+/// "parts" of a report.
+[[nodiscard]] io::Json connect_json(const engine::ConnectFacts& facts, bool labels_signed);
+
+/// Parts and hinges in a line; empty where there is one part without hinges that is all of the
+/// mesh.
+[[nodiscard]] std::string connect_text(const engine::ConnectFacts& facts);
+
+}  // namespace mw::report
