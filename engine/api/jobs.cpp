@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/api/guarded.h"
+#include "engine/sample/sample_text.h"
 #include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"
 #include "engine/system/memory.h"
@@ -99,6 +100,8 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
   return {.steps = input_steps(options),
           .settings = std::move(values),
           .size_image = std::move(sizes),
+          .samples = options.sample.empty() ? std::vector<engine::SampleImage>()
+                                            : engine::parse_samples(options.sample),
           .choice = label_choice(options),
           .certify = certify_of(options.certify),
           .is_measured = options.report,

@@ -247,6 +247,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
   check_unpacking(opened, reading_room(job));
+  for (const SampleImage& sample : job.samples) check_unpacking(*sample.image, reading_room(job));
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const StoppableVolume from_file(opened, job.stop);
   KeptInput kept(from_file, job);
@@ -277,8 +278,13 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   }
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, sink, job.stop);
+  std::optional<ImageSampler> sampler;
+  if (!job.samples.empty()) {
+    sampler.emplace(job.samples, opened.info(), thread_count(job.run.threads));
+  }
   try {
     RunHooks hooks = run_hooks(job, run, memory);
+    hooks.output.values = sampler ? &*sampler : nullptr;
     hooks.sizes = sizes ? &*sizes : nullptr;
     hooks.keep.opened = kept.folder();
     run.engine = march(labels, job, certifier ? certifier->sink() : sink, std::move(hooks));
@@ -292,6 +298,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   if (job.wants_delta) run.delta = kept.delta(input.volume(), job, size);
   kept.finish(size);
   if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
+  if (sampler) run.samples = sampler->facts();
   run.why_no_certificate = plan.why_not;
   run.why_no_volumes = why_no_volumes(promises_of(job.settings));
   if (certifier) run.certificate = certifier->report();

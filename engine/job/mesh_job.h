@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "engine/output/label_selection.h"
 #include "engine/report/run_report.h"
 #include "engine/run/run.h"
+#include "engine/sample/image_sampler.h"
 #include "io/labels/prepared_input.h"
 
 namespace mw::engine {
@@ -24,6 +26,7 @@ struct MeshJob {
   io::InputSteps steps;
   MeshSettings settings;
   std::shared_ptr<const io::LabelVolume> size_image;  ///< SizeRules::image, opened
+  std::vector<SampleImage> samples;                   ///< opened; their values go with the mesh
   LabelChoice choice;
   Certify certify = Certify::kAuto;
   bool is_measured = false;      ///< whether quality and shape are measured, for a report

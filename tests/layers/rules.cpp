@@ -111,9 +111,12 @@ const Room kRooms[] = {
     {"engine/forecast/",
      {"engine/settings/", "engine/labels/", "engine/march/", "engine/store/run_layout.h"}},
     {"engine/output/", {"engine/window/window_grid.h"}},
+    // Values of tets from images beside the labels.
+    {"engine/sample/",
+     {"engine/output/cell_values.h", "engine/output/remembered.h", "engine/system/"}},
     {"engine/verify/", {"engine/labels/", "engine/system/"}},
     {"engine/report/",
-     {"engine/run/run.h", "engine/settings/", "engine/system/", "engine/verify/",
+     {"engine/run/run.h", "engine/sample/", "engine/settings/", "engine/system/", "engine/verify/",
       "engine/version.h"}},
     // The run puts the rooms together, and knows no more of other processes than an interface.
     {"engine/run/",

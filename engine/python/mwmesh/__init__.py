@@ -13,6 +13,7 @@ True
 
 import difflib
 import json
+import os
 import sys
 
 import numpy as np
@@ -65,7 +66,7 @@ def _size_place(volume, key):
 
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
              drop_specks=None, workdir=None, resume=False, keep=None, from_kept=False,
-             changed=(), certify="auto", report=True):
+             changed=(), sample=None, certify="auto", report=True):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:
@@ -91,6 +92,8 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.keep = path_bytes(keep, "keep") if keep is not None else ""
     options.from_kept = switch(from_kept, "from_kept")
     options.changed = [_box(box, "changed") for box in changed]
+    options.sample = ";".join(f"{text(name, 'sample')}={os.fspath(file)}"
+                              for name, file in (sample or {}).items())
     known = {"auto": _core.Certify.auto, "on": _core.Certify.on, "off": _core.Certify.off}
     if not isinstance(certify, str) or certify not in known:
         raise unexpected("certify", "auto, on or off", certify)
@@ -136,7 +139,7 @@ def _progress(wanted):
 
 
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
-            "resume", "keep", "from_kept", "changed", "certify", "report")
+            "resume", "keep", "from_kept", "changed", "sample", "certify", "report")
 
 
 def _check_known(arguments):
@@ -200,6 +203,9 @@ def mesh(volume, *, progress=None, **arguments):
         a folder that holds what a later run of the volume, edited, need not do again (set
         order="colour"); whether one has left something there; and a list of boxes
         ((x0, y0, z0), (x1, y1, z1)) that have all changes since.  :class:`Session` does it all.
+    sample
+        {name: image file}: the image's mean in each tet becomes Mesh.values[name]; the file may end
+        in ":min", ":max" or ":mode".  It lies where it says itself, a .npy on the volume's voxels.
     certify
         "auto", "on" or "off": the mesh is checked before it is returned, see CheckFailedError.
     report

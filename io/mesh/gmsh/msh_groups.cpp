@@ -67,4 +67,22 @@ void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelN
   out.add_line("$EndPhysicalNames");
 }
 
+void write_element_data(MshEncoder& out, GroupedMesh& mesh) {
+  const std::vector<std::string>& names = mesh.header().values;
+  for (std::size_t column = 0; column < names.size(); ++column) {
+    out.begin_section("ElementData");
+    out.add_line("1");
+    out.add_line(text('"', names[column], '"'));
+    // A time, and three integers: its number, the components of a value, the values.
+    for (const char* const line : {"1", "0", "3", "0", "1"}) out.add_line(line);
+    out.add_line(text(mesh.tet_count()));
+    for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) {
+      out.put(static_cast<std::int32_t>(mesh.facet_count() + t + 1));
+      out.put(mesh.value(t, column));
+      out.end_row();
+    }
+    out.end_section("ElementData");
+  }
+}
+
 }  // namespace mw::io
