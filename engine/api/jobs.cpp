@@ -30,6 +30,16 @@ io::Json value_json(const engine::Setting& setting, const std::string& text) {
   return io::parse_json(text, setting.name);
 }
 
+/// Not yet opened.
+std::vector<engine::SampleImage> samples_of(const mwmesh::Options& options) {
+  if (options.sample.empty()) return {};
+  try {
+    return engine::parse_samples(options.sample);
+  } catch (const Error& error) {
+    throw Error(error.kind(), std::string("--sample: ") + error.what());
+  }
+}
+
 engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& hooks) {
   engine::RunHooks out{.threads = threads_of(options)};
   out.store.memory = memory_of(options);
@@ -100,8 +110,7 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
   return {.steps = input_steps(options),
           .settings = std::move(values),
           .size_image = std::move(sizes),
-          .samples = options.sample.empty() ? std::vector<engine::SampleImage>()
-                                            : engine::parse_samples(options.sample),
+          .samples = samples_of(options),
           .choice = label_choice(options),
           .certify = certify_of(options.certify),
           .is_measured = options.report,

@@ -61,7 +61,8 @@ engine::MeshJob job_of(const Volume& volume, const Settings& settings, const Opt
                        const Hooks& hooks) {
   engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
   for (engine::SampleImage& sample : job.samples) {
-    sample.image = io::open_volume(sample.file);
+    sample.image =
+        io::open_volume(mw::api::checked_path(sample.file, "sample"), {.dataset = sample.dataset});
     if (sample.image->info().format == "npy") {
       sample.space = VolumeAccess::labels(volume).info().space;
     }

@@ -25,7 +25,8 @@ enum class Statistic {
 /// Numbers for each tet from an image of any grid.
 struct SampleImage {
   std::string name;
-  std::string file;  ///< what errors call the image
+  std::string file;       ///< what errors call the image
+  std::string dataset{};  ///< within a file that holds several
   Statistic statistic = Statistic::kMean;
   std::shared_ptr<const io::LabelVolume> image{};  ///< once it is opened
   std::optional<io::VolumeSpace> space{};  ///< where it lies, instead of what it says itself

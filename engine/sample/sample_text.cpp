@@ -55,6 +55,10 @@ SampleImage parse_sample(std::string_view text) {
     out.statistic = statistic;
     break;
   }
+  if (const std::size_t mark = out.file.rfind('#'); mark != std::string::npos) {
+    out.dataset = out.file.substr(mark + 1);
+    out.file.resize(mark);
+  }
   return out;
 }
 

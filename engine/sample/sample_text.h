@@ -11,7 +11,8 @@
 
 namespace mw::engine {
 
-/// "NAME=FILE" or "NAME=FILE:mean", :min, :max, :mode; several are joined by ';'.  Names are a
+/// "NAME=FILE" or "NAME=FILE:mean", :min, :max, :mode; several are joined by ';'.  FILE may end in
+/// "#PATH", a data set in it.  Names are a
 /// letter and up to 30 letters, digits and '_'.  The images are not opened. ERRORS:
 /// mw::Error(kUsage) for another form, a name that is taken twice, or "label".
 [[nodiscard]] std::vector<SampleImage> parse_samples(std::string_view text);

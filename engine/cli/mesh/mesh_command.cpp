@@ -105,7 +105,8 @@ void open_samples(const MeshRequest& request, const io::VolumeInfo& labels,
   const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
   for (engine::SampleImage& sample : samples) {
     sample.image =
-        io::open_volume(sample.file, {.trust_paths = request.volume.trust_paths,
+        io::open_volume(sample.file, {.dataset = sample.dataset,
+                                      .trust_paths = request.volume.trust_paths,
                                       .cache_bytes = request.volume.cache_bytes / samples.size()});
     if (sample.image->info().format == "npy") {
       sample.space = moved_to(labels.space, Index3{} - first);

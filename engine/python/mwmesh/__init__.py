@@ -13,8 +13,8 @@ True
 
 import difflib
 import json
-import os
 import sys
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -92,14 +92,21 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.keep = path_bytes(keep, "keep") if keep is not None else ""
     options.from_kept = switch(from_kept, "from_kept")
     options.changed = [_box(box, "changed") for box in changed]
-    options.sample = ";".join(f"{text(name, 'sample')}={os.fspath(file)}"
-                              for name, file in (sample or {}).items())
+    options.sample = _samples({} if sample is None else sample)
     known = {"auto": _core.Certify.auto, "on": _core.Certify.on, "off": _core.Certify.off}
     if not isinstance(certify, str) or certify not in known:
         raise unexpected("certify", "auto, on or off", certify)
     options.certify = known[certify]
     options.report = switch(report, "report")
     return options
+
+
+def _samples(sample):
+    """Returns NAME=FILE;NAME=FILE as bytes, from {name: file}."""
+    if not isinstance(sample, Mapping):
+        raise unexpected("sample", "{name: file}", sample)
+    return b";".join(text(name, "sample").encode() + b"=" + path_bytes(file, "sample")
+                     for name, file in sample.items())
 
 
 def _box(box, name):

@@ -45,7 +45,7 @@ class Materials(unittest.TestCase):
         enter_folder(cls)
         run("synth", "voronoi", "--shape", "14,12,10", "--labels", "3", "--seed", "4", "-o", "v.npy")
         image = np.random.default_rng(1).normal(size=(10, 12, 14))
-        image[:2] = np.nan
+        image[:6] = np.nan
         np.save("image.npy", image)
         # The values of tets, which the sets are held against.
         run("mesh", "v.npy", "-o", "m.vtu", "--sample", "hu=image.npy")

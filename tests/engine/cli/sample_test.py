@@ -84,32 +84,54 @@ def sampled(tets, image):
     parts, of, voxels = parts[inside], of[inside], voxels[inside]
     values = image[voxels[:, 2], voxels[:, 1], voxels[:, 0]].astype(float)
     known = np.isfinite(values)
-    rows = np.rec.fromarrays([of[known], values[known], volume(parts[known]),
-                              np.ravel_multi_index(voxels[known].T, image.shape[::-1])])
+    of, values, voxels = of[known], values[known], voxels[known]
+    shares = volume(parts[known])
+    numbers = np.ravel_multi_index(voxels.T, image.shape[::-1])
     out = np.full((len(tets), 4), np.nan)
     for tet, whole in enumerate(volume(tets)):
-        mine = rows[rows.f0 == tet]
-        if mine.f2.sum() < LEAST * whole:
+        mine = of == tet
+        inside = shares[mine].sum()
+        if inside < LEAST * whole:
             continue
-        shares, by_value = {}, {}
-        for _, value, share, voxel in mine:
-            shares[voxel] = shares.get(voxel, 0) + share
-            by_value[value] = by_value.get(value, 0) + share
-        counts = []
-        for voxel, share in shares.items():
-            x, y, z = np.unravel_index(voxel, image.shape[::-1])
-            if share >= LEAST * min(1, whole):
-                counts.append(float(image[z, y, x]))
-        out[tet] = (mine.f1 @ mine.f2 / mine.f2.sum(), min(counts), max(counts),
-                    max(sorted(by_value), key=lambda value: by_value[value]))
+        mean = values[mine] @ shares[mine] / inside
+        _, first, which = np.unique(numbers[mine], return_index=True, return_inverse=True)
+        counts = np.bincount(which, shares[mine]) >= LEAST * min(1, whole)
+        seen = values[mine][first][counts]
+        kinds, which = np.unique(values[mine], return_inverse=True)
+        mode = kinds[np.argmax(np.bincount(which, shares[mine]))]
+        out[tet] = mean, seen.min(), seen.max(), mode
     return out
+
+
+def read_msh2(path):
+    """Values and centres of tets; meshio 5.3 takes a list's length for that of a block here."""
+    with open(path, encoding="utf-8") as file:
+        lines = file.read().splitlines()
+
+    def rows(section, head):
+        begin = lines.index(f"${section}", rows.at) + 1 + head
+        rows.at = lines.index(f"$End{section}", begin)
+        return lines[begin - head:begin], [line.split() for line in lines[begin:rows.at]]
+
+    rows.at = 0
+    points = np.array([row[1:] for row in rows("Nodes", 1)[1]], float)
+    elements = rows("Elements", 1)[1]
+    tets = [row for row in elements if row[1] in ("4", "11")]
+    values = {}
+    while "$ElementData" in lines[rows.at:]:
+        head, data = rows("ElementData", 8)
+        assert head[0] == "1" and head[2:7] == ["1", "0", "3", "0", "1"], head
+        assert int(head[7]) == len(data) == len(elements)
+        values[head[1].strip('"')] = np.array([row[1] for row in data], float)[-len(tets):]
+    corners = np.array([row[5:9] for row in tets], int) - 1
+    return values, points[corners].mean(1)
 
 
 class Samples(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         enter_folder(cls)
-        run("synth", "voronoi", "--shape", "12,10,9", "--labels", "4", "--seed", "3", "-o", "v.npy")
+        run("synth", "voronoi", "--shape", "8,7,6", "--labels", "4", "--seed", "3", "-o", "v.npy")
         cls.labels = np.load("v.npy")
         cls.random = np.random.default_rng(5)
         # A turned grid of its own; labels lie at 4, 5, 6 in voxels of 1, 1.25, 1.5.
@@ -131,7 +153,7 @@ class Samples(unittest.TestCase):
     def tets_of(mesh):
         return mesh.points[mesh.cells_dict["tetra"]]
 
-    def check(self, mesh_file, image, affine, names):
+    def check(self, mesh_file, image, affine, names, error=1e-9):
         """affine: from centres of voxels; None: the image's voxels are 1 apart from 0 on."""
         mesh = meshio.read(mesh_file)
         tets = self.tets_of(mesh)
@@ -139,44 +161,45 @@ class Samples(unittest.TestCase):
             centre = (tets - affine[:3, 3]) @ np.linalg.inv(affine[:3, :3]).T
             tets = centre + 0.5
         expected = sampled(tets, image)
-        self.assertGreater(len(tets), 100)
+        self.assertGreater(len(tets), 20)
         for name, column in names.items():
             found = mesh.cell_data_dict[name]["tetra"].ravel()
-            np.testing.assert_allclose(found, expected[:, column], rtol=1e-9, atol=1e-9,
+            np.testing.assert_allclose(found, expected[:, column], rtol=error, atol=error,
                                        err_msg=name)
         return expected
 
     def test_means_of_a_turned_image_of_floats(self):
         affine = self.affine((0.9, 1.3, 2.1), (2, 8, 1), 25)
-        image = self.random.normal(size=(14, 11, 13)).astype(np.float32)
-        image[5, 4, 6] = np.nan
+        image = self.random.normal(size=(8, 7, 9)).astype(np.float32)
+        image[3, 3, 4] = np.nan
         header = nibabel.Nifti1Image(image.T, affine)
         header.set_sform(affine, code=1)
         nibabel.save(header, "turned.nii.gz")
         affine = nibabel.load("turned.nii.gz").affine  # floats of 32 bits
         text = run("mesh", "v.nii", "-o", "t.vtu", "--report", "t.json",
                    *(f"--sample={s}=turned.nii.gz:{s}" for s in ("mean", "min", "max")))
-        expected = self.check("t.vtu", image, affine, {"mean": 0, "min": 1, "max": 2})
+        expected = self.check("t.vtu", image, affine, {"mean": 0, "min": 1, "max": 2},
+                              error=1e-5)  # axes of 32 bits are straightened
         outside = int(np.isnan(expected[:, 0]).sum())
         self.assertIn(f"{outside} are outside and have NaN" if outside else "sample ", text)
         with open("t.json", encoding="utf-8") as file:
             fact = json.load(file)["samples"][0]
         self.assertEqual((fact["name"], fact["statistic"]), ("mean", "mean"))
         self.assertEqual(fact["tets_outside"], outside)
-        self.assertGreater(fact["tets_partly_outside"], 10)
-        self.assertAlmostEqual(fact["most"], np.nanmax(expected[:, 0]))
+        self.assertGreater(fact["tets_partly_outside"], 0)
+        self.assertAlmostEqual(fact["most"], np.nanmax(expected[:, 0]), 5)
 
     def test_integers_on_a_finer_grid_in_the_other_frame(self):
         """A MetaImage says where it lies in LPS, a NIfTI in RAS."""
-        image = self.random.integers(-1000, 2000, size=(30, 23, 26)).astype(np.int16)
-        spacing, corner = np.array((0.5, 0.6, 0.5)), np.array((3.7, 4.9, 5.8))
+        image = self.random.integers(-1000, 2000, size=(14, 12, 13)).astype(np.int16)
+        spacing, corner = np.array((0.7, 0.8, 0.7)), np.array((3.7, 4.9, 5.8))
         first = (corner + spacing / 2) * (-1, -1, 1)
         with open("ct.mha", "wb") as file:
             file.write(("ObjectType = Image\nNDims = 3\nBinaryData = True\n"
                         "BinaryDataByteOrderMSB = False\n"
                         "TransformMatrix = -1 0 0 0 -1 0 0 0 1\n"
                         f"Offset = {first[0]} {first[1]} {first[2]}\n"
-                        "ElementSpacing = 0.5 0.6 0.5\nDimSize = 26 23 30\n"
+                        "ElementSpacing = 0.7 0.8 0.7\nDimSize = 13 12 14\n"
                         "ElementType = MET_SHORT\nElementDataFile = LOCAL\n").encode())
             file.write(image.tobytes())
         run("mesh", "v.nii", "-o", "i.vtu", "--sample", "ct=ct.mha", "--certify", "off")
@@ -189,15 +212,15 @@ class Samples(unittest.TestCase):
             "--sample", "least=second.npy:min", "--sample", "own=v.npy:mode")
         expected = self.check("s.vtu", second, None, {"tag": 3, "least": 1})
         self.assertTrue(np.isfinite(expected).all())
-        run("mesh", "v.npy", "-o", "c.vtu", "--crop", "2,1,1,12,9,8", "--sample",
+        run("mesh", "v.npy", "-o", "c.vtu", "--crop", "2,1,1,8,6,6", "--sample",
             "tag=second.npy:mode")
         self.check("c.vtu", second, None, {"tag": 3})
 
     def test_chunked_images_are_read_as_numbers(self):
         image = self.random.normal(size=self.labels.shape)
         with h5py.File("image.h5", "w") as file:
-            file.create_dataset("volume", data=image, chunks=(4, 5, 6), compression="gzip")
-        run("mesh", "v.npy", "-o", "h.vtu", "--sample", "x=image.h5")
+            file.create_dataset("volume", data=image, chunks=(4, 5, 3), compression="gzip")
+        run("mesh", "v.npy", "-o", "h.vtu", "--sample", "x=image.h5#volume")
         self.check("h.vtu", image, None, {"x": 0})
 
     def test_all_formats_have_the_same_values(self):
@@ -209,6 +232,9 @@ class Samples(unittest.TestCase):
             for ending in ("vtu", "vtkhdf", "msh", "msh2", "xdmf", "exo"):
                 run("mesh", "v.npy", "-o", f"m.{ending}", "--element", element,
                     "--sample", "a=image.npy", "--sample", "b=image.npy:max")
+            # Our readers pass over values.
+            self.assertEqual(len({run("digest", f"m.{ending}")
+                                  for ending in ("vtu", "vtkhdf", "msh", "msh2")}), 1)
             mesh = meshio.read("m.vtu")
             values["vtu"] = {n: mesh.cell_data_dict[n][cell].ravel() for n in "ab"}
             centres = {"vtu": mesh.points[mesh.cells_dict[cell][:, :4]].mean(1)}
@@ -217,8 +243,9 @@ class Samples(unittest.TestCase):
                 values["vtkhdf"] = {n: grid["CellData"][n][:] for n in "ab"}
                 rows = grid["Connectivity"][:].reshape(-1, 4 if cell == "tetra" else 10)
                 centres["vtkhdf"] = grid["Points"][:][rows[:, :4]].mean(1)
-            for ending, path in (("msh", "m.msh"), ("msh2", "m.msh2"), ("xdmf", "m.cells.xdmf")):
-                mesh = meshio.gmsh.read(path) if "msh" in ending else meshio.read(path)
+            values["msh2"], centres["msh2"] = read_msh2("m.msh2")
+            for ending, path in (("msh", "m.msh"), ("xdmf", "m.cells.xdmf")):
+                mesh = meshio.read(path)
                 values[ending] = {n: np.concatenate(
                     [data for block, data in zip(mesh.cells, mesh.cell_data[n])
                      if block.type == cell]).ravel() for n in "ab"}
@@ -242,12 +269,13 @@ class Samples(unittest.TestCase):
                 return np.stack([values[ending][n][order] for n in "ab"])
 
             expected = ordered("vtu")
-            self.assertGreater(len(np.unique(expected[0])), 100)
+            self.assertGreater(len(np.unique(expected[0])), 20)
             for ending in values:
                 np.testing.assert_array_equal(ordered(ending), expected, err_msg=ending)
 
     def test_bytes_do_not_depend_on_how_it_runs(self):
-        run("synth", "spheres", "--shape", "60,50,40", "--labels", "9", "-o", "big.npy")
+        run("synth", "spheres", "--shape", "60,50,40", "--labels", "9", "--seed", "1", "-o",
+            "big.npy")
         image = self.random.integers(0, 4000, size=(40, 50, 60)).astype(np.uint16)
         np.save("bigimage.npy", image)
         written = set()
