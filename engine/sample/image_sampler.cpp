@@ -17,13 +17,14 @@
 namespace mw::engine {
 namespace {
 
-/// Of a tet, or of a voxel if that is smaller: less counts as nothing, since corners are rounded.
+/// A smaller share of a tet, or of a voxel if that is smaller, counts as nothing: corners are
+/// rounded.
 constexpr double kLeastShare = 1e-6;
 /// Tiles begin at multiples of it, so that sums are the same whatever is read at once.
 constexpr std::int64_t kTile = 64;
 /// Tets that are looked at before memory is told.
 constexpr std::size_t kBatch = 1024;
-/// Of one tet, for Statistic::kMode.
+/// Different values of one tet that Statistic::kMode tells apart.
 constexpr std::size_t kMostValues = 4096;
 
 /// Volume by value, ascending.

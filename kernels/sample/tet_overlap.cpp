@@ -72,7 +72,7 @@ Polygon between(const Polygon& polygon, std::size_t axis, double lo, double hi) 
   return above.is_empty() ? above : clipped(above, axis, hi, Keep::kBelow);
 }
 
-/// Of the projection along x, and the integral of x - from over it; both with the sign of the
+/// Area of the projection along x, and the integral of x - from over it; both have the sign of the
 /// polygon's normal along x.
 struct Integrals {
   double area = 0;
