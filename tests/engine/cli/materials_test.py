@@ -43,7 +43,8 @@ class Materials(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         enter_folder(cls)
-        run("synth", "voronoi", "--shape", "14,12,10", "--labels", "3", "--seed", "4", "-o", "v.npy")
+        run("synth", "voronoi", "--shape", "14,12,10", "--labels", "3", "--seed", "4",
+            "-o", "v.npy")
         image = np.random.default_rng(1).normal(size=(10, 12, 14))
         image[:6] = np.nan
         np.save("image.npy", image)
@@ -91,7 +92,8 @@ class Materials(unittest.TestCase):
                 with Dataset("m.exo") as file:
                     names = ["".join(c.decode() for c in row.compressed() if c)
                              for row in np.ma.array(file["els_names"][:])]
-                    sets = {name: file[f"elem_els{i}"][:].tolist() for i, name in enumerate(names, 1)}
+                    sets = {name: file[f"elem_els{i}"][:].tolist()
+                            for i, name in enumerate(names, 1)}
                 self.check(table("m.exo.materials.csv"), sets, lo, hi, count)
 
     def test_what_cannot_be_is_said(self):

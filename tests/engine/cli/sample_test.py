@@ -298,6 +298,12 @@ class Samples(unittest.TestCase):
         self.assertIn("missing.npy", text)
         text = refused("mesh", "v.nii", "-o", "m.vtu", "--frame", "voxel", "--sample=x=v.nii")
         self.assertIn("--frame voxel", text)
+        for unit in ("mm", "micron"):
+            image = nibabel.Nifti1Image(self.labels.T.astype(np.uint8), np.eye(4))
+            image.header.set_xyzt_units(unit)
+            nibabel.save(image, f"{unit}.nii")
+        text = refused("mesh", "mm.nii", "-o", "m.vtu", "--sample=x=micron.nii")
+        self.assertIn("micron.nii is in um, the labels are in mm", text)
         text = refused("mesh", "v.npy", "-o", "m.vtu", "--sample=x=v.npy", "--memory=8MiB", code=4)
         self.assertIn("--memory", text)
 
