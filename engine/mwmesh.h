@@ -238,6 +238,9 @@ struct Options {
   /// With from_kept: boxes of voxels that have all changes since the run before, which alone are
   /// read; empty: everything may have changed.
   std::vector<Box> changed;
+  /// Images whose values tets get, as `mwmesh mesh --sample` has them: "NAME=FILE" or
+  /// "NAME=FILE:mode", several joined by ';'.  The voxels of a .npy file are those of the volume.
+  std::string sample{};
   Certify certify = Certify::kAuto;
   bool report = true;  ///< false: quality and shape are not measured, and reports are empty
 };
@@ -263,6 +266,8 @@ struct Mesh {
   std::vector<std::uint64_t> labels;               ///< by tet
   bool labels_are_signed = false;
   std::vector<LabelName> names;  ///< of labels that are in the mesh
+  /// By name, numbers by tet (Options::sample); NaN: unknown.
+  std::map<std::string, std::vector<double>> values{};
   std::string report;  ///< JSON, the keys of `mwmesh mesh --report`; empty when there is none
   std::string record;  ///< one line of JSON about the run that made it, which files keep
 };
@@ -293,12 +298,14 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
 
 /// Meshes the volume into a file of any format of `mwmesh convert`, which appears under its name
 /// only once the mesh is whole.  element: "tet4" or "tet10".  Returns the report.
+/// ERRORS: also kUsage for values in a format that has no place for them.
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings = {}, const Options& options = {},
                          const Hooks& hooks = {}, std::string_view element = "tet4");
 
 /// ERRORS: kInput naming file and place; kUsage for an unknown extension.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+/// ERRORS: also kUsage for values in a format that has no place for them.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                 std::string_view element = "tet4");
 /// Returns the label of a mesh that has this number or name.  ERRORS: those of find_label(Volume).

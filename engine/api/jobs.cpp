@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/api/guarded.h"
+#include "engine/sample/sample_text.h"
 #include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"
 #include "engine/system/memory.h"
@@ -27,6 +28,16 @@ io::Json value_json(const engine::Setting& setting, const std::string& text) {
   if (text == "none") return nullptr;
   if (text == "auto") return text;
   return io::parse_json(text, setting.name);
+}
+
+/// Not yet opened.
+std::vector<engine::SampleImage> samples_of(const mwmesh::Options& options) {
+  if (options.sample.empty()) return {};
+  try {
+    return engine::parse_samples(options.sample);
+  } catch (const Error& error) {
+    throw Error(error.kind(), std::string("--sample: ") + error.what());
+  }
 }
 
 engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& hooks) {
@@ -99,6 +110,7 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
   return {.steps = input_steps(options),
           .settings = std::move(values),
           .size_image = std::move(sizes),
+          .samples = samples_of(options),
           .choice = label_choice(options),
           .connect = {.parts = engine::parse_parts(options.parts),
                       .split = options.split.empty() ? engine::SplitRule{}

@@ -12,6 +12,7 @@
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
+#include "io/volume/open_volume.h"
 
 namespace mwmesh {
 namespace {
@@ -37,6 +38,37 @@ class WriterSink : public io::MeshSink {
  private:
   MeshWriter& writer_;
 };
+
+/// Collects values, too.
+class ValuesSink : public io::MeshDataSink {
+ public:
+  void begin(const io::MeshHeader& header) override {
+    MeshDataSink::begin(header);
+    for (const std::string& name : header.values) columns_.push_back(&values_[name]);
+  }
+  void write_values(std::span<const double> rows) override {
+    for (std::size_t i = 0; i < rows.size(); ++i) columns_[i % columns_.size()]->push_back(rows[i]);
+  }
+  [[nodiscard]] std::map<std::string, std::vector<double>>& values() { return values_; }
+
+ private:
+  std::map<std::string, std::vector<double>> values_;
+  std::vector<std::vector<double>*> columns_;
+};
+
+/// A job with its images opened.
+engine::MeshJob job_of(const Volume& volume, const Settings& settings, const Options& options,
+                       const Hooks& hooks) {
+  engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
+  for (engine::SampleImage& sample : job.samples) {
+    sample.image =
+        io::open_volume(mw::api::checked_path(sample.file, "sample"), {.dataset = sample.dataset});
+    if (sample.image->info().format == "npy") {
+      sample.space = VolumeAccess::labels(volume).info().space;
+    }
+  }
+  return job;
+}
 
 std::string report_text(const mw::report::FinishedRun& run, const std::filesystem::path& path,
                         const engine::MeshJob& job) {
@@ -79,9 +111,10 @@ const char* version() {
 Mesh mesh(const Volume& volume, const Settings& settings, const Options& options,
           const Hooks& hooks) {
   return mw::api::guarded([&] {
-    io::MeshDataSink sink;
-    std::string report = run_into(sink, {}, volume, mw::api::mesh_job(settings, options, hooks));
+    ValuesSink sink;
+    std::string report = run_into(sink, {}, volume, job_of(volume, settings, options, hooks));
     Mesh mesh = mw::api::library_mesh(std::move(sink.mesh()));
+    mesh.values = std::move(sink.values());
     mesh.report = std::move(report);
     return mesh;
   });
@@ -91,7 +124,7 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
                     const Options& options, const Hooks& hooks) {
   return mw::api::guarded([&] {
     WriterSink sink(writer);
-    return run_into(sink, {}, volume, mw::api::mesh_job(settings, options, hooks));
+    return run_into(sink, {}, volume, job_of(volume, settings, options, hooks));
   });
 }
 
@@ -99,7 +132,8 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
                          const Settings& settings, const Options& options, const Hooks& hooks,
                          std::string_view element) {
   return mw::api::guarded([&] {
-    engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
+    if (!options.sample.empty()) io::require_place_for_values(path);
+    engine::MeshJob job = job_of(volume, settings, options, hooks);
     job.folder = mw::api::checked_path(path).parent_path();
     const auto sink = io::open_mesh_sink(path, io::parse_element(element));
     return run_into(*sink, path, volume, job);

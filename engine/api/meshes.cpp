@@ -19,6 +19,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
 
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path, std::string_view element) {
   mw::api::guarded([&] {
+    if (!mesh.values.empty()) mw::io::require_place_for_values(path);
     const auto sink =
         mw::io::open_mesh_sink(mw::api::checked_path(path), mw::io::parse_element(element));
     mw::api::deliver(mesh, *sink);

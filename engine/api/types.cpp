@@ -87,6 +87,10 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink) {
   if (mesh.labels.size() != mesh.tets.size()) {
     throw Error(ErrorKind::kUsage, "mesh: there must be one label a tet");
   }
+  for (const auto& [name, column] : mesh.values) {
+    if (column.size() == mesh.tets.size()) continue;
+    throw Error(ErrorKind::kUsage, "mesh: there must be one value '" + name + "' a tet");
+  }
   for (const auto& tet : mesh.tets) {
     for (const std::uint64_t row : tet) {
       if (row < mesh.points.size()) continue;
@@ -94,12 +98,20 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink) {
                                          std::to_string(mesh.points.size()));
     }
   }
-  sink.begin({.tets = mesh.tets.size(),
-              .labels_signed = mesh.labels_are_signed,
-              .names = io_names(mesh.names),
-              .record = io::parse_record(mesh.record, "mesh")});
+  io::MeshHeader header{.tets = mesh.tets.size(),
+                        .labels_signed = mesh.labels_are_signed,
+                        .names = io_names(mesh.names),
+                        .record = io::parse_record(mesh.record, "mesh")};
+  for (const auto& [name, column] : mesh.values) header.values.push_back(name);
+  sink.begin(header);
   sink.write_vertices(mesh.points);
   sink.write_tets(mesh.tets, mesh.labels);
+  std::vector<double> row;
+  for (std::size_t t = 0; t < mesh.tets.size() && !mesh.values.empty(); ++t) {
+    row.clear();
+    for (const auto& [name, column] : mesh.values) row.push_back(column[t]);
+    sink.write_values(row);
+  }
   sink.finish();
 }
 

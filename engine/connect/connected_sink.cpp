@@ -22,7 +22,11 @@ std::size_t ConnectTask::memory_of(std::uint64_t budget) {
 }
 
 ConnectedSink::ConnectedSink(io::MeshSink& below, ConnectTask task)
-    : below_(below), task_(std::move(task)), positions_(task_.folder), tets_(task_.folder) {}
+    : below_(below),
+      task_(std::move(task)),
+      positions_(task_.folder),
+      tets_(task_.folder),
+      values_(task_.folder) {}
 
 void ConnectedSink::begin(const io::MeshHeader& header) {
   header_ = header;
@@ -44,6 +48,11 @@ void ConnectedSink::write_tets(std::span<const io::TetRows> tets,
     const TetRecord record{a, b, c, d, labels[t]};
     tets_.append(std::as_bytes(std::span(record)));
   }
+}
+
+void ConnectedSink::write_values(std::span<const double> rows) {
+  if (!task_.options.change_mesh()) return below_.write_values(rows);
+  values_.append(std::as_bytes(rows));
 }
 
 void ConnectedSink::finish() {
@@ -162,6 +171,11 @@ ConnectedSink::TetRecord& ConnectedSink::next_tet() {
     loaded_first_ = next_;
     loaded_.resize(std::min<std::uint64_t>(kBatchTets, left));
     tets_.read_at(next_ * sizeof(TetRecord), std::as_writable_bytes(std::span(loaded_)));
+    const std::size_t width = header_.values.size();
+    loaded_values_.resize(width * loaded_.size());
+    if (width == 0) return loaded_.front();
+    values_.read_at(next_ * width * sizeof(double),
+                    std::as_writable_bytes(std::span(loaded_values_)));
   }
   return loaded_[next_ - loaded_first_];
 }
@@ -173,13 +187,19 @@ void ConnectedSink::pass(const TetRecord& tet) {
     rows[i] = is_copy ? used_count_ + (tet[i] & ~kCopyBit) : new_row(tet[i]);
   }
   batch_labels_.push_back(tet[4]);
+  const auto width = static_cast<std::ptrdiff_t>(header_.values.size());
+  const auto values =
+      loaded_values_.begin() + width * static_cast<std::ptrdiff_t>(next_ - loaded_first_);
+  batch_values_.insert(batch_values_.end(), values, values + width);
   if (batch_.size() == kBatchTets) flush();
 }
 
 void ConnectedSink::flush() {
   below_.write_tets(batch_, batch_labels_);
+  if (!header_.values.empty()) below_.write_values(batch_values_);
   batch_.clear();
   batch_labels_.clear();
+  batch_values_.clear();
 }
 
 }  // namespace mw::engine

@@ -24,8 +24,8 @@ struct ConnectTask {
 /// until it is complete: kept vertices and tets keep their order, copies of vertices come behind
 /// the vertices. Memory: twice memory_bytes, 1 MiB, and what PartFinder says; where parts are left
 /// out, besides, 2 bits a vertex and 8 bytes a label.  Disk: that of PartFinder, 24 bytes a vertex;
-/// where the mesh changes, 40 more a tet.  ERRORS: those of PartFinder::find(), ScratchFile and the
-/// sink below. REQUIRES: the sink below outlives it.
+/// where the mesh changes, 40 more a tet, and 8 a value.  ERRORS: those of PartFinder::find(),
+/// ScratchFile and the sink below. REQUIRES: the sink below outlives it.
 class ConnectedSink : public io::MeshSink {
  public:
   ConnectedSink(io::MeshSink& below, ConnectTask task);
@@ -33,6 +33,7 @@ class ConnectedSink : public io::MeshSink {
   void begin(const io::MeshHeader& header) override;
   void write_vertices(std::span<const io::Position> positions) override;
   void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
+  void write_values(std::span<const double> rows) override;
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override;
 
@@ -69,13 +70,16 @@ class ConnectedSink : public io::MeshSink {
   io::MeshHeader header_;
   io::ScratchFile positions_;
   io::ScratchFile tets_;        ///< only where the mesh changes
+  io::ScratchFile values_;      ///< the same, rows of header_.values
   std::vector<UsedWord> used_;  ///< empty: all
   std::uint64_t used_count_ = 0;
-  std::uint64_t next_ = 0;         ///< the first tet that was not passed on
-  std::vector<TetRecord> loaded_;  ///< some tets, among them the next one
+  std::uint64_t next_ = 0;             ///< the first tet that was not passed on
+  std::vector<TetRecord> loaded_;      ///< some tets, among them the next one
+  std::vector<double> loaded_values_;  ///< of these
   std::uint64_t loaded_first_ = 0;
   std::vector<io::TetRows> batch_;  ///< to be passed on
   std::vector<RawLabel> batch_labels_;
+  std::vector<double> batch_values_;
 };
 
 }  // namespace mw::engine

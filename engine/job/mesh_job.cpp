@@ -254,6 +254,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
   check_unpacking(opened, reading_room(job));
+  for (const SampleImage& sample : job.samples) check_unpacking(*sample.image, reading_room(job));
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const StoppableVolume from_file(opened, job.stop);
   KeptInput kept(from_file, job);
@@ -288,8 +289,13 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   io::MeshSink& target = connected ? static_cast<io::MeshSink&>(*connected) : sink;
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, target, job.stop);
+  std::optional<ImageSampler> sampler;
+  if (!job.samples.empty()) {
+    sampler.emplace(job.samples, opened.info(), thread_count(job.run.threads));
+  }
   try {
     RunHooks hooks = run_hooks(job, run, memory);
+    hooks.output.values = sampler ? &*sampler : nullptr;
     hooks.sizes = sizes ? &*sizes : nullptr;
     hooks.keep.opened = kept.folder();
     run.engine = march(labels, job, certifier ? certifier->sink() : target, std::move(hooks));
@@ -308,6 +314,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     run.engine.vertices = run.connected->vertices;
     run.engine.tets = run.connected->tets;
   }
+  if (sampler) run.samples = sampler->facts();
   run.why_no_certificate = plan.why_not;
   run.why_no_volumes = why_no_volumes(promises_of(job.settings));
   if (certifier) run.certificate = certifier->report();

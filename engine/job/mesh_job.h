@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "engine/connect/connect_options.h"
 #include "engine/output/label_selection.h"
 #include "engine/report/run_report.h"
 #include "engine/run/run.h"
+#include "engine/sample/image_sampler.h"
 #include "io/labels/prepared_input.h"
 
 namespace mw::engine {
@@ -25,6 +27,7 @@ struct MeshJob {
   io::InputSteps steps;
   MeshSettings settings;
   std::shared_ptr<const io::LabelVolume> size_image;  ///< SizeRules::image, opened
+  std::vector<SampleImage> samples;                   ///< opened; their values go with the mesh
   LabelChoice choice;
   ConnectOptions connect;  ///< what is left out of the mesh, and doubled in it, when it is written
   bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is

@@ -22,16 +22,19 @@ class Writer {
         layers_(options.layers),
         sink_(sink),
         remembered_(remembered),
-        figures_(options, volume.table().size()) {}
+        figures_(options, volume.table().size()),
+        values_(options.values) {}
 
   void write(Index3 where, const BlockMesh& block) {
     const std::vector<io::Position> positions = positions_of(block, volume_.info(), layers_);
     std::vector<io::TetRows> tets = oriented_tets(block, is_mirrored(volume_.info().space));
     figures_.add(block, positions, tets, tets_);
     tets_ += tets.size();
+    const std::vector<double> values = values_of(positions, tets);
     const std::vector<std::uint64_t> rows = write_vertices(where, block, positions);
     give_rows(tets, rows);
     sink_.write_tets(tets, raw_labels(block, volume_.table()));
+    if (values_ != nullptr) sink_.write_values(values);
   }
 
   void report(FinishedMesh& out) {
@@ -41,6 +44,13 @@ class Writer {
   }
 
  private:
+  std::vector<double> values_of(std::span<const io::Position> positions,
+                                std::span<const io::TetRows> tets) {
+    if (values_ == nullptr) return {};
+    const auto hold = [&](std::uint64_t bytes) { remembered_.values(bytes); };
+    return values_->of(positions, tets, hold);
+  }
+
   std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
                                             const std::vector<io::Position>& positions) {
     remembered_.rows(Remembered::kBytesPerRow * (rows_.remembered() + block.vertices.size()));
@@ -60,6 +70,7 @@ class Writer {
   io::MeshSink& sink_;
   Remembered& remembered_;
   BlockFigures figures_;
+  CellValues* values_;
   std::uint64_t tets_ = 0;  ///< so far
 };
 
@@ -109,7 +120,9 @@ FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptio
     out.tets += block.tets.size();
     if (options.within) out.tets_within += tets_within(block, *options.within);
   });
-  sink.begin(header_of(volume, selection, out.tets, options.promises));
+  io::MeshHeader header = header_of(volume, selection, out.tets, options.promises);
+  if (options.values != nullptr) header.values = options.values->names();
+  sink.begin(header);
   Remembered remembered(options.hold);
   Writer writer(std::move(uses), volume, options, sink, remembered);
   std::optional<InterfaceShape> shape;

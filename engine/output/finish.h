@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/output/cell_values.h"
 #include "engine/output/label_selection.h"
 #include "engine/output/remembered.h"
 #include "engine/window/window_grid.h"
@@ -42,11 +43,12 @@ struct OutputOptions {
   WantedLabel wanted;  ///< empty: every label
   /// Tets whose barycentres are in this box of the lattice are counted apart; none: not done.
   std::optional<Box3> within;
-  bool measure_quality = false;              ///< about 0.1 us a tet
-  bool measure_shape = false;                ///< volumes, area and bends; about 1 us a tet
-  bool measure_edges = false;                ///< the longest of each label, and their ratios
-  std::vector<double> edge_sizes;            ///< by dense label; 0: none was asked
-  HoldMemory hold;                           ///< optional
+  bool measure_quality = false;    ///< about 0.1 us a tet
+  bool measure_shape = false;      ///< volumes, area and bends; about 1 us a tet
+  bool measure_edges = false;      ///< the longest of each label, and their ratios
+  std::vector<double> edge_sizes;  ///< by dense label; 0: none was asked
+  HoldMemory hold;                 ///< optional
+  CellValues* values = nullptr;    ///< optional; what tets have beside labels; outlives the run
   std::optional<io::MeshPromises> promises;  ///< to be told in the file; set by mesh_volume()
   Index3 layers{1, 1, 1};  ///< that the volume's voxels were cut into; set by mesh_volume()
 };

@@ -30,6 +30,11 @@ class Remembered {
     shape_ = bytes;
     tell();
   }
+  /// What CellValues hold for a block.
+  void values(std::uint64_t bytes) {
+    values_ = bytes;
+    tell();
+  }
   /// The lists that several processes send one another.
   void shared(std::uint64_t bytes) {
     shared_ = bytes;
@@ -41,7 +46,7 @@ class Remembered {
   static constexpr std::uint64_t kMaxStepBytes = 1 << 20;
 
   void tell() {
-    const std::uint64_t sum = rows_ + shape_ + shared_;
+    const std::uint64_t sum = rows_ + shape_ + shared_ + values_;
     if (!hold_ || sum <= held_) return;
     held_ = sum + std::min(sum / 8 + kMinStepBytes, kMaxStepBytes);
     hold_(held_);
@@ -51,6 +56,7 @@ class Remembered {
   std::uint64_t rows_ = 0;
   std::uint64_t shape_ = 0;
   std::uint64_t shared_ = 0;
+  std::uint64_t values_ = 0;
   std::uint64_t held_ = 0;
 };
 

@@ -90,8 +90,25 @@ py::array_t<T> column(const py::object& owner, const Mesh& mesh) {
   return view<T>(owner, mesh.labels.data(), {static_cast<py::ssize_t>(mesh.labels.size())});
 }
 
+/// {name: view of its numbers by tet}.
+py::dict values_of(const py::object& self) {
+  py::dict out;
+  for (const auto& [name, numbers] : self.cast<const Mesh&>().values) {
+    out[py::str(name)] =
+        view<double>(self, numbers.data(), {static_cast<py::ssize_t>(numbers.size())});
+  }
+  return out;
+}
+
 using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Rows = py::array_t<std::uint64_t, py::array::c_style | py::array::forcecast>;
+
+void set_values(Mesh& mesh, const std::string& name, const Points& numbers) {
+  if (numbers.ndim() != 1 || static_cast<std::size_t>(numbers.size()) != mesh.tets.size()) {
+    throw Error(ErrorKind::kUsage, "values: there must be one number a tet");
+  }
+  mesh.values[name].assign(numbers.data(), numbers.data() + numbers.size());
+}
 
 void require_columns(const py::array& array, py::ssize_t columns, const char* what) {
   if (array.ndim() == 2 && array.shape(1) == columns) return;
@@ -196,6 +213,7 @@ void add_options(py::module_& module) {
                       o.changed.clear();
                       for (const auto& [lo, hi] : boxes) o.changed.push_back({lo, hi});
                     })
+      .def_readwrite("sample", &Options::sample)
       .def_readwrite("certify", &Options::certify)
       .def_readwrite("report", &Options::report);
   module.def("bytes_of_text", &bytes_of_text);
@@ -259,6 +277,8 @@ void add_mesh(py::module_& module) {
                                return column<std::uint64_t>(self, mesh);
                              })
       .def_readonly("labels_are_signed", &Mesh::labels_are_signed)
+      .def_property_readonly("values", &values_of)
+      .def("set_values", &set_values)
       .def_readwrite("names", &Mesh::names)
       .def_readonly("report", &Mesh::report)
       .def_readwrite("record", &Mesh::record)

@@ -37,6 +37,22 @@ Json lattice_json(const engine::LatticeFacts& lattice) {
           {"layers_xyz", index_json(lattice.layers)}};
 }
 
+/// NaN is null.
+Json samples_json(const std::vector<engine::SampleFacts>& samples) {
+  Json out = Json::array();
+  for (const engine::SampleFacts& sample : samples) {
+    const bool is_empty = sample.tets == sample.outside;
+    out.push_back({{"name", sample.name},
+                   {"file", sample.file},
+                   {"statistic", name(sample.statistic)},
+                   {"least", is_empty ? Json() : Json(sample.least)},
+                   {"most", is_empty ? Json() : Json(sample.most)},
+                   {"tets_partly_outside", sample.partly_outside},
+                   {"tets_outside", sample.outside}});
+  }
+  return out;
+}
+
 Json output_json(const FinishedRun& run, const std::filesystem::path& path) {
   return {{"file", path.string()},
           {"vertices", run.engine.vertices},
@@ -234,6 +250,7 @@ Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json 
            {"settings", std::move(settings)},
            {"input", input_json(run)},
            {"specks", specks_json(run.specks)},
+           {"samples", samples_json(run.samples)},
            {"lattice", lattice_json(run.engine.lattice)},
            {"output", output_json(run, mesh)},
            {"parts", run.connected ? connect_json(*run.connected, run.labels.is_signed()) : Json()},

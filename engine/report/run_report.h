@@ -10,6 +10,7 @@
 #include "engine/report/mesh_facts.h"
 #include "engine/report/resource_meter.h"
 #include "engine/run/run.h"
+#include "engine/sample/sample_text.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
 #include "io/labels/despeckled_volume.h"
@@ -37,6 +38,7 @@ struct FinishedRun {
   engine::SizeSettings sizes;  ///< as they were kept to, after scaling
   std::optional<CountFacts> count;
   std::optional<io::SpeckFacts> specks;
+  std::vector<engine::SampleFacts> samples;
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels
   Resources resources;        ///< times until the mesh was written, memory until its digest

@@ -146,7 +146,9 @@ RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted
 
 std::uint64_t RunContext::output_buffer_bytes() const {
   const std::uint64_t together = hooks.together == nullptr ? 0 : hooks.together->buffer_bytes();
-  return std::max(sink.buffer_bytes(), together);
+  const std::uint64_t values =
+      hooks.output.values == nullptr ? 0 : hooks.output.values->buffer_bytes();
+  return std::max(sink.buffer_bytes(), together) + values;
 }
 
 }  // namespace mw::engine

@@ -4,10 +4,10 @@
 #include "io/chunks/chunked_volume.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
-#include "io/volume/raw_array.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/index.h"
 
@@ -177,47 +177,59 @@ ChunkCache::Loaded ChunkedVolume::load(Index3 chunk) const {
                     [&] { return unpacked(chunk, box_of(chunk)); });
 }
 
-void ChunkedVolume::read(const Box3& box, std::span<RawLabel> out) const {
+void ChunkedVolume::read_numbers(const Box3& box, std::span<double> out) const {
+  VoxelCoding coding = coding_;
+  coding.as_numbers = true;
+  const double fill = has_signed_labels(info_)
+                          ? static_cast<double>(static_cast<std::int64_t>(fill_))
+                          : static_cast<double>(fill_);
+  std::vector<RawLabel> bits(out.size());
+  read_as(coding, std::bit_cast<RawLabel>(fill), {box, bits});
+  numbers_of_bits(bits, out);
+}
+
+void ChunkedVolume::read_as(const VoxelCoding& coding, RawLabel fill, const ReadBox& to) const {
+  const auto& [box, out] = to;
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
   if (out.empty()) return;
   for_each_index(cells_of(box, info_.chunk), [&](Index3 number) {
     const Box3 held = box_of(number);
     const Box3 part = intersection(held, box);
     const ChunkCache::Loaded chunk = load(number);
-    if (chunk && chunk->file) {
-      return read_array(*chunk->file,
-                        {.first = chunk->first,
-                         .strides = chunk->strides,
-                         .coding = coding_,
-                         .box = held,
-                         .name = source_->name()},
-                        part, {box, out});
+    if (chunk) {
+      const StoredArray array{.first = chunk->first,
+                              .strides = chunk->strides,
+                              .coding = coding,
+                              .box = held,
+                              .name = source_->name()};
+      return chunk->file ? read_array(*chunk->file, array, part, to)
+                         : copy(*chunk, array, part, to);
     }
-    if (chunk) return copy(*chunk, held, part, box, out);
     for (Index3 v = part.lo; v.z < part.hi.z; ++v.z) {
       for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
-        std::fill_n(out.data() + box.offset({part.lo.x, v.y, v.z}), part.shape().x, fill_);
+        std::fill_n(out.data() + box.offset({part.lo.x, v.y, v.z}), part.shape().x, fill);
       }
     }
   });
 }
 
-void ChunkedVolume::copy(const Chunk& chunk, const Box3& held, const Box3& part, const Box3& box,
-                         std::span<RawLabel> out) const {
-  const auto size = static_cast<std::size_t>(byte_size(coding_.type));
+void ChunkedVolume::copy(const Chunk& chunk, const StoredArray& array, const Box3& part,
+                         const ReadBox& to) const {
+  const auto size = static_cast<std::size_t>(byte_size(array.coding.type));
   const auto length = static_cast<std::size_t>(part.shape().x);
   for (Index3 v = part.lo; v.z < part.hi.z; ++v.z) {
     for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
-      const Index3 inside = Index3{part.lo.x, v.y, v.z} - held.lo;
+      const Index3 inside = Index3{part.lo.x, v.y, v.z} - array.box.lo;
       const auto at = static_cast<std::size_t>(
-          inside.x * chunk.strides.x + inside.y * chunk.strides.y + inside.z * chunk.strides.z);
-      const std::byte* bytes = chunk.bytes.data() + (chunk.first + at) * size;
-      const auto step = static_cast<std::size_t>(chunk.strides.x);
-      const std::size_t good = decode_voxels(bytes, length, step, coding_,
-                                             out.data() + box.offset({part.lo.x, v.y, v.z}), 1);
+          inside.x * array.strides.x + inside.y * array.strides.y + inside.z * array.strides.z);
+      const std::byte* bytes = chunk.bytes.data() + (array.first + at) * size;
+      const auto step = static_cast<std::size_t>(array.strides.x);
+      const std::size_t good =
+          decode_voxels(bytes, length, step, array.coding,
+                        to.labels.data() + to.box.offset({part.lo.x, v.y, v.z}), 1);
       if (good == length) continue;
-      fail_voxel(source_->name(), {part.lo.x + static_cast<std::int64_t>(good), v.y, v.z},
-                 bytes + good * step * size, coding_);
+      fail_voxel(array.name, {part.lo.x + static_cast<std::int64_t>(good), v.y, v.z},
+                 bytes + good * step * size, array.coding);
     }
   }
 }

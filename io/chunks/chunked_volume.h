@@ -14,6 +14,8 @@
 
 #include "io/chunks/chunk.h"
 #include "io/volume/label_volume.h"
+#include "io/volume/number_volume.h"
+#include "io/volume/raw_array.h"
 
 namespace mw::io {
 
@@ -57,7 +59,7 @@ class ChunkCache {
   std::uint64_t bytes_ = 0;
 };
 
-class ChunkedVolume : public LabelVolume {
+class ChunkedVolume : public LabelVolume, public NumberVolume {
  public:
   /// REQUIRES: info.chunk positive on every axis; chunk c holds the voxels from c * info.chunk on.
   /// fill: the label of voxels whose chunk the store does not have.
@@ -68,7 +70,10 @@ class ChunkedVolume : public LabelVolume {
                 std::unique_ptr<ChunkSource> source, std::uint64_t cache_bytes);
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
-  void read(const Box3& box, std::span<RawLabel> out) const override;
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    read_as(coding_, fill_, {box, out});
+  }
+  void read_numbers(const Box3& box, std::span<double> out) const override;
   [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override;
   void drop_buffers() const override;
 
@@ -79,8 +84,9 @@ class ChunkedVolume : public LabelVolume {
   [[nodiscard]] std::uint64_t unpacked_at_once() const;
   [[nodiscard]] std::optional<Chunk> unpacked(Index3 chunk, const Box3& box) const;
   [[nodiscard]] ChunkCache::Loaded load(Index3 chunk) const;
-  void copy(const Chunk& chunk, const Box3& held, const Box3& part, const Box3& box,
-            std::span<RawLabel> out) const;
+  void read_as(const VoxelCoding& coding, RawLabel fill, const ReadBox& to) const;
+  void copy(const Chunk& chunk, const StoredArray& array, const Box3& part,
+            const ReadBox& to) const;
 
   VolumeInfo info_;
   VoxelCoding coding_;

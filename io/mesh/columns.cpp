@@ -13,7 +13,9 @@ MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Eleme
       offsets_(output, places.offsets),
       types_(output, places.types),
       labels_(output, places.labels),
-      points_(output, places.points) {}
+      points_(output, places.points) {
+  for (const std::uint64_t place : places.values) values_.emplace_back(output, place);
+}
 
 void MeshColumns::go_to(const RowPlace& place) {
   place_ = place;
@@ -21,6 +23,7 @@ void MeshColumns::go_to(const RowPlace& place) {
   connectivity_.go_to(node_count(element_) * place.tet);
   types_.go_to(place.tet);
   labels_.go_to(place.tet);
+  for (auto& column : values_) column.go_to(place.tet);
   offsets_.go_to(place.tet == 0 ? 0 : place.tet + 1);
   if (place.tet == 0) offsets_.add(0);
 }
@@ -45,7 +48,12 @@ void MeshColumns::write_tets(std::span<const TetRows> tets, std::span<const RawL
   for (std::size_t i = 0; i < tets.size(); ++i) write_cell(tets[i], labels[i]);
 }
 
+void MeshColumns::write_values(std::span<const double> rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) values_[i % values_.size()].add(rows[i]);
+}
+
 void MeshColumns::flush() {
+  for (auto& column : values_) column.flush();
   connectivity_.flush();
   offsets_.flush();
   types_.flush();

@@ -61,10 +61,12 @@ struct ColumnPlaces {
   std::uint64_t offsets = 0;  ///< of the first, which is 0: the others say where a cell's nodes end
   std::uint64_t types = 0;
   std::uint64_t labels = 0;
-  std::uint64_t points = 0;  ///< behind all others: how many there are is known last
+  std::uint64_t points = 0;             ///< behind all others: how many there are is known last
+  std::vector<std::uint64_t> values{};  ///< of each of MeshHeader::values
 };
 
-/// Writes rows, from any on.  Cost: 3 MiB of buffers.  ERRORS: as the output.
+/// Writes rows, from any on.  Cost: 3 MiB of buffers, half a MiB more for each column of values.
+/// ERRORS: as the output.
 class MeshColumns {
  public:
   MeshColumns() = default;
@@ -79,6 +81,8 @@ class MeshColumns {
   void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
   /// REQUIRES: tets.size() == labels.size(); made for kTet4.
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
+  /// rows: a number for each column of values, tet by tet.
+  void write_values(std::span<const double> rows);
   void flush();
 
   /// The next rows.
@@ -94,6 +98,7 @@ class MeshColumns {
   FileColumn<std::uint8_t> types_;
   Column labels_;
   FileColumn<double> points_;
+  std::vector<FileColumn<double>> values_;
 };
 
 /// What the sinks of such formats have in common: rows go into columns as they come.
@@ -102,6 +107,7 @@ class ColumnSink : public TenNodeSink {
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void write_cell(std::span<const std::uint64_t> rows, RawLabel label) override;
+  void write_values(std::span<const double> rows) override { columns_.write_values(rows); }
 
  protected:
   explicit ColumnSink(Element element) : element_(element) {}

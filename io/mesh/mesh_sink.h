@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "io/file/errors.h"
 #include "io/mesh/mesh_record.h"
@@ -21,9 +23,10 @@ using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive or
 /// learns it with the last of them.
 struct MeshHeader {
   std::uint64_t tets = 0;
-  bool labels_signed = false;  ///< labels are two's complement int64 and are written as such
-  LabelNames names;            ///< of labels that are written
-  MeshRecord record;           ///< of the run that made it
+  bool labels_signed = false;         ///< labels are two's complement int64 and are written as such
+  LabelNames names;                   ///< of labels that are written
+  MeshRecord record;                  ///< of the run that made it
+  std::vector<std::string> values{};  ///< names of numbers that each tet has: letters, digits, '_'
 };
 
 /// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink
@@ -37,6 +40,11 @@ class MeshSink {
   virtual void write_vertices(std::span<const Position> positions) = 0;
   /// REQUIRES: tets.size() == labels.size(); the vertices of these tets have been written.
   virtual void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) = 0;
+  /// Takes the numbers of the tets that write_tets() was given last: a row a tet, a column for each
+  /// of header.values; NaN: unknown.  REQUIRES: it follows each write_tets() if there are such
+  /// names. A sink whose format has no place for them ignores them (open_mesh.h:
+  /// require_place_for_values()).
+  virtual void write_values(std::span<const double> /*rows*/) {}
   virtual void finish() = 0;
   /// Returns the most bytes that it holds between begin() and finish(); 0 if it is no file.
   [[nodiscard]] virtual std::uint64_t buffer_bytes() const { return 0; }

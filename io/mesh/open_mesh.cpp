@@ -3,6 +3,7 @@
 // Reads and writes meshes, the format chosen by extension.
 #include "io/mesh/open_mesh.h"
 
+#include <algorithm>
 #include <array>
 
 #include "io/file/errors.h"
@@ -37,9 +38,18 @@ struct MeshFormat {
   std::array<const char*, 4> beside{};
   /// Opens a sink that writes text; null where there is one way to write the format.
   std::unique_ptr<MeshSink> (*open_text)(const std::filesystem::path&, Element) = nullptr;
+  /// Opens a sink that writes materials; null where the format has no sets of elements.
+  std::unique_ptr<MeshSink> (*open_materials)(const std::filesystem::path&, Element,
+                                              const MaterialRule&) = nullptr;
 
   [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }
   [[nodiscard]] bool is_written() const { return open != nullptr; }
+  [[nodiscard]] bool has_materials() const { return open_materials != nullptr; }
+  [[nodiscard]] bool has_values() const {
+    constexpr std::array<std::string_view, 6> kWithValues{".vtkhdf", ".vtu", ".msh",
+                                                          ".msh2",   ".exo", ".xdmf"};
+    return std::find(kWithValues.begin(), kWithValues.end(), extension) != kWithValues.end();
+  }
 };
 
 /// A sink that writes corners alone.
@@ -64,6 +74,13 @@ std::unique_ptr<MeshSink> open_grouped(const std::filesystem::path& path, Elemen
   return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<Writer>(path), element);
 }
 
+template <class Writer>
+std::unique_ptr<MeshSink> open_materials(const std::filesystem::path& path, Element element,
+                                         const MaterialRule& rule) {
+  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<Writer>(path, rule),
+                                       element);
+}
+
 template <bool ascii>
 std::unique_ptr<MeshSink> open_msh(const std::filesystem::path& path, Element element) {
   return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<MshWriter>(path, ascii),
@@ -78,9 +95,21 @@ const std::array kFormats{
                &open_corners<MeditSink>},
     MeshFormat{".msh", &read_msh, nullptr, &open_msh<false>, {".msh.labels.csv"}, &open_msh<true>},
     MeshFormat{".msh2", &read_msh, nullptr, &open_grouped<Msh2Writer>, {".msh2.labels.csv"}},
-    MeshFormat{".exo", nullptr, nullptr, &open_grouped<ExodusWriter>, {".exo.labels.csv"}},
+    MeshFormat{".exo",
+               nullptr,
+               nullptr,
+               &open_grouped<ExodusWriter>,
+               {".exo.labels.csv"},
+               nullptr,
+               &open_materials<ExodusWriter>},
     MeshFormat{".bdf", nullptr, nullptr, &open_grouped<BdfWriter>, {".bdf.labels.csv"}},
-    MeshFormat{".inp", nullptr, nullptr, &open_grouped<InpWriter>},
+    MeshFormat{".inp",
+               nullptr,
+               nullptr,
+               &open_grouped<InpWriter>,
+               {},
+               nullptr,
+               &open_materials<InpWriter>},
     MeshFormat{".xdmf",
                nullptr,
                nullptr,
@@ -151,6 +180,15 @@ bool is_mesh_path(const std::filesystem::path& path) {
   return find_format(path) != nullptr;
 }
 
+void require_place_for_values(const std::filesystem::path& path) {
+  const MeshFormat& format = written_format(path);
+  if (format.has_values()) return;
+  throw Error(ErrorKind::kUsage,
+              text(path.string(), ": ", format.extension, " has no place for values of tets; ",
+                   extensions_where(&MeshFormat::has_values), " have, and ",
+                   extensions_where(&MeshFormat::has_materials), " take sets by --materials"));
+}
+
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> out{path};
   const MeshFormat* const format = find_format(path);
@@ -185,6 +223,14 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
   if (format.open_text != nullptr) return format.open_text(path, element);
   throw Error(ErrorKind::kUsage, text(path.string(), ": ", path.extension().string(),
                                       " is written in one way, so ascii is not for it"));
+}
+
+std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
+                                         const MaterialRule& materials) {
+  const MeshFormat& format = written_format(path);
+  if (format.has_materials()) return format.open_materials(path, element, materials);
+  throw Error(ErrorKind::kUsage, text(path.string(), ": has no sets of elements for materials; ",
+                                      extensions_where(&MeshFormat::has_materials), " have"));
 }
 
 std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "io/mesh/element.h"
+#include "io/mesh/grouped/material_sets.h"
 #include "io/mesh/mesh_data.h"
 #include "io/mesh/shared_mesh.h"
 
@@ -26,6 +27,10 @@ enum class Encoding : std::uint8_t {
 /// True if the extension is that of a mesh, even of one that is not read.
 [[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
 
+/// ERRORS: mw::Error(kUsage) for a format that has no place for numbers of tets
+/// (MeshHeader::values).
+void require_place_for_values(const std::filesystem::path& path);
+
 /// Returns the files that are written for a mesh of that name: that file, then those beside it.
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
 
@@ -38,10 +43,14 @@ enum class Encoding : std::uint8_t {
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
 /// ERRORS: mw::Error(kUsage) for an unknown extension, an element or encoding that the format does
-/// not have a choice of, or a path that cannot be written.
+/// not have a choice of, materials that it has no sets for, or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element = Element::kTet4,
                                                        Encoding encoding = Encoding::kUsual);
+/// With element sets, and the table material_table_path() beside the mesh.
+[[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
+                                                       Element element,
+                                                       const MaterialRule& materials);
 
 /// The ending of meshes in pieces.
 inline constexpr const char* kPiecesExtension = ".pvtu";

@@ -24,6 +24,10 @@ class TeeSink : public MeshSink {
     first_.write_tets(tets, labels);
     second_.write_tets(tets, labels);
   }
+  void write_values(std::span<const double> rows) override {
+    first_.write_values(rows);
+    second_.write_values(rows);
+  }
   void finish() override {
     first_.finish();
     second_.finish();

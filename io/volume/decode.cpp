@@ -3,7 +3,9 @@
 // Decodes and encodes voxels, and names their types.
 #include "io/volume/decode.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <type_traits>
 
@@ -135,11 +137,25 @@ std::size_t decode_checked(const std::byte* bytes, std::size_t count, std::size_
   return count;
 }
 
+template <class T>
+void decode_numbers(const std::byte* bytes, std::size_t count, std::size_t step,
+                    const VoxelCoding& coding, RawLabel* out, std::size_t stride) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto value = static_cast<double>(load<T>(bytes + i * step * sizeof(T), coding.order));
+    out[i * stride] =
+        std::bit_cast<RawLabel>(coding.scaling.slope * value + coding.scaling.intercept);
+  }
+}
+
 }  // namespace
 
 std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t step,
                           const VoxelCoding& coding, RawLabel* out, std::size_t stride) {
   return with_type(coding.type, [&]<class T>(T) {
+    if (coding.as_numbers) {
+      decode_numbers<T>(bytes, count, step, coding, out, stride);
+      return count;
+    }
     if constexpr (std::is_integral_v<T>) {
       if (coding.scaling.is_identity()) {
         if (coding.order == ByteOrder::kLittle) {
@@ -154,14 +170,9 @@ std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t
   });
 }
 
-void decode_numbers(const std::byte* bytes, std::size_t count, const VoxelCoding& coding,
-                    double* out, std::size_t stride) {
-  with_type(coding.type, [&]<class T>(T) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto value = static_cast<double>(load<T>(bytes + i * sizeof(T), coding.order));
-      out[i * stride] = coding.scaling.slope * value + coding.scaling.intercept;
-    }
-  });
+void numbers_of_bits(std::span<const RawLabel> bits, std::span<double> out) {
+  std::transform(bits.begin(), bits.end(), out.begin(),
+                 [](RawLabel b) { return std::bit_cast<double>(b); });
 }
 
 std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding) {

@@ -36,18 +36,19 @@ struct VoxelCoding {
   VoxelType type = VoxelType::kU8;
   ByteOrder order = ByteOrder::kLittle;
   VoxelScaling scaling{};
+  /// Voxels are numbers of any kind: what is decoded are the bits of doubles, not labels.
+  bool as_numbers = false;
 };
 
 /// Decodes `count` voxels, `step` of them apart at `bytes`, to out[0], out[stride], ...; signed
-/// types are sign-extended, floats and scaled numbers must be whole and within 64 signed bits.
-/// ENSURES: returns the index of the first that is not, or count.
+/// types are sign-extended, floats and scaled numbers must be whole and within 64 signed bits,
+/// unless coding.as_numbers. ENSURES: returns the index of the first that is not, or count.
 [[nodiscard]] std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t step,
                                         const VoxelCoding& coding, RawLabel* out,
                                         std::size_t stride);
 
-/// Decodes voxels as numbers instead of labels, so every number is good.
-void decode_numbers(const std::byte* bytes, std::size_t count, const VoxelCoding& coding,
-                    double* out, std::size_t stride);
+/// The doubles whose bits these are (VoxelCoding::as_numbers).  REQUIRES: sizes are equal.
+void numbers_of_bits(std::span<const RawLabel> bits, std::span<double> out);
 
 /// Why the voxel at `bytes` is no label: "value 1.5 is not a whole number".
 [[nodiscard]] std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding);

@@ -97,14 +97,6 @@ std::array<Vector3, 3> axes_of(std::string_view file, const FileSpace& space) {
   return straightened(axes);
 }
 
-/// Turns what a file of kRas says into kLps and back.
-void turn(VolumeSpace& space) {
-  for (const std::size_t k : {0U, 1U}) {
-    for (Vector3& axis : space.axes) axis[k] = 0 - axis[k];
-    space.origin[k] = 0 - space.origin[k];
-  }
-}
-
 void choose_frame(std::string_view file, VolumeSpace& space, FrameChoice choice) {
   if (choice == FrameChoice::kFile) return;
   const WorldFrame wanted = choice == FrameChoice::kRas ? WorldFrame::kRas : WorldFrame::kLps;
@@ -114,8 +106,7 @@ void choose_frame(std::string_view file, VolumeSpace& space, FrameChoice choice)
         text("--frame ", name(wanted), ": ", file,
              " does not say how its axes lie in a patient; take its own with --frame file"));
   }
-  if (space.frame != wanted) turn(space);
-  space.frame = wanted;
+  space = in_frame(space, wanted);
 }
 
 }  // namespace

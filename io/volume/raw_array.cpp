@@ -144,13 +144,11 @@ void RawArrayVolume::read(const Box3& box, std::span<RawLabel> out) const {
 
 void RawArrayVolume::read_numbers(const Box3& box, std::span<double> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
-  if (box.voxels() == 0) return;
-  const StoredArray array = stored();
-  const Rows rows(array, box, box);
-  read_rows(*source_, rows, [&](std::int64_t row, const std::byte* bytes) {
-    decode_numbers(bytes, rows.length(), array.coding, out.data() + rows.out_offset(row),
-                   rows.out_stride());
-  });
+  StoredArray array = stored();
+  array.coding.as_numbers = true;
+  std::vector<RawLabel> bits(out.size());
+  read_array(*source_, array, box, {box, bits});
+  numbers_of_bits(bits, out);
 }
 
 namespace {

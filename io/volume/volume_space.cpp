@@ -38,6 +38,18 @@ Vector3 to_corner(const VolumeSpace& space, const Vector3& world) {
   return out;
 }
 
+VolumeSpace in_frame(VolumeSpace space, WorldFrame frame) {
+  if (space.frame == frame || space.frame == WorldFrame::kOwn || frame == WorldFrame::kOwn) {
+    return space;
+  }
+  for (const std::size_t k : {0U, 1U}) {
+    for (Vector3& axis : space.axes) axis[k] = 0 - axis[k];
+    space.origin[k] = 0 - space.origin[k];
+  }
+  space.frame = frame;
+  return space;
+}
+
 VolumeSpace moved_to(const VolumeSpace& space, Index3 first) {
   VolumeSpace out = space;
   out.origin = to_world(space, {static_cast<double>(first.x), static_cast<double>(first.y),

@@ -54,6 +54,10 @@ struct VolumeSpace {
 /// The other way round, to rounding.
 [[nodiscard]] Vector3 to_corner(const VolumeSpace& space, const Vector3& world);
 
+/// Returns that place in another world frame: x and y are turned between kRas and kLps; kOwn is
+/// taken for any.
+[[nodiscard]] VolumeSpace in_frame(VolumeSpace space, WorldFrame frame);
+
 /// The space of a box of the volume: it begins at the corner `first`.
 [[nodiscard]] VolumeSpace moved_to(const VolumeSpace& space, Index3 first);
 

@@ -136,6 +136,16 @@ def draw_flags(random, settings):
         flags["quality-floor"] = random.choice(["0", "0", "0.01", "0.05", "0.2"])
 
 
+def draw_values(random, settings, volume):
+    """The file of labels is an image, too: on its own grid, also where only a part is meshed."""
+    arguments = volume.arguments
+    if settings.output == "m.mesh" or "--shape" in arguments or "voxel" in arguments:
+        return
+    if random.random() < 0.15:
+        statistic = random.choice(["mean", "min", "max", "mode"])
+        settings.flags["sample"] = f"value={volume.file}:{statistic}"
+
+
 def draw(random, volume, values_of):
     """values_of(settings): labels of the volume as cropped and merged so far."""
     settings = Settings()
@@ -150,6 +160,7 @@ def draw(random, volume, values_of):
     draw_connected(random, settings)
     if settings.output == "m.msh" and random.random() < 0.3:
         settings.flags["ascii"] = None
+    draw_values(random, settings, volume)
     return settings
 
 

@@ -113,10 +113,13 @@ const Room kRooms[] = {
     {"engine/output/", {"engine/window/window_grid.h"}},
     // Looks at a mesh on its way into a file, and knows no run.
     {"engine/connect/", {"engine/settings/"}},
+    // Values of tets from images beside the labels.
+    {"engine/sample/",
+     {"engine/output/cell_values.h", "engine/output/remembered.h", "engine/system/"}},
     {"engine/verify/", {"engine/labels/", "engine/system/"}},
     {"engine/report/",
-     {"engine/connect/connect_options.h", "engine/run/run.h", "engine/settings/", "engine/system/",
-      "engine/verify/", "engine/version.h"}},
+     {"engine/connect/connect_options.h", "engine/run/run.h", "engine/sample/", "engine/settings/",
+      "engine/system/", "engine/verify/", "engine/version.h"}},
     // The run puts the rooms together, and knows no more of other processes than an interface.
     {"engine/run/",
      {"engine/codt/", "engine/forecast/", "engine/keep/", "engine/labels/", "engine/march/",

@@ -118,6 +118,14 @@ class SharedRuns(unittest.TestCase):
                 self.assertIn(f"written by  all {ranks} processes", done.stdout)
                 self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
 
+    def test_values_of_images_are_those_of_one_process(self):
+        self.synth("voronoi", "40,48,56", 20)
+        options = ["--window", "8", "--sample", f"x={self.volume}:mean"]
+        done = self.run_shared(3, *options, "--certify", "off")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("written by  rank 0: it samples the images", done.stdout)
+        self.assertEqual(digest(self.folder / "shared.vtkhdf"), self.alone(*options))
+
     def test_what_all_write_together_is_reported_like_the_mesh_of_one(self):
         self.synth("voronoi", "40,48,56", 20)
         options = ["--window", "8", "--size", "3=4"]

@@ -44,6 +44,9 @@ bool has_no_sink(const SharedOutput& shared) {
 
 std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const SharedOutput& shared) {
   if (has_no_sink(shared)) return std::make_unique<io::NoSink>();
+  if (request.materials) {
+    return io::open_mesh_sink(request.output, request.element, *request.materials);
+  }
   return io::open_mesh_sink(request.output, request.element,
                             request.ascii ? io::Encoding::kText : io::Encoding::kUsual);
 }
@@ -95,6 +98,26 @@ std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
   return io::open_volume(image, {.spacing = open_options(request.volume).spacing});
 }
 
+/// Opens the images that tets get values from.  A .npy file says nothing of its place: its voxels
+/// are those of the labels' file.
+void open_samples(const MeshRequest& request, const io::VolumeInfo& labels,
+                  std::vector<engine::SampleImage>& samples) {
+  if (!run_processes().speaks()) samples.clear();
+  const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
+  for (engine::SampleImage& sample : samples) {
+    sample.image =
+        io::open_volume(sample.file, {.dataset = sample.dataset,
+                                      .trust_paths = request.volume.trust_paths,
+                                      .cache_bytes = request.volume.cache_bytes / samples.size()});
+    if (sample.image->info().format == "npy") {
+      sample.space = moved_to(labels.space, Index3{} - first);
+    } else if (request.volume.frame == io::FrameChoice::kVoxel) {
+      throw Error(ErrorKind::kUsage, "--frame voxel: " + sample.file +
+                                         " lies in the world, which the mesh then is not in");
+    }
+  }
+}
+
 /// Says where the work is when a run that ends early leaves some.
 report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume& volume,
                               MeshFiles& files) {
@@ -103,6 +126,7 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   engine::MeshJob job = request.job;
   job.stop = stop_if_interrupted;
   job.size_image = open_sizes(request);
+  open_samples(request, volume.info(), job.samples);
   job.labels_known = [](std::size_t labels) { log_info(io::text("meshing ", labels, " labels")); };
   engine::RunHooks& run = job.run;
   run.keep.say = [](const std::string& line) { log_warning(line); };

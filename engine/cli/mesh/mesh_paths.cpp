@@ -25,19 +25,29 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   throw Error(ErrorKind::kUsage, flag + " " + path.string() + ": " + why);
 }
 
+std::vector<fs::path> outputs_of(const MeshRequest& request) {
+  std::vector<fs::path> out = io::mesh_files(request.output);
+  if (request.materials) out.push_back(io::material_table_path(request.output));
+  return out;
+}
+
 void require_output_apart(const MeshRequest& request) {
-  for (const fs::path& output : io::mesh_files(request.output)) {
+  for (const fs::path& output : outputs_of(request)) {
     if (is_same_file(request.volume.path, output)) refuse("-o", output, "this is the input");
     if (is_same_file(request.volume.names, output)) refuse("-o", output, "this is --names");
   }
   for (const std::string& table : request.size_tables) {
     if (is_same_file(table, request.output)) refuse("-o", request.output, "this is --size");
   }
+  for (const engine::SampleImage& sample : request.job.samples) {
+    if (is_same_file(sample.file, request.output)) refuse("-o", request.output, "this is --sample");
+  }
 }
 
 void require_names_used_once(const MeshRequest& request) {
   std::vector<fs::path> taken{request.volume.path, request.volume.names, request.output};
   taken.insert(taken.end(), request.size_tables.begin(), request.size_tables.end());
+  for (const engine::SampleImage& sample : request.job.samples) taken.emplace_back(sample.file);
   const std::pair<const char*, fs::path> written[] = {{"--report", request.report},
                                                       {"--trace", request.trace},
                                                       {"--html", request.html},
@@ -76,7 +86,10 @@ std::vector<Named> files_of(const MeshRequest& request) {
                          {"--html", request.html},
                          {"--trace", request.trace}};
   for (const std::string& table : request.size_tables) out.emplace_back("--size", table);
-  for (const fs::path& file : io::mesh_files(request.output)) out.emplace_back("the output", file);
+  for (const engine::SampleImage& sample : request.job.samples) {
+    out.emplace_back("--sample", sample.file);
+  }
+  for (const fs::path& file : outputs_of(request)) out.emplace_back("the output", file);
   std::erase_if(out, [](const Named& file) { return file.second.empty(); });
   return out;
 }

@@ -8,8 +8,10 @@
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/codt/worker_pool.h"
+#include "engine/sample/sample_text.h"
 #include "engine/settings/size_text.h"
 #include "engine/system/memory.h"
+#include "io/file/errors.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
 
@@ -23,6 +25,27 @@ std::chrono::milliseconds parse_delay(const std::string& text) {
     throw Error(ErrorKind::kUsage, "expected seconds from 0 to 1000000");
   }
   return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
+}
+
+/// "NAME=N" or "NAME=N:LO:HI".
+io::MaterialRule parse_materials(const std::string& text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::size_t colon = std::min(text.find(':', equals), text.size());
+  const std::size_t second = std::min(text.find(':', colon + 1), text.size());
+  if (equals == text.size() || (colon < text.size() && second == text.size())) {
+    throw Error(ErrorKind::kUsage, "expected NAME=N or NAME=N:LO:HI, got '" + text + "'");
+  }
+  const std::int64_t count = parse_integer(text.substr(equals + 1, colon - equals - 1));
+  if (count < 1 || count > io::kMostMaterials) {
+    throw Error(ErrorKind::kUsage, io::text("expected 1 to ", io::kMostMaterials, " materials"));
+  }
+  io::MaterialRule out{.values = text.substr(0, equals),
+                       .count = static_cast<std::uint32_t>(count)};
+  if (colon == text.size()) return out;
+  out.range = {parse_number(text.substr(colon + 1, second - colon - 1)),
+               parse_number(text.substr(second + 1))};
+  if ((*out.range)[0] < (*out.range)[1]) return out;
+  throw Error(ErrorKind::kUsage, "the first value of a range is below the last");
 }
 
 Certify parse_certify(const std::string& text) {
@@ -208,6 +231,19 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .fallback = "false",
                .listed = Listed::kInHelpAll,
                .assign = into(request.ascii)});
+  options.add({.name = "sample",
+               .value = "NAME=FILE[:mean]",
+               .help = "an image's mean, min, max or mode in each tet, repeatable",
+               .group = kOutputGroup,
+               .listed = Listed::kInHelpAll,
+               .repeats = true,
+               .assign = into(request.job.samples, engine::parse_samples)});
+  options.add({.name = "materials",
+               .value = "NAME=N[:LO:HI]",
+               .help = "N sets of elements by equal ranges of a --sample, with a table",
+               .group = kOutputGroup,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.materials, parse_materials)});
   options.add({.name = "force",
                .help = "replaces an OUTPUT that is no mesh of this program",
                .group = kOutputGroup,
@@ -222,6 +258,18 @@ void require_memory_for_page(const MeshRequest& request) {
   constexpr std::uint64_t kMin = 192 << 20;
   if (request.html.empty() || request.job.run.store.memory >= kMin) return;
   throw Error(ErrorKind::kUsage, "--html: needs --memory 192MiB or more");
+}
+
+void require_room_for_values(const MeshRequest& request) {
+  if (request.materials) {
+    const auto is_it = [&](const engine::SampleImage& sample) {
+      return sample.name == request.materials->values;
+    };
+    if (std::any_of(request.job.samples.begin(), request.job.samples.end(), is_it)) return;
+    throw Error(ErrorKind::kUsage,
+                "--materials: no --sample is called '" + request.materials->values + "'");
+  }
+  if (!request.job.samples.empty()) io::require_place_for_values(request.output);
 }
 
 /// A folder that an earlier run has used is updated; one that a run was killed over is gone on
@@ -282,6 +330,7 @@ void check_mesh_request(MeshRequest& request) {
   require_paths_apart(request);
   if (!request.force) require_own_output(request.output);
   require_memory_for_page(request);
+  require_room_for_values(request);
   engine::check(request.job.settings);
   if (request.job.settings.optimizer == engine::Optimizer::kTetgen)
     (void)engine::codt::find_worker();

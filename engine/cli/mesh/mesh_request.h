@@ -8,6 +8,7 @@
 #include "engine/job/mesh_job.h"
 #include "engine/settings/settings.h"
 #include "io/mesh/element.h"
+#include "io/mesh/grouped/material_sets.h"
 
 namespace mw::cli {
 
@@ -17,7 +18,8 @@ struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
-  bool ascii = false;                    ///< whether the output is text
+  bool ascii = false;                           ///< whether the output is text
+  std::optional<io::MaterialRule> materials{};  ///< sets of elements to be written
   bool force = false;                    ///< whether it may replace a file that we did not write
   std::filesystem::path report;          ///< empty: none
   std::filesystem::path html;            ///< empty: none

@@ -83,6 +83,23 @@ void print_across(const report::FinishedRun& run) {
                        "least as long as the diagonal of a voxel"));
 }
 
+void print_samples(const report::FinishedRun& run) {
+  for (const engine::SampleFacts& sample : run.samples) {
+    std::cout << "sample      " << sample.name << ": " << name(sample.statistic) << " of "
+              << sample.file << ", ";
+    if (sample.outside == sample.tets) {
+      std::cout << "no tet has a value: the image lies elsewhere\n";
+      continue;
+    }
+    std::cout << format_figure(sample.least) << " to " << format_figure(sample.most);
+    if (sample.partly_outside > 0) {
+      std::cout << "; " << sample.partly_outside << " tets are partly outside of the image";
+    }
+    if (sample.outside > 0) std::cout << "; " << sample.outside << " are outside and have NaN";
+    std::cout << "\n";
+  }
+}
+
 void print_certificate(const report::FinishedRun& run) {
   const std::string checked =
       std::string("topology, partition, radius ratio") +
@@ -158,6 +175,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_count(run);
   print_sizes(run);
   print_across(run);
+  print_samples(run);
   print_certificate(run);
   std::cout << "seconds     " << format_figure(seconds) << "\n"
             << "voxels/s    " << format_figure(static_cast<double>(shape.product()) / seconds)

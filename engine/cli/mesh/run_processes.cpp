@@ -41,6 +41,7 @@ std::string obstacle(const MeshRequest& request, bool can_be_shared, bool is_cer
   if (!can_be_shared) return "only a .vtkhdf of tet4 can be written by several";
   if (is_certified) return "it makes the certificate";
   if (request.job.connect.change_mesh()) return "it leaves parts out, or doubles vertices";
+  if (!request.job.samples.empty()) return "it samples the images";
   return request.html.empty() ? "" : "it draws the page";
 }
 

@@ -14,6 +14,7 @@ True
 import difflib
 import json
 import sys
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -65,7 +66,8 @@ def _size_place(volume, key):
 
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
              drop_specks=None, workdir=None, resume=False, keep=None, from_kept=False,
-             changed=(), certify="auto", report=True, parts="all", split=(), open_hinges=False):
+             changed=(), sample=None, certify="auto", report=True, parts="all", split=(),
+             open_hinges=False):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:
@@ -97,6 +99,7 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.keep = path_bytes(keep, "keep") if keep is not None else ""
     options.from_kept = switch(from_kept, "from_kept")
     options.changed = [_box(box, "changed") for box in changed]
+    options.sample = _samples({} if sample is None else sample)
     known = {"auto": _core.Certify.auto, "on": _core.Certify.on, "off": _core.Certify.off}
     if not isinstance(certify, str) or certify not in known:
         raise unexpected("certify", "auto, on or off", certify)
@@ -118,6 +121,14 @@ def _split_text(volume, split):
     if any(a == b for a, b in pairs):
         raise UsageError("split: two labels make a pair")
     return ",".join(f"{a}|{b}" for a, b in pairs)
+
+
+def _samples(sample):
+    """Returns NAME=FILE;NAME=FILE as bytes, from {name: file}."""
+    if not isinstance(sample, Mapping):
+        raise unexpected("sample", "{name: file}", sample)
+    return b";".join(text(name, "sample").encode() + b"=" + path_bytes(file, "sample")
+                     for name, file in sample.items())
 
 
 def _box(box, name):
@@ -157,7 +168,7 @@ def _progress(wanted):
 
 
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
-            "resume", "keep", "from_kept", "changed", "certify", "report", "parts", "split",
+            "resume", "keep", "from_kept", "changed", "sample", "certify", "report", "parts", "split",
             "open_hinges")
 
 
@@ -227,6 +238,9 @@ def mesh(volume, *, progress=None, **arguments):
         a folder that holds what a later run of the volume, edited, need not do again (set
         order="colour"); whether one has left something there; and a list of boxes
         ((x0, y0, z0), (x1, y1, z1)) that have all changes since.  :class:`Session` does it all.
+    sample
+        {name: image file}: the image's mean in each tet becomes Mesh.values[name]; the file may end
+        in ":min", ":max" or ":mode".  It lies where it says itself, a .npy on the volume's voxels.
     certify
         "auto", "on" or "off": the mesh is checked before it is returned, see CheckFailedError.
     report

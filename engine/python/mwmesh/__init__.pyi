@@ -92,6 +92,8 @@ class Mesh:
     @property
     def tets(self) -> npt.NDArray[np.int64]: ...
     @property
+    def values(self) -> dict[str, npt.NDArray[np.float64]]: ...
+    @property
     def labels(self) -> npt.NDArray[np.int64] | npt.NDArray[np.uint64]: ...
     @property
     def names(self) -> dict[int, str]: ...
@@ -160,6 +162,7 @@ def mesh(
     keep: _Path | None = ...,
     from_kept: bool = ...,
     changed: Sequence[_Box] = ...,
+    sample: Mapping[str, str | os.PathLike[str]] | None = ...,
     certify: _Certify = ...,
     report: bool = ...,
     parts: Literal["all", "largest"] | int = ...,

@@ -37,11 +37,13 @@ def _areas(points, triangles):
     return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
 
 
-def _restored(points, tets, labels, names, record):
+def _restored(points, tets, labels, names, record, values):
     """Returns a mesh from the parts of its pickle."""
     mesh = Mesh(points, tets, labels)
     mesh._core.names = [_core.LabelName(*row) for row in names]
     mesh._core.record = record
+    for name, column in values.items():
+        mesh._core.set_values(name, column)
     return mesh
 
 
@@ -134,7 +136,7 @@ class Mesh:
     def __reduce__(self):
         rows = [(row.label, row.name, row.colour) for row in self._core.names]
         arrays = self.points, self.tets, self.labels
-        return _restored, (*arrays, rows, self._core.record), {"report": self.report}
+        return _restored, (*arrays, rows, self._core.record, self.values), {"report": self.report}
 
     @property
     def points(self):
@@ -150,6 +152,11 @@ class Mesh:
     def labels(self):
         """The m labels, int64 where the volume's are signed, else uint64."""
         return self._core.labels
+
+    @property
+    def values(self):
+        """The m numbers of each image that was sampled, {name: float64}; NaN outside of it."""
+        return self._core.values
 
     def __repr__(self):
         return (f"<mwmesh.Mesh: {len(self.points)} points, {len(self.tets)} tets, "
@@ -307,7 +314,8 @@ class Mesh:
     def to_meshio(self):
         """Returns a meshio.Mesh with cell data "label"; names are field data {name: [label, 3]}."""
         meshio = _package("meshio")
-        return meshio.Mesh(self.points, [("tetra", self.tets)], cell_data={"label": [self.labels]},
+        data = {"label": [self.labels]} | {name: [row] for name, row in self.values.items()}
+        return meshio.Mesh(self.points, [("tetra", self.tets)], cell_data=data,
                            field_data={name: np.array([label, 3])
                                        for label, name in self.names.items()})
 
@@ -331,6 +339,10 @@ class Mesh:
         labels = numpy_support.numpy_to_vtk(self.labels, deep=True)
         labels.SetName("label")
         grid.GetCellData().SetScalars(labels)
+        for name, values in self.values.items():
+            array = numpy_support.numpy_to_vtk(values, deep=True)
+            array.SetName(name)
+            grid.GetCellData().AddArray(array)
         rows = self._core.names
         if not rows:
             return grid

@@ -39,6 +39,27 @@ std::string inp_comment(const std::string& set, const LabelName& row, bool is_si
 
 }  // namespace
 
+class InpWriter::NumberRows {
+ public:
+  explicit NumberRows(InpWriter& writer) : writer_(writer) {}
+
+  void add(std::uint64_t number) {
+    constexpr std::size_t kMaxItems = 16;  // of a data line
+    if (count_ == kMaxItems) end();
+    row_ += text(count_++ == 0 ? "" : ", ", number);
+  }
+  void end() {
+    if (count_ > 0) writer_.line(row_);
+    row_.clear();
+    count_ = 0;
+  }
+
+ private:
+  InpWriter& writer_;
+  std::string row_;
+  std::size_t count_ = 0;
+};
+
 void InpWriter::write(GroupedMesh& mesh) {
   check_counts(mesh);
   const PlainNames names(mesh);
@@ -55,8 +76,9 @@ void InpWriter::write(GroupedMesh& mesh) {
     write_surface(mesh, set.name, set.group.facets, false);
     if (!set.other.empty()) write_surface(mesh, set.other, set.group.facets, true);
   }
+  if (rule_) write_materials(mesh);
   line(kInpEnds);
-  file_.commit();
+  table_ ? commit_together({*table_, file_}) : file_.commit();
 }
 
 void InpWriter::check_counts(const GroupedMesh& mesh) const {
@@ -119,20 +141,27 @@ void InpWriter::write_surface(GroupedMesh& mesh, const std::string& name, RowRan
 
 void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets,
                                bool of_second) {
-  constexpr std::size_t kMaxItems = 16;  // of a data line
   line("*NSET, NSET=", name);
-  std::string items;
-  std::size_t count = 0;
-  const auto add = [&](std::uint64_t row) {
-    if (count++ == kMaxItems) {
-      line(items);
-      items.clear();
-      count = 1;
-    }
-    items += text(items.empty() ? "" : ", ", row + 1);
-  };
+  NumberRows rows(*this);
+  const auto add = [&](std::uint64_t row) { rows.add(row + 1); };
   for_each_facet_node(mesh, facets, folder_, add, of_second);
-  line(items);
+  rows.end();
+}
+
+void InpWriter::write_materials(GroupedMesh& mesh) {
+  MaterialSets materials(mesh, *rule_);
+  NumberRows rows(*this);
+  std::uint32_t last = 0;
+  materials.for_each(folder_, [&](std::uint32_t material, std::uint64_t tet) {
+    if (material != last) {
+      rows.end();
+      line("*ELSET, ELSET=", materials.name(material));
+    }
+    last = material;
+    rows.add(tet + 1);
+  });
+  rows.end();
+  materials.append_table(*table_);
 }
 
 void InpWriter::line(std::string_view line, std::string_view more) {

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/material_sets.h"
 
 namespace mw::io {
 
@@ -17,12 +19,19 @@ namespace mw::io {
 /// them; a side of the box is one surface X_MIN .. Z_MAX (or OUTER) of all labels.  The nodes of
 /// each, of an interface once, are a node set of the same name.  Comments say which set a named
 /// label is, with its name and colour as in MEDIT files.
+/// Materials are element sets beside those of the labels; empty ones are left out.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
 /// which is all that Abaqus has numbers for.
 class InpWriter : public GroupedWriter {
  public:
-  explicit InpWriter(const std::filesystem::path& path)
-      : folder_(path.parent_path()), name_(path.string()), file_(path) {}
+  explicit InpWriter(const std::filesystem::path& path,
+                     std::optional<MaterialRule> materials = std::nullopt)
+      : folder_(path.parent_path()),
+        name_(path.string()),
+        file_(path),
+        rule_(std::move(materials)) {
+    if (rule_) table_.emplace(material_table_path(path));
+  }
 
   void write(GroupedMesh& mesh) override;
 
@@ -32,12 +41,17 @@ class InpWriter : public GroupedWriter {
   void write_nodes(GroupedMesh& mesh);
   void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);
   void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
+  void write_materials(GroupedMesh& mesh);
+  /// One of many rows of numbers, 16 to a line.
+  class NumberRows;
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void line(std::string_view line, std::string_view more = {});
 
   std::filesystem::path folder_;
   std::string name_;
   AtomicFile file_;
+  std::optional<MaterialRule> rule_;
+  std::optional<AtomicFile> table_;  ///< of the materials
 };
 
 }  // namespace mw::io

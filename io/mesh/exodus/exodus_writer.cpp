@@ -56,6 +56,7 @@ void ExodusWriter::write(GroupedMesh& mesh) {
                                         max, " are needed; write .vtkhdf"));
   }
   const LabelNumbers numbers(mesh.table());
+  if (rule_) materials_.emplace(mesh, *rule_);
   Plan plan = plan_of(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     plan.ids.push_back(static_cast<int>(numbers[rank]));
@@ -65,14 +66,18 @@ void ExodusWriter::write(GroupedMesh& mesh) {
   write_list(block_list_, plan.blocks, plan.ids);
   write_list(side_set_list_, names_of(plan.side_sets), counted_from_one(plan.side_sets.size()));
   write_list(node_set_list_, names_of(plan.node_sets), counted_from_one(plan.node_sets.size()));
+  write_list(element_set_list_, names_of(plan.element_sets),
+             counted_from_one(plan.element_sets.size()));
   write_nodes(mesh, plan);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_block(mesh, mesh.label_tets()[rank], plan.connectivity[rank]);
   }
+  write_values(mesh, plan);
   for (const SideSet& set : plan.side_sets) write_side_set(mesh, set);
   for (const NodeSet& set : plan.node_sets) write_node_set(mesh, set);
+  write_element_sets(plan);
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
-  out_.commit(labels_);
+  table_ ? out_.commit(labels_, *table_) : out_.commit(labels_);
 }
 
 ExodusWriter::Plan ExodusWriter::plan_of(GroupedMesh& mesh) const {
@@ -99,6 +104,10 @@ ExodusWriter::Plan ExodusWriter::plan_of(GroupedMesh& mesh) const {
                                 .of_second = of_second});
     }
   }
+  for (std::uint32_t m = 1; materials_ && m <= materials_->count(); ++m) {
+    if (materials_->facts(m).tets == 0) continue;
+    plan.element_sets.push_back({.name = materials_->name(m), .material = m});
+  }
   return plan;
 }
 
@@ -116,7 +125,8 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
                      text("mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
   name_length_ = out_.add_dimension("len_name", kNameBytes + 1);
   out_.add_dimension("num_dim", 3);
-  out_.add_dimension("time_step", 0);
+  // Steps could be added to the file of a mesh without values.
+  time_step_ = out_.add_dimension("time_step", mesh.header().values.empty() ? 0 : 1);
   if (mesh.node_count() > 0) {
     const int nodes = out_.add_dimension("num_nodes", mesh.node_count());
     plan.coordinates = {out_.add_doubles("coordx", {nodes}), out_.add_doubles("coordy", {nodes}),
@@ -124,12 +134,15 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
   }
   if (mesh.tet_count() > 0) out_.add_dimension("num_elem", mesh.tet_count());
   block_list_ = define_list("num_el_blk", "eb_", plan.blocks.size());
+  std::vector<int> block_tets;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const int tets = out_.add_dimension(text("num_el_in_blk", b + 1), mesh.label_tets()[b].size());
     const int nodes = out_.add_dimension(text("num_nod_per_el", b + 1), node_count(mesh.element()));
     plan.connectivity.push_back(out_.add_integers(text("connect", b + 1), {tets, nodes}));
     out_.add_attribute(plan.connectivity.back(), "elem_type", quadratic ? "TETRA10" : "TETRA");
+    block_tets.push_back(tets);
   }
+  define_values(mesh, plan, block_tets);
   side_set_list_ = define_list("num_side_sets", "ss_", plan.side_sets.size());
   for (std::size_t s = 0; s < plan.side_sets.size(); ++s) {
     SideSet& set = plan.side_sets[s];
@@ -142,6 +155,57 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
     NodeSet& set = plan.node_sets[s];
     const int nodes = out_.add_dimension(text("num_nod_ns", s + 1), set.nodes);
     set.variable = out_.add_integers(text("node_ns", s + 1), {nodes});
+  }
+  define_element_sets(plan);
+}
+
+void ExodusWriter::define_element_sets(Plan& plan) {
+  element_set_list_ = define_list("num_elem_sets", "els_", plan.element_sets.size());
+  for (std::size_t s = 0; s < plan.element_sets.size(); ++s) {
+    ElementSet& set = plan.element_sets[s];
+    const int tets =
+        out_.add_dimension(text("num_ele_els", s + 1), materials_->facts(set.material).tets);
+    set.variable = out_.add_integers(text("elem_els", s + 1), {tets});
+  }
+}
+
+void ExodusWriter::write_element_sets(const Plan& plan) {
+  if (!materials_) return;
+  std::vector<int> tets;
+  std::uint64_t written = 0;
+  auto set = plan.element_sets.begin();
+  const auto flush = [&] {
+    if (!tets.empty()) out_.put(set->variable, written, tets);
+    written += tets.size();
+    tets.clear();
+  };
+  materials_->for_each(folder_, [&](std::uint32_t material, std::uint64_t tet) {
+    if (material != set->material) {
+      flush();
+      ++set;  // those without tets are not in the plan
+      written = 0;
+    }
+    tets.push_back(number(tet));
+    if (tets.size() == kRowsAtOnce) flush();
+  });
+  flush();
+  materials_->append_table(*table_);
+}
+
+/// Variables of elements, in one step at time 0.
+void ExodusWriter::define_values(const GroupedMesh& mesh, Plan& plan,
+                                 const std::vector<int>& tets) {
+  const std::size_t count = mesh.header().values.size();
+  if (count == 0) return;
+  plan.time = out_.add_doubles("time_whole", {time_step_});
+  plan.value_names =
+      out_.add_texts("name_elem_var", {out_.add_dimension("num_elem_var", count), name_length_});
+  for (std::size_t v = 0; v < count; ++v) {
+    plan.values.emplace_back();
+    for (std::size_t b = 0; b < tets.size(); ++b) {
+      plan.values[v].push_back(
+          out_.add_doubles(text("vals_elem_var", v + 1, "eb", b + 1), {time_step_, tets[b]}));
+    }
   }
 }
 
@@ -175,6 +239,20 @@ void ExodusWriter::write_nodes(GroupedMesh& mesh, const Plan& plan) {
       for (std::uint64_t i = 0; i < count; ++i) values[i] = mesh.node(first + i)[axis];
       out_.put(plan.coordinates[axis], first, values);
     });
+  }
+}
+
+void ExodusWriter::write_values(GroupedMesh& mesh, const Plan& plan) {
+  for (std::size_t v = 0; v < plan.values.size(); ++v) {
+    out_.put_text(plan.value_names, v, mesh.header().values[v], kNameBytes);
+    for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+      const RowRange tets = mesh.label_tets()[rank];
+      in_steps(tets, [&](std::uint64_t first, std::uint64_t count) {
+        std::vector<double> values(count);
+        for (std::uint64_t i = 0; i < count; ++i) values[i] = mesh.value(first + i, v);
+        out_.put(plan.values[v][rank], first - tets.begin, values);
+      });
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "io/mesh/exodus/netcdf_output.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/label_numbers.h"
+#include "io/mesh/grouped/material_sets.h"
 
 namespace mw::io {
 
@@ -19,11 +20,15 @@ namespace mw::io {
 /// mw::Error(kUsage) above 2,147,483,647 nodes or tets.
 class ExodusWriter : public GroupedWriter {
  public:
-  explicit ExodusWriter(const std::filesystem::path& path)
+  explicit ExodusWriter(const std::filesystem::path& path,
+                        std::optional<MaterialRule> materials = std::nullopt)
       : folder_(path.parent_path()),
         name_(path.string()),
         out_(path),
-        labels_(label_table_path(path)) {}
+        labels_(label_table_path(path)),
+        rule_(std::move(materials)) {
+    if (rule_) table_.emplace(material_table_path(path));
+  }
 
   void write(GroupedMesh& mesh) override;
 
@@ -44,14 +49,24 @@ class ExodusWriter : public GroupedWriter {
     bool of_second = false;
     int variable = 0;
   };
+  /// One set of elements: a material.
+  struct ElementSet {
+    std::string name;
+    std::uint32_t material = 0;
+    int variable = 0;
+  };
   /// What is written, with the variables that hold it.
   struct Plan {
     std::vector<std::string> blocks;  ///< names, by rank of label
     std::vector<int> ids;
     std::vector<SideSet> side_sets;
     std::vector<NodeSet> node_sets;
+    std::vector<ElementSet> element_sets;
     std::array<int, 3> coordinates{};
     std::vector<int> connectivity;  ///< by rank of label
+    int value_names = 0;
+    int time = 0;
+    std::vector<std::vector<int>> values;  ///< by name, by rank of label
   };
   /// The variables that hold status, id and name of each member of a list.
   struct ListVariables {
@@ -67,19 +82,28 @@ class ExodusWriter : public GroupedWriter {
                             std::size_t members);
   void write_list(const ListVariables& list, const std::vector<std::string>& names,
                   std::span<const int> ids);
+  void define_values(const GroupedMesh& mesh, Plan& plan, const std::vector<int>& tets);
   void write_nodes(GroupedMesh& mesh, const Plan& plan);
+  void write_values(GroupedMesh& mesh, const Plan& plan);
   void write_block(GroupedMesh& mesh, RowRange tets, int variable);
   void write_side_set(GroupedMesh& mesh, const SideSet& set);
   void write_node_set(GroupedMesh& mesh, const NodeSet& set);
+  void define_element_sets(Plan& plan);
+  void write_element_sets(const Plan& plan);
 
   std::filesystem::path folder_;  ///< of temporary files
   std::string name_;
   NetcdfOutput out_;
   AtomicFile labels_;
+  std::optional<MaterialRule> rule_;
+  std::optional<AtomicFile> table_;  ///< of the materials
+  std::optional<MaterialSets> materials_;
   int name_length_ = 0;  ///< dimensions that several lists have
+  int time_step_ = 0;
   ListVariables block_list_;
   ListVariables side_set_list_;
   ListVariables node_set_list_;
+  ListVariables element_set_list_;
 };
 
 }  // namespace mw::io

@@ -47,6 +47,7 @@ class NetcdfOutput {
   void put_text(int variable, std::uint64_t row, const std::string& value, std::size_t max_bytes);
   /// Gives the file its name together with `beside`, a file that belongs to it.
   void commit(AtomicFile& beside) { commit_together({beside, file_}); }
+  void commit(AtomicFile& beside, AtomicFile& other) { commit_together({beside, other, file_}); }
 
  private:
   enum class Type : std::uint32_t { kText = 2, kInteger = 4, kFloat = 5, kDouble = 6 };

@@ -17,6 +17,7 @@ void Msh2Writer::write(GroupedMesh& mesh) {
   write_physical_names(out_, mesh, numbers);
   write_nodes(mesh);
   write_elements(mesh, numbers);
+  write_element_data(out_, mesh);
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
   commit_together({labels_, out_.file()});
 }

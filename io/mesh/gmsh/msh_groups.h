@@ -32,4 +32,8 @@ inline constexpr std::array<std::size_t, 10> kMshTetOrder{0, 1, 2, 3, 4, 5, 6, 7
 /// Writes the section of the names of all physical surfaces and volumes (see MshWriter).
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels);
 
+/// Writes a section ElementData for each of the values of tets, alike in both versions.  A triangle
+/// has the value of the tet behind it: meshio reads no data that only some elements have.
+void write_element_data(MshEncoder& out, GroupedMesh& mesh);
+
 }  // namespace mw::io

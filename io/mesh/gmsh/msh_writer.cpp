@@ -34,6 +34,7 @@ void MshWriter::write(GroupedMesh& mesh) {
   write_entities(contents);
   write_nodes(contents);
   write_elements(contents);
+  write_element_data(out_, mesh);
   append_label_table(labels_, mesh.table(), mesh.names(), contents.numbers);
   commit_together({labels_, out_.file()});
 }

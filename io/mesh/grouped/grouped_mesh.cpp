@@ -9,7 +9,12 @@
 namespace mw::io {
 
 GroupedMesh::GroupedMesh(const std::filesystem::path& folder)
-    : vertices_(folder), tets_(folder), facets_(folder), edges_(folder), middles_(folder) {}
+    : vertices_(folder),
+      tets_(folder),
+      values_(folder),
+      facets_(folder),
+      edges_(folder),
+      middles_(folder) {}
 
 Position GroupedMesh::node(std::uint64_t row) {
   if (row < vertices_.size()) return vertices_[row];
@@ -70,8 +75,11 @@ void write_nodes(GroupedMesh& mesh, MeshSink& sink) {
 
 void write_cells(GroupedMesh& mesh, Label rank, TenNodeSink& sink) {
   const RowRange range = mesh.label_tets()[rank];
+  std::vector<double> row(mesh.header().values.size());
   for (std::uint64_t tet = range.begin; tet < range.end; ++tet) {
     sink.write_cell(mesh.tet_nodes(tet), mesh.table().raw(rank));
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = mesh.value(tet, i);
+    sink.write_values(row);
   }
 }
 

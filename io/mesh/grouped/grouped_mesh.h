@@ -101,6 +101,10 @@ class GroupedMesh {
   /// Rows of the middles of kTetEdges.  REQUIRES: kTet10.
   [[nodiscard]] std::array<std::uint64_t, 6> middles(std::uint64_t tet) { return middles_[tet]; }
   [[nodiscard]] NodeRows tet_nodes(std::uint64_t number);
+  /// The tet's number under the name header().values[column].
+  [[nodiscard]] double value(std::uint64_t tet, std::size_t column) {
+    return values_[tet * header_.values.size() + column];
+  }
 
   /// Returns the groups, ascending by side, first, second.
   [[nodiscard]] const std::vector<FacetGroup>& facet_groups() const { return facet_groups_; }
@@ -124,6 +128,7 @@ class GroupedMesh {
   Element element_ = Element::kTet4;
   PagedFile<Position> vertices_;
   PagedFile<TetRows> tets_;
+  PagedFile<double> values_;  ///< by tet, a column for each name
   std::vector<RowRange> label_tets_;
   PagedFile<Facet> facets_;
   std::vector<FacetGroup> facet_groups_;

@@ -39,6 +39,9 @@ class MeshGrouping {
   }
   void add_vertices(std::span<const Position> positions);
   void add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
+  void add_values(std::span<const double> rows) {
+    for (const double value : rows) values_.append(value);
+  }
   /// Called once, after everything was added.
   void group();
   [[nodiscard]] GroupedMesh& mesh() { return mesh_; }
@@ -54,6 +57,7 @@ class MeshGrouping {
   void find_box();
   void sort_tets(Faces& faces);
   void place_tet(TetRows tet, Faces& faces);
+  void place_values(std::uint64_t tet);
   void pair_faces(Faces& faces, Facets& facets);
   void add_facet(std::span<const FaceRecord> sharing, Facets& facets);
   void number_facets(Facets& facets);
@@ -61,7 +65,8 @@ class MeshGrouping {
 
   std::filesystem::path folder_;
   GroupedMesh mesh_;
-  ScratchFile tets_;  ///< four rows and the label of each, as they came
+  ScratchFile tets_;          ///< four rows and the label of each, as they came
+  PagedFile<double> values_;  ///< of tets as they came
   LabelSet labels_;
   std::optional<DoubledVertices> doubles_;
   Position lo_{};
@@ -69,7 +74,7 @@ class MeshGrouping {
 };
 
 MeshGrouping::MeshGrouping(const std::filesystem::path& folder, Element element)
-    : folder_(folder), mesh_(folder), tets_(folder) {
+    : folder_(folder), mesh_(folder), tets_(folder), values_(folder) {
   mesh_.element_ = element;
 }
 
@@ -139,7 +144,13 @@ void MeshGrouping::sort_tets(Faces& faces) {
     if (range.size() == 0) range = {mesh_.tets_.size(), mesh_.tets_.size()};
     ++range.end;
     place_tet({record[2], record[3], record[4], record[5]}, faces);
+    place_values(record[1]);
   });
+}
+
+void MeshGrouping::place_values(std::uint64_t tet) {
+  const std::size_t columns = mesh_.header_.values.size();
+  for (std::size_t i = 0; i < columns; ++i) mesh_.values_.append(values_[tet * columns + i]);
 }
 
 void MeshGrouping::place_tet(TetRows tet, Faces& faces) {
@@ -263,6 +274,10 @@ void GroupedSink::write_vertices(std::span<const Position> positions) {
 
 void GroupedSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
   grouping_->add_tets(tets, labels);
+}
+
+void GroupedSink::write_values(std::span<const double> rows) {
+  grouping_->add_values(rows);
 }
 
 void GroupedSink::finish() {

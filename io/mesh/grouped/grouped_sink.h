@@ -24,6 +24,7 @@ class GroupedSink : public MeshSink {
   void begin(const MeshHeader& header) override;
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
+  void write_values(std::span<const double> rows) override;
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override;
 

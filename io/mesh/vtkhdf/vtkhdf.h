@@ -18,8 +18,9 @@
 
 namespace mw::io {
 
-/// The first rooms of a file.
-[[nodiscard]] ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets);
+/// The first rooms of a file.  values: columns of numbers that tets have.
+[[nodiscard]] ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets,
+                                        std::size_t values = 0);
 
 /// Writes all that tells of the columns, and gives the file its name.
 /// REQUIRES: all rows are in the file, and the points' room is reserved.
@@ -34,7 +35,7 @@ void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element eleme
 ///                        middles of kTetEdges
 ///     Offsets            Int64 [tets + 1]
 ///     Types              UInt8 [tets], all 10; of ten nodes 24
-///     CellData/label     UInt64 or Int64 [tets]
+///     CellData/label     UInt64 or Int64 [tets]; beside it Float64 [tets] for each of the values
 ///     FieldData          names of labels, where there are any, as in /mwmesh (add_vtkhdf_facts())
 /// No time stamps: equal meshes are equal bytes.
 /// Cost: 4 MiB of buffers.  Thread safety: none.

@@ -17,12 +17,16 @@ Hdf5DataSet one(Hdf5Output& output, const char* name, std::uint64_t count) {
 
 }  // namespace
 
-ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets) {
+ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets,
+                          std::size_t values) {
   ColumnPlaces out;
   out.connectivity = rooms.reserve(node_count(element) * tets * sizeof(std::uint64_t));
   out.offsets = rooms.reserve((tets + 1) * sizeof(std::uint64_t));
   out.types = rooms.reserve(tets);
   out.labels = rooms.reserve(tets * sizeof(RawLabel));
+  for (std::size_t i = 0; i < values; ++i) {
+    out.values.push_back(rooms.reserve(tets * sizeof(double)));
+  }
   out.points = rooms.next();
   return out;
 }
@@ -42,6 +46,9 @@ void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element eleme
                one(output, "NumberOfConnectivityIds", corners)};
   const Hdf5Kind label = header.labels_signed ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64;
   grid.groups = {{.name = "CellData", .sets = {{"label", label, {tets}, places.labels}}}};
+  for (std::size_t i = 0; i < header.values.size(); ++i) {
+    grid.groups[0].sets.push_back({header.values[i], Hdf5Kind::kFloat64, {tets}, places.values[i]});
+  }
   Hdf5Group root;
   add_vtkhdf_facts(output, header, root, grid);
   root.groups.push_back(std::move(grid));
@@ -49,7 +56,7 @@ void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element eleme
 }
 
 void VtkhdfSink::begin(const MeshHeader& header) {
-  places_ = place_vtkhdf(output_.rooms(), element(), header.tets);
+  places_ = place_vtkhdf(output_.rooms(), element(), header.tets, header.values.size());
   place_columns(header, output_.file(), places_);
 }
 

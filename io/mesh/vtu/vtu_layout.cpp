@@ -87,10 +87,20 @@ std::string ids_element(std::uint64_t offset) {
               array_tag("Int64", kNodeIds, 1, offset), "      </PointData>\n");
 }
 
+/// The arrays of values come first.
+std::string value_tags(const MeshHeader& header) {
+  std::string out;
+  for (std::size_t i = 0; i < header.values.size(); ++i) {
+    out += array_tag("Float64", header.values[i].c_str(), 1, i * (8 + 8 * header.tets));
+  }
+  return out;
+}
+
 /// `offset` of each array is relative to the '_'.
 std::string make_head(const MeshHeader& header, std::uint64_t vertices, const std::string& fields,
                       const std::string& ids,
                       const std::array<std::uint64_t, VtuLayout::kArrays>& offset) {
+  const std::string values = value_tags(header);
   std::string head = text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n",
@@ -102,8 +112,8 @@ std::string make_head(const MeshHeader& header, std::uint64_t vertices, const st
       array_tag("UInt8", "types", 1, offset[VtuLayout::kTypes]),
       "      </Cells>\n      <CellData Scalars=\"label\">\n",
       array_tag(header.labels_signed ? "Int64" : "UInt64", "label", 1, offset[VtuLayout::kLabel]),
-      "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n");
-  const std::size_t bytes = kHeadBytes + fields.size() + ids.size();
+      values, "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n");
+  const std::size_t bytes = kHeadBytes + fields.size() + ids.size() + values.size();
   MW_ASSERT(head.size() + kAppended.size() <= bytes);
   head.resize(bytes - kAppended.size(), ' ');
   head.back() = '\n';
@@ -157,7 +167,8 @@ VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Elem
                    vertices * 8};
   if (with_ids == VtuIds::kOfNodes) layout.arrays = VtuLayout::kArrays;
   std::array<std::uint64_t, VtuLayout::kArrays> offset{};
-  std::uint64_t next = 0;
+  layout.value_length = header.tets * 8;
+  std::uint64_t next = header.values.size() * (8 + layout.value_length);
   for (std::size_t i = 0; i < layout.arrays; ++i) {
     offset[i] = next;
     next += 8 + layout.length[i];
@@ -165,6 +176,9 @@ VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Elem
   const std::string ids = with_ids == VtuIds::kNone ? "" : ids_element(offset[VtuLayout::kIds]);
   layout.head = make_head(header, vertices, fields, ids, offset);
   for (std::size_t i = 0; i < layout.arrays; ++i) layout.start[i] = layout.head.size() + offset[i];
+  for (std::size_t i = 0; i < header.values.size(); ++i) {
+    layout.values.push_back(layout.head.size() + i * (8 + layout.value_length));
+  }
   layout.tail = "\n  </AppendedData>\n</VTKFile>\n";
   layout.tail_start = layout.head.size() + next;
   return layout;

@@ -25,10 +25,10 @@ namespace mw::io {
 [[nodiscard]] MeshRecord read_vtu_record(VtkDocument& document);
 
 /// The file: XML head whose length depends on its fields alone (vtu_fields()), '_', then
-/// for each array a UInt64 byte count and the numbers, little-endian (connectivity Int64 x 4 or 10,
-/// offsets Int64, types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.
-/// The points are last, so that every place but the end is known before their number is; behind
-/// them may be ids of nodes, Int64.
+/// for each array a UInt64 byte count and the numbers, little-endian (Float64 for each of the
+/// values, connectivity Int64 x 4 or 10, offsets Int64, types UInt8, label UInt64 or Int64, points
+/// Float64 x 3), then the closing tags. The points are last, so that every place but the end is
+/// known before their number is; behind them may be ids of nodes, Int64.
 struct VtuLayout {
   enum Array { kConnectivity, kOffsets, kTypes, kLabel, kPoints, kIds, kArrays };
   std::size_t arrays = kIds;                    ///< how many of them there are
@@ -36,6 +36,8 @@ struct VtuLayout {
   std::string tail;                             ///< behind the last array
   std::array<std::uint64_t, kArrays> start{};   ///< file offset of the byte count
   std::array<std::uint64_t, kArrays> length{};  ///< bytes of the numbers
+  std::vector<std::uint64_t> values;            ///< start of each of MeshHeader::values
+  std::uint64_t value_length = 0;               ///< of each of them
   std::uint64_t tail_start = 0;
 };
 

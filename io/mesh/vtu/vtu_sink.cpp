@@ -14,24 +14,29 @@ void VtuSink::begin(const MeshHeader& header) {
   const auto numbers = [&](VtuLayout::Array array) {
     return layout.start[array] + sizeof(std::uint64_t);
   };
+  std::vector<std::uint64_t> values = layout.values;
+  for (std::uint64_t& start : values) start += sizeof(std::uint64_t);
   // The first offset, which this format does not have, goes where the count of bytes will be.
   place_columns(header, file_,
                 {.connectivity = numbers(VtuLayout::kConnectivity),
                  .offsets = layout.start[VtuLayout::kOffsets],
                  .types = numbers(VtuLayout::kTypes),
                  .labels = numbers(VtuLayout::kLabel),
-                 .points = numbers(VtuLayout::kPoints)});
+                 .points = numbers(VtuLayout::kPoints),
+                 .values = std::move(values)});
 }
 
 void VtuSink::finish() {
   const std::uint64_t vertices = finish_columns(name_).vertex;
   const VtuLayout layout = make_vtu_layout(header(), vertices, element());
   file_.write_at(0, std::as_bytes(std::span(layout.head)));
-  for (std::size_t i = 0; i < layout.arrays; ++i) {
+  const auto put_length = [&](std::uint64_t start, std::uint64_t bytes) {
     std::array<std::byte, sizeof(std::uint64_t)> length;
-    store_little(layout.length[i], length.data());
-    file_.write_at(layout.start[i], length);
-  }
+    store_little(bytes, length.data());
+    file_.write_at(start, length);
+  };
+  for (std::size_t i = 0; i < layout.arrays; ++i) put_length(layout.start[i], layout.length[i]);
+  for (const std::uint64_t start : layout.values) put_length(start, layout.value_length);
   file_.write_at(layout.tail_start, std::as_bytes(std::span(layout.tail)));
   file_.commit();
 }

@@ -29,11 +29,12 @@ struct XdmfFacts {
   std::vector<XdmfTag> labels{};
   std::string record{};          ///< of the run, a line (mesh_record.h); empty: none
   std::vector<XdmfTag> sides{};  ///< groups of facets
+  std::vector<std::string> values{};
 };
 
 /// A data set.
 struct Item {
-  const char* path;
+  std::string path;
   std::uint64_t rows = 0;
   std::uint64_t components = 1;
   const char* type = "Int";
@@ -76,7 +77,7 @@ std::string facets_text(const XdmfFacts& facts) {
       {.path = "/MeshTags/facet_tags/topology", .rows = facts.facets, .components = ten ? 6U : 3U});
 }
 
-std::string attribute_text(const XdmfFacts& facts, const char* name, const Item& item) {
+std::string attribute_text(const XdmfFacts& facts, const std::string& name, const Item& item) {
   return text("      <Attribute Name=\"", name, "\" AttributeType=\"Scalar\" Center=\"Cell\">\n",
               item_text(facts, item), "      </Attribute>\n");
 }
@@ -94,12 +95,22 @@ std::string grid_text(const char* name, const std::string& content) {
   return text("    <Grid Name=\"", name, "\" GridType=\"Uniform\">\n", content, "    </Grid>\n");
 }
 
+std::string values_text(const XdmfFacts& facts) {
+  std::string out;
+  for (const std::string& name : facts.values) {
+    out += attribute_text(facts, name,
+                          {.path = "/Values/" + name, .rows = facts.tets, .type = "Float"});
+  }
+  return out;
+}
+
 std::string mesh_text(const XdmfFacts& facts) {
   return grid_text("mesh", tets_text(facts) + geometry_text(facts) +
                                attribute_text(facts, "label",
                                               {.path = "/Mesh/mesh/label",
                                                .rows = facts.tets,
-                                               .type = facts.labels_signed ? "Int" : "UInt"}));
+                                               .type = facts.labels_signed ? "Int" : "UInt"}) +
+                               values_text(facts));
 }
 
 std::string cell_tags_text(const XdmfFacts& facts) {
@@ -155,7 +166,8 @@ XdmfFacts facts_of(const GroupedMesh& mesh, const LabelNumbers& numbers,
                   .nodes = mesh.node_count(),
                   .tets = mesh.tet_count(),
                   .facets = mesh.facet_count(),
-                  .record = record_text(mesh.header().record)};
+                  .record = record_text(mesh.header().record),
+                  .values = mesh.header().values};
   const GroupNames names(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     facts.labels.push_back({names.volume(rank), numbers[rank]});
@@ -203,12 +215,17 @@ void XdmfWriter::write(GroupedMesh& mesh) {
       .name = "MeshTags",
       .groups = {{.name = "cell_tags", .sets = {cell_tags(mesh, numbers)}},
                  {.name = "facet_tags", .sets = {facets(mesh, runs), facet_tags(runs)}}}};
+  Hdf5Group root{.groups = {meshes, tags}};
+  if (!mesh.header().values.empty()) root.groups.push_back({.name = "Values"});
+  for (std::size_t i = 0; i < mesh.header().values.size(); ++i) {
+    root.groups.back().sets.push_back(value(mesh, i));
+  }
   const XdmfFacts facts = facts_of(mesh, numbers, runs, path_);
   cells_.append(xdmf_cells_text(facts));
   file_.append(xdmf_text(facts));
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
   append_facet_table(facets_, mesh.table(), runs);
-  AtomicFile& data = numbers_.finish({.groups = {meshes, tags}});
+  AtomicFile& data = numbers_.finish(root);
   commit_together({data, labels_, facets_, cells_, file_});
 }
 
@@ -237,6 +254,13 @@ Hdf5DataSet XdmfWriter::labels(const GroupedMesh& mesh) {
     for (std::uint64_t i = 0; i < mesh.label_tets()[rank].size(); ++i) column.add(table.raw(rank));
   }
   return finish_column(column, "label", table.is_signed() ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64,
+                       {mesh.tet_count()});
+}
+
+Hdf5DataSet XdmfWriter::value(GroupedMesh& mesh, std::size_t column) {
+  auto numbers = column_of<double>(numbers_, mesh.tet_count());
+  for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) numbers.add(mesh.value(t, column));
+  return finish_column(numbers, mesh.header().values[column], Hdf5Kind::kFloat64,
                        {mesh.tet_count()});
 }
 

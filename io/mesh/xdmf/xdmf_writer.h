@@ -38,6 +38,7 @@ class XdmfWriter : public GroupedWriter {
   [[nodiscard]] Hdf5DataSet nodes(GroupedMesh& mesh);
   [[nodiscard]] Hdf5DataSet topology(GroupedMesh& mesh);
   [[nodiscard]] Hdf5DataSet labels(const GroupedMesh& mesh);
+  [[nodiscard]] Hdf5DataSet value(GroupedMesh& mesh, std::size_t column);
   [[nodiscard]] Hdf5DataSet cell_tags(const GroupedMesh& mesh, const LabelNumbers& numbers);
   [[nodiscard]] Hdf5DataSet facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs);
   [[nodiscard]] Hdf5DataSet facet_tags(const std::vector<NumberedFacets>& runs);

@@ -439,6 +439,26 @@ class Copies(InFolder):
             self.assertEqual((checked["of_run"], checked["max_distance"]), (True, 1.25))
 
 
+class Values(InFolder):
+
+    def test_of_images_are_those_of_their_voxels(self):
+        """Means times volumes add up to the sum of all voxels."""
+        labels = grains()
+        image = np.random.default_rng(2).normal(size=labels.shape)
+        np.save(self.path("image.npy"), image)
+        mesh = mwmesh.mesh(labels, spacing=2, sample={
+            "hu": self.path("image.npy"), "most": self.path("image.npy") + ":max"})
+        self.assertEqual(sorted(mesh.values), ["hu", "most"])
+        self.assertAlmostEqual(mesh.values["hu"] @ mesh.tet_volumes(), 8 * image.sum(), 6)
+        self.assertTrue((mesh.values["most"] >= mesh.values["hu"]).all())
+        self.assertEqual(mesh.digest, mwmesh.mesh(labels, spacing=2).digest)
+        again = pickle.loads(pickle.dumps(mesh))
+        np.testing.assert_array_equal(again.values["hu"], mesh.values["hu"])
+        mesh.save(self.path("m.vtu"))
+        with self.assertRaisesRegex(mwmesh.UsageError, "no place for values"):
+            mesh.save(self.path("m.bdf"))
+
+
 class Seen(InFolder):
     """Pictures and windows."""
 
@@ -632,6 +652,7 @@ class Errors(InFolder):
             "background": (2**70, -1, 0.5, "Air", True, [1]),
             "merge": ({2**64: 1}, {1: 2**64}, {1: -1}, {"a": 1}, {1: 1.5}),
             "drop_specks": (-1, 2.5, 10**30, (5, 7), "x", True),
+            "sample": (3, "x", {"hu": 3}, {"2": "a"}, {"hu": "a\0b"}),
             "workdir": (3, "a\0b"), "resume": ("yes", 2), "certify": (True, "maybe", []),
             "report": ("no",), "parts": (0, -1, "most", 1.5, None, True), "open_hinges": ("yes", 2),
             "split": ("1|2", 3, [1], [(1, 1)], [(1, 2, 0)], [(1, "x")], [(1, 77)]), "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How users ask for values of images.
+#include "engine/sample/sample_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "io/file/errors.h"
+
+namespace mw::engine {
+namespace {
+
+constexpr std::array<std::pair<Statistic, const char*>, 4> kStatistics{
+    {{Statistic::kMean, "mean"},
+     {Statistic::kMin, "min"},
+     {Statistic::kMax, "max"},
+     {Statistic::kMode, "mode"}}};
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+bool is_name(std::string_view text) {
+  constexpr std::size_t kMostLetters = 31;
+  return !text.empty() && text.size() <= kMostLetters && is_letter(text.front()) &&
+         std::all_of(text.begin(), text.end(),
+                     [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+std::string in_small_letters(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+SampleImage parse_sample(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos || equals + 1 == text.size()) {
+    throw Error(ErrorKind::kUsage,
+                io::text("expected NAME=FILE or NAME=FILE:mean, got '", text, "'"));
+  }
+  SampleImage out{.name = std::string(text.substr(0, equals)),
+                  .file = std::string(text.substr(equals + 1))};
+  if (!is_name(out.name)) {
+    throw Error(ErrorKind::kUsage, io::text("'", out.name,
+                                            "' is no name for values; a letter and up "
+                                            "to 30 letters, digits and '_' are"));
+  }
+  for (const auto& [statistic, word] : kStatistics) {
+    const std::string ending = io::text(":", word);
+    if (!out.file.ends_with(ending)) continue;
+    out.file.resize(out.file.size() - ending.size());
+    out.statistic = statistic;
+    break;
+  }
+  if (const std::size_t mark = out.file.rfind('#'); mark != std::string::npos) {
+    out.dataset = out.file.substr(mark + 1);
+    out.file.resize(mark);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<SampleImage> parse_samples(std::string_view text) {
+  std::vector<SampleImage> out;
+  std::vector<std::string> taken{"label"};
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    out.push_back(parse_sample(text.substr(begin, end - begin)));
+    begin = end + 1;
+    const std::string name = in_small_letters(out.back().name);
+    if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
+      throw Error(ErrorKind::kUsage, io::text("the name '", out.back().name, "' is taken"));
+    }
+    taken.push_back(name);
+  }
+  return out;
+}
+
+const char* name(Statistic statistic) {
+  return kStatistics[static_cast<std::size_t>(statistic)].second;
+}
+
+}  // namespace mw::engine
