@@ -168,6 +168,18 @@ TEST(SmoothSurface, PlatesOfOneVoxelAreFlatAndNotThick) {
   }
 }
 
+/// Its rim has no notches, which would take away more than a tenth of it.
+TEST(SmoothSurface, PlatesKeepTheirRim) {
+  for (const double from : {7.0, 8.0}) {
+    const Result r = run(body(36, 2, [&](const Vec3& p) {
+      const auto is_inside = [&](double x) { return x > from && x < from + 20; };
+      return p[2] > 17 && p[2] < 18 && is_inside(p[0]) && is_inside(p[1]) ? 1U : 0U;
+    }));
+    EXPECT_LT(r.volume_error(), 0.05);
+    EXPECT_LT(r.report.shape->sharp_share, 0.15);
+  }
+}
+
 TEST(SmoothSurface, TwoVoxelSheetsAreFlatOnBothSides) {
   const Vec3 normal = Vec3(0.3, 0.5, 0.81).normalized();
   const Result r = run(body(64, 2, [&](const Vec3& p) {

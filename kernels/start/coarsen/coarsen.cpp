@@ -80,7 +80,7 @@ class Coarsener {
     for (unsigned i = 0; i < 8; ++i) {
       const Index3 v = cube_voxel(cube, i);
       if (labels_.at(v) == to) continue;
-      if (!was_near(v, to)) return false;
+      if (!was_near(v, to) || is_in_sheet(v)) return false;
       left[count++] = v;
     }
     for (bool changed = true; changed && count > 0;) {
@@ -105,6 +105,34 @@ class Coarsener {
   [[nodiscard]] bool was_near(Index3 v, Label label) const {
     return std::any_of(displacements_.begin(), displacements_.end(),
                        [&](Index3 o) { return original_.at(v + o) == label; });
+  }
+
+  /// True if other labels are on both sides of a voxel along an axis.
+  [[nodiscard]] bool is_thin(Index3 v, Index3 step) const {
+    const Label label = original_.at(v);
+    const auto is_other = [&](Index3 w) {
+      const Label l = original_.at(w);
+      return l != label && l != kExterior;
+    };
+    return is_other(v - step) && is_other(v + step);
+  }
+
+  /// True for a voxel of a sheet of one voxel, which would have a notch without it: three of its
+  /// neighbours at least are as thin as it is.
+  [[nodiscard]] bool is_in_sheet(Index3 v) const {
+    constexpr int kInSheet = 3;
+    const std::array<Index3, 3> steps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    return std::any_of(steps.begin(), steps.end(), [&](Index3 across) {
+      if (!is_thin(v, across)) return false;
+      int thin = 0;
+      for (const Index3 step : steps) {
+        if (step == across) continue;
+        for (const Index3 w : {v - step, v + step}) {
+          thin += original_.at(w) == original_.at(v) && is_thin(w, across) ? 1 : 0;
+        }
+      }
+      return thin >= kInSheet;
+    });
   }
 
   [[nodiscard]] Neighbourhood neighbourhood(Index3 v) const {

@@ -40,6 +40,29 @@ TEST(Promise1Topology, CoarseningKeepsItByRanks) {
   EXPECT_GT(changed, 60);
 }
 
+/// A plate of one voxel keeps all of its voxels, at any place and across any axis.
+TEST(Coarsen, LeavesNoNotchInAPlate) {
+  const auto is_inside = [](std::int64_t i) { return i >= 3 && i < 10; };
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    for (const std::int64_t place : {5, 6}) {
+      SmallVolume plate{{13, 13, 13}, 2, {}};
+      for_each_index(plate.shape, [&](Index3 v) {
+        const std::array<std::int64_t, 3> at{v.x, v.y, v.z};
+        const bool inside = is_inside(at[(axis + 1) % 3]) && is_inside(at[(axis + 2) % 3]);
+        plate.labels.push_back(at[axis] == place && inside ? 1 : 0);
+      });
+      const SmallVolume coarse = coarsened(plate, 1.5);
+      EXPECT_NE(coarse.labels, plate.labels);
+      int lost = 0;
+      for (std::size_t i = 0; i < plate.labels.size(); ++i) {
+        lost += plate.labels[i] == 1 && coarse.labels[i] == 0 ? 1 : 0;
+      }
+      // Corners have two neighbours in the plate only.
+      EXPECT_LE(lost, 4);
+    }
+  }
+}
+
 /// Where cells of four voxels are too large labels stay as they are; elsewhere sizes change
 /// nothing.
 TEST(Coarsen, LeavesLabelsAloneWhereEdgesAreToBeShort) {
