@@ -29,7 +29,7 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// Steps of the search around a fold, shares of the mean edge.
 constexpr std::array<double, 4> kSearchSteps{0.4, 0.2, 0.1, 0.05};
 constexpr int kHalvings = 2;
-/// Of the way to a plane.
+/// How often the way to a plane is halved before it is given up.
 constexpr int kHalvingsToPlane = 4;
 
 /// What a move of one vertex has to respect, and what it costs.

@@ -22,8 +22,8 @@ struct CoveredRow {
 };
 
 /// A tet over the grid of an image.  The volume of tet and voxel together is an integral over the
-/// tet's faces (the divergence theorem along x), which are clipped to columns of voxels: exact up to
-/// rounding, some 1e-14 of a voxel.
+/// tet's faces (the divergence theorem along x), which are clipped to columns of voxels: exact up
+/// to rounding, some 1e-14 of a voxel.
 class TetOverlap {
  public:
   /// Corners may be in either orientation.  REQUIRES: finite coordinates.
