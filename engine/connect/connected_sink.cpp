@@ -65,8 +65,9 @@ void ConnectedSink::finish() {
 }
 
 std::uint64_t ConnectedSink::buffer_bytes() const {
-  constexpr std::uint64_t kBuffers = 5 << 18;
-  return below_.buffer_bytes() + 2 * std::uint64_t{task_.memory_bytes} + kBuffers;
+  constexpr std::uint64_t kBuffers = 5 << 18, kBuffersOfValue = 2 * kBatchTets * sizeof(double);
+  return below_.buffer_bytes() + 2 * std::uint64_t{task_.memory_bytes} + kBuffers +
+         kBuffersOfValue * header_.values.size();
 }
 
 io::Position ConnectedSink::position(std::uint64_t row) {

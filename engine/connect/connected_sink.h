@@ -23,9 +23,9 @@ struct ConnectTask {
 /// Passes a mesh on as it comes, and counts.  Where the options change it, it waits on the disk
 /// until it is complete: kept vertices and tets keep their order, copies of vertices come behind
 /// the vertices. Memory: twice memory_bytes, 1 MiB, and what PartFinder says; where parts are left
-/// out, besides, 2 bits a vertex and 8 bytes a label.  Disk: that of PartFinder, 24 bytes a vertex;
-/// where the mesh changes, 40 more a tet, and 8 a value.  ERRORS: those of PartFinder::find(),
-/// ScratchFile and the sink below. REQUIRES: the sink below outlives it.
+/// out, besides, 2 bits a vertex and 8 bytes a label; 64 KiB a value.  Disk: that of PartFinder, 24
+/// bytes a vertex; where the mesh changes, 40 more a tet, and 8 a value.  ERRORS: those of
+/// PartFinder::find(), ScratchFile and the sink below. REQUIRES: the sink below outlives it.
 class ConnectedSink : public io::MeshSink {
  public:
   ConnectedSink(io::MeshSink& below, ConnectTask task);

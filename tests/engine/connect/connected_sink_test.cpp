@@ -204,6 +204,55 @@ TEST(ConnectedSink, LeavesPartsOut) {
   EXPECT_GT(left_out, 1000U);
 }
 
+/// Two numbers that tell a tet from others, as long as its corners stay where they are.
+std::array<double, 2> values_of(const io::MeshData& mesh, std::size_t tet) {
+  double sum = 0.0, weighted = 0.0;
+  for (const std::uint64_t row : mesh.tets[tet]) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum += mesh.vertices.at(row)[i];
+      weighted += mesh.vertices.at(row)[i] * std::pow(10.0, static_cast<double>(i));
+    }
+  }
+  return {sum, weighted + static_cast<double>(mesh.labels[tet])};
+}
+
+class ValuesSink : public io::MeshDataSink {
+ public:
+  void write_values(std::span<const double> rows) override {
+    values.insert(values.end(), rows.begin(), rows.end());
+  }
+  std::vector<double> values;
+};
+
+TEST(ConnectedSink, PassesTheValuesOfTheTetsThatAreLeft) {
+  const std::array<ConnectOptions, 4> rules{ConnectOptions{},
+                                            {.parts = {.only_largest = true}},
+                                            {.split = {.all = true, .pairs = {}}},
+                                            {.parts = {.least_tets = 3}, .open_hinges = true}};
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const io::MeshData mesh = random_mesh(seed);
+    if (parts_of(mesh).empty() || largest(parts_of(mesh)).size() < 3) continue;
+    const ::mw::test::TempFolder folder;
+    ValuesSink below;
+    ConnectedSink sink(below, {rules[seed % rules.size()], folder.path(), 1 << 16});
+    sink.begin({.tets = mesh.tets.size(), .values = {"sum", "weighted"}});
+    sink.write_vertices(mesh.vertices);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      sink.write_tets(std::span(mesh.tets).subspan(t, 1), std::span(mesh.labels).subspan(t, 1));
+      sink.write_values(values_of(mesh, t));
+    }
+    sink.finish();
+    const io::MeshData& left = below.mesh();
+    ASSERT_EQ(below.values.size(), 2 * left.tets.size());
+    for (std::size_t t = 0; t < left.tets.size(); ++t) {
+      const std::array<double, 2> expected = values_of(left, t);
+      EXPECT_EQ(below.values[2 * t], expected[0]);
+      EXPECT_EQ(below.values[2 * t + 1], expected[1]);
+    }
+  }
+}
+
 TEST(ConnectedSink, SaysHowLargeTheLargestPartIs) {
   const io::MeshData mesh = random_mesh(1);
   try {
