@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""How the error of a solution falls as meshes get finer, beside a staircase and CGAL's meshes.
+
+Usage: bench/convergence.py [SIZE...]     default: 8 6 5 4 3 2, voxels
+A ball of radius 14 and conductivity 10 lies in a box of 48^3 voxels of conductivity 1, in a field along
+z.  The solution is known; the boundary has its values.  Linear elements solve for it on the default mesh, on
+meshes of `--size SIZE`, on six tets a cell of a staircase that is sampled at SIZE, and, if
+MW_PEER (default: build/release/cgal_mesh, see bench/README.md) is there, on CGAL's meshes with cells and facets of
+SIZE.  The table has the relative errors of the gradient (H1) and of the value (L2), in the norm that
+conductivity weighs, by a rule of 11 points in each tet that is exact to degree 4.
+apt-get install python3-numpy python3-scipy python3-meshio
+"""
+import itertools
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import meshio
+import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
+
+RELEASE = pathlib.Path(__file__).resolve().parent.parent / "build" / "release"
+PROGRAM = os.environ.get("MW_PROGRAM", RELEASE / "mwmesh")
+PEER = pathlib.Path(os.environ.get("MW_PEER", RELEASE / "cgal_mesh"))
+EDGE, RADIUS, INSIDE = 48, 14.0, 10.0
+CENTRE = np.full(3, EDGE / 2) + (0.2, -0.1, 0.3)  # on no symmetry of the voxels
+
+
+def solution(p):
+    """Values and gradients at points [..., 3]."""
+    x = p - CENTRE
+    r2 = np.maximum((x**2).sum(-1), 1e-12)
+    dipole = (INSIDE - 1) / (INSIDE + 2) * RADIUS**3
+    value = x[..., 2] * (1 - dipole / r2**1.5)
+    gradient = 3 * dipole * x * (x[..., 2] / r2**2.5)[..., None]
+    gradient[..., 2] += 1 - dipole / r2**1.5
+    inside = r2 < RADIUS**2
+    value[inside] = x[inside, 2] * 3 / (INSIDE + 2)
+    gradient[inside] = (0, 0, 3 / (INSIDE + 2))
+    return value, gradient, np.where(inside, INSIDE, 1.0)
+
+
+def rule():
+    """Barycentric points and weights of Keast's rule of degree 4."""
+    near, far = (1 - np.sqrt(5 / 14)) / 4, (1 + np.sqrt(5 / 14)) / 4
+    points, weights = [[0.25] * 4], [-148 / 1875]
+    for i in range(4):
+        points.append([11 / 14 if k == i else 1 / 14 for k in range(4)])
+        weights.append(343 / 7500)
+    for pair in itertools.combinations(range(4), 2):
+        points.append([far if k in pair else near for k in range(4)])
+        weights.append(56 / 375)
+    return np.array(points), np.array(weights)
+
+
+def on_boundary(tets, count):
+    """Which points are on the outside of the mesh: CGAL rounds the box, and has the solution's values there, too."""
+    faces = np.sort(np.concatenate([np.delete(tets, i, 1) for i in range(4)]), 1)
+    _, first, uses = np.unique(faces, axis=0, return_index=True, return_counts=True)
+    out = np.zeros(count, bool)
+    out[faces[first[uses == 1]]] = True
+    return out
+
+
+def errors(points, tets, labels):
+    """Number of unknowns, relative H1 and L2 errors."""
+    corners = points[tets]
+    edges = corners[:, 1:] - corners[:, :1]
+    volumes = np.abs(np.linalg.det(edges)) / 6
+    slopes = np.linalg.inv(edges)  # columns: gradients of corners 1 to 3
+    slopes = np.concatenate([-slopes.sum(2, keepdims=True), slopes], 2)
+    stiffness = np.where(labels == 1, INSIDE, 1.0)[:, None, None] * volumes[:, None, None]
+    stiffness = stiffness * np.einsum("tki,tkj->tij", slopes, slopes)
+    rows, columns = np.repeat(tets, 4, 1).ravel(), np.tile(tets, 4).ravel()
+    matrix = scipy.sparse.csr_matrix((stiffness.ravel(), (rows, columns)), (len(points),) * 2)
+    used = np.zeros(len(points), bool)
+    used[tets] = True
+    outer = on_boundary(tets, len(points))
+    free = np.flatnonzero(used & ~outer)
+    u = solution(points)[0]
+    right = -matrix[free][:, outer] @ u[outer]
+    u[free] = scipy.sparse.linalg.spsolve(matrix[free][:, free].tocsc(), right)
+
+    gradients = np.einsum("tki,ti->tk", slopes, u[tets])
+    sums = np.zeros(4)
+    for barycentric, weight in zip(*rule()):
+        value, gradient, k = solution(np.einsum("i,tik->tk", barycentric, corners))
+        share = weight * volumes * k
+        sums += [(share * ((gradients - gradient)**2).sum(1)).sum(), (share * (gradient**2).sum(1)).sum(),
+                 (share * (u[tets] @ barycentric - value)**2).sum(), (share * value**2).sum()]
+    return len(free), np.sqrt(sums[0] / sums[1]), np.sqrt(sums[2] / sums[3])
+
+
+def ball(edge):
+    """Labels of edge^3 cells that fill the box."""
+    middles = (np.arange(edge) + 0.5) * EDGE / edge
+    z, y, x = np.meshgrid(middles, middles, middles, indexing="ij")
+    return (((np.stack([x, y, z], -1) - CENTRE)**2).sum(-1) < RADIUS**2).astype(np.uint8)
+
+
+def staircase(size):
+    edge = round(EDGE / size)
+    index = np.arange((edge + 1)**3).reshape((edge + 1,) * 3)
+    z, y, x = np.meshgrid(*[np.linspace(0, EDGE, edge + 1)] * 3, indexing="ij")
+    points = np.stack([x, y, z], -1).reshape(-1, 3)
+    tets = []
+    for axes in itertools.permutations(range(3)):
+        at, corner = np.zeros(3, int), []
+        for step in (None, *axes):
+            if step is not None:
+                at[step] += 1
+            corner.append(index[at[0]:at[0] + edge, at[1]:at[1] + edge, at[2]:at[2] + edge].ravel())
+        tets.append(np.stack(corner, 1))
+    return points, np.concatenate(tets), np.tile(ball(edge).ravel(), 6)
+
+
+def read(path):
+    mesh = meshio.read(path)
+    tets = np.concatenate([block.data for block in mesh.cells if block.type == "tetra"])
+    labels = np.concatenate([data for block, data in zip(mesh.cells, mesh.cell_data["medit:ref"])
+                             if block.type == "tetra"])
+    return mesh.points, tets, labels
+
+
+def meshed(program, *options):
+    """The mesh that a program makes of volume.npy."""
+    settings = {name: value for name, value in os.environ.items() if not name.startswith("MW_")}
+    subprocess.run([program, *options, "-o", "mesh.mesh"], check=True, stdout=subprocess.DEVNULL, env=settings)
+    return read("mesh.mesh")
+
+
+def row(name, mesh):
+    unknowns, h1, l2 = errors(*mesh)
+    print(f"| {name} | {unknowns:,} | {h1:.4f} | {l2:.5f} |", flush=True)
+
+
+def main():
+    sizes = [float(size) for size in sys.argv[1:]] or [8, 6, 5, 4, 3, 2]
+    print("| mesh | unknowns | H1 | L2 |\n|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        np.save("volume.npy", ball(EDGE))
+        mesh = (PROGRAM, "mesh", "volume.npy", "--force")
+        row("default", meshed(*mesh))
+        for size in sizes:
+            row(f"`--size {size:g}`", meshed(*mesh, "--size", f"{size:g}"))
+        if PEER.exists():
+            row("CGAL, default", meshed(PEER, "volume.npy"))
+            for size in sizes:
+                row(f"CGAL, {size:g}", meshed(PEER, "volume.npy", "--facet-size", f"{size:g}",
+                                              "--cell-size", f"{size:g}"))
+        for size in sizes:
+            row(f"staircase, {EDGE / round(EDGE / size):.3g}", staircase(size))
+
+
+if __name__ == "__main__":
+    main()
