@@ -301,8 +301,8 @@ class Case:
         """A chain of edits, meshed from what the runs before have kept, some of them killed: the
         files are those of runs that begin afresh."""
         path, flags = self.folder / self.volume.file, self.settings.flags
-        named = self.settings.chosen or self.settings.merged or "size" in flags
-        if named or flags.get("order") == "raster" or path.suffix == ".gz":
+        named = self.settings.chosen or self.settings.merged or "size" in flags or "split" in flags
+        if named or "count" in flags or flags.get("order") == "raster" or path.suffix == ".gz":
             return  # labels that are named may vanish
         before = path.read_bytes()
         if b"gzip" in before[:400]:
