@@ -25,7 +25,7 @@ namespace {
 /// Bricks along an axis of a tile that is coarsened at once; the halo is one brick.
 constexpr std::int64_t kBricksPerTile = 4;
 /// Faces of a tile whose source surface is found at once.
-constexpr std::size_t kMostSourceFaces = 400'000;
+constexpr std::size_t kMostSourceFaces = 500'000;
 /// Bricks of a tile whose thin parts are found at once, and those that have a part of its halo.
 constexpr Index3 kTile{kBricksPerTile, kBricksPerTile, kBricksPerTile};
 constexpr std::int64_t kBricksInReach = (kThinHalo + kBrick - 1) / kBrick;

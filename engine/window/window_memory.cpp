@@ -42,8 +42,9 @@ constexpr std::uint64_t kBytesPerCountedBrick = 2;
 // that is read, raw and dense.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
-// A tile of 96^3 voxels whose source surface is found, with 8 bytes each, and 80 a face.
-constexpr std::uint64_t kSourceBytes = 40 * kMebibyte;
+// A tile and its halo, 108^3 voxels with 8 bytes each, whose source surface is found, and 72 a
+// face.
+constexpr std::uint64_t kSourceBytes = 48 * kMebibyte;
 constexpr std::uint64_t kSourceBytesPerBrick = 8;
 
 // Decoding, positions, tets with global rows; before them triangles, and what they tell of edges.

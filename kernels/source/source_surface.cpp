@@ -1,45 +1,26 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A low-pass filter on the graph of voxel faces, in whole numbers.
+// Planes of voxel faces from filtered places and normals.
 #include "kernels/source/source_surface.h"
 
 #include <algorithm>
-#include <array>
 
-#include "kernels/source/face_graph.h"
+#include "kernels/source/face_filter.h"
 
 namespace mw {
 namespace {
 
-/// Steps of the filter.
-constexpr int kSteps = 7;
-/// How many units a voxel is; three times a place in a box of 2^8 voxels fits.
-constexpr std::int32_t kUnit = 1 << 19;
+/// How many units a voxel is.  A place in a box of 2^8 voxels takes 26 bits; the filters need four
+/// more.
+constexpr std::int32_t kUnit = 1 << 18;
 [[maybe_unused]] constexpr std::int64_t kMaxEdge = 1 << 8;
 // A step looks at faces an edge away, an edge at the voxels beside the face.
-static_assert(2 * kSteps + 2 <= kSourceHalo);
+static_assert(FaceFilter::kReach + 2 <= kSourceHalo);
 
-using Units = std::array<std::int32_t, 3>;
+using Units = FaceFilter::Value;
 
 Vec3 vector_of(const Units& u) {
   return {static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
-}
-
-/// Each face goes three quarters of the way to the mean of its neighbours, kSteps times.
-void diffuse(const FaceGraph& graph, std::vector<Units>& values) {
-  std::vector<Units> next(values.size());
-  for (int step = 0; step < kSteps; ++step) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const FaceGraph::Neighbours& n = graph.neighbours(i);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t own = values[i][k];
-        const std::int32_t way = (values[n[0]][k] - own) + (values[n[1]][k] - own) +
-                                 (values[n[2]][k] - own) + (values[n[3]][k] - own);
-        next[i][k] = own + ((3 * way + 8) >> 4);
-      }
-    }
-    values.swap(next);
-  }
 }
 
 /// From the lowest corner of a box.
@@ -64,17 +45,15 @@ std::vector<Units> normals_of(const FaceGraph& graph) {
 }
 
 /// Ways from the centres to where the filter puts the faces.
-std::vector<Units> filtered_ways(const FaceGraph& graph, Index3 lo) {
-  std::vector<Units> once(graph.size());
-  for (std::size_t i = 0; i < once.size(); ++i) once[i] = centre_of(graph.face(i), lo);
-  diffuse(graph, once);
-  std::vector<Units> twice = once;
-  diffuse(graph, twice);
-  for (std::size_t i = 0; i < once.size(); ++i) {
+std::vector<Units> filtered_ways(const FaceGraph& graph, const FaceFilter& filter, Index3 lo) {
+  std::vector<Units> out(graph.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = centre_of(graph.face(i), lo);
+  filter.smooth(out);
+  for (std::size_t i = 0; i < out.size(); ++i) {
     const Units centre = centre_of(graph.face(i), lo);
-    for (std::size_t k = 0; k < 3; ++k) once[i][k] = 2 * once[i][k] - twice[i][k] - centre[k];
+    for (std::size_t k = 0; k < 3; ++k) out[i][k] -= centre[k];
   }
-  return once;
+  return out;
 }
 
 /// Faces of one direction cancel others when the surface turns more than the filter can tell.
@@ -100,10 +79,10 @@ SourceSurface::SourceSurface(const LabelBox& labels, const Box3& box)
   MW_ASSERT(std::max({labels.box.shape().x, labels.box.shape().y, labels.box.shape().z}) <=
             kMaxEdge);
   const FaceGraph graph(labels);
-  const std::vector<Units> ways = filtered_ways(graph, labels.box.lo);
+  const FaceFilter filter(graph, normals_of(graph));
+  const std::vector<Units> ways = filtered_ways(graph, filter, labels.box.lo);
   std::vector<Units> normals = normals_of(graph);
-  diffuse(graph, normals);
-  diffuse(graph, normals);
+  filter.diffuse(normals);
   for (std::size_t i = 0; i < graph.size(); ++i) {
     const FaceGraph::Face f = graph.face(i);
     if (!box.contains(f.lower)) continue;

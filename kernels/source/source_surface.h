@@ -15,7 +15,7 @@
 namespace mw {
 
 /// How far around a voxel labels have a say in the planes of its faces, in voxels.
-inline constexpr std::int64_t kSourceHalo = 16;
+inline constexpr std::int64_t kSourceHalo = 22;
 
 /// The axes, one bit each, across which a voxel has an interface face on its upper side.
 using UpperFaces = std::uint8_t;
@@ -25,12 +25,11 @@ using UpperFaces = std::uint8_t;
 ///
 /// Faces of one pair of labels that share an edge are neighbours, unless all four faces at the edge
 /// are of that pair.  On this graph the places of faces (their centres, to begin with) and their
-/// normals are diffused: a step takes each three quarters of the way to the mean of its neighbours,
-/// where an edge without a neighbour counts as the face itself.  With G the result of kSteps steps,
-/// the plane goes through 2 G - G^2 of the places, whose bias is of fourth order, and has the
-/// normal G^2 of the normals.  On voxels of a half-space both average to its plane, as faces of
-/// each direction lie around it evenly, in numbers that are proportional to the normal.  Nothing
-/// crosses from one side of a thin sheet to the other, or from one pair of labels to the next.
+/// normals are filtered (kernels/source/face_filter.h), where an edge without a neighbour counts as
+/// the face itself.  On voxels of a half-space both average to its plane, as faces of each
+/// direction lie around it evenly, in numbers that are proportional to the normal.  Nothing crosses
+/// from one side of a thin sheet or of a sharp edge to the other, or from one pair of labels to the
+/// next.
 ///
 /// All sums are of whole numbers, so that a face's plane is a function of the labels around it.
 /// Where the interface is flat and across an axis planes are exactly those of the faces.
@@ -42,7 +41,7 @@ class SourceSurface {
   /// labels: of the box and kSourceHalo around it; voxels outside the volume are kExterior, where
   /// the surface ends.
   /// REQUIRES: no edge of the box of `labels` is longer than 256 voxels.
-  /// Memory while it works: 8 bytes a voxel and 80 a face of `labels`.
+  /// Memory while it works: 8 bytes a voxel and 72 a face of `labels`.
   SourceSurface(const LabelBox& labels, const Box3& box);
 
   /// A box of faces that is known already.
