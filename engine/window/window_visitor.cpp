@@ -27,9 +27,15 @@ SimplifyOptions simplify_options(const MeshSettings& settings) {
 /// Without a floor new vertices still leave no slivers.
 constexpr double kMinInnerRatio = 0.1;
 
-std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings) {
+/// Of threads of a voxel (bench/parameters.md, "Constants").
+constexpr double kMaxCurvatureOfSource = 4.0;
+
+std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings, bool has_source) {
   if (settings.surface == Surface::kVoxel) return std::nullopt;
-  return SurfaceWeights{};
+  SurfaceWeights weights;
+  // Edges that follow a source surface have no steps, and threads of a voxel would be pulled tight.
+  if (has_source) weights.max_curvature = kMaxCurvatureOfSource;
+  return weights;
 }
 
 }  // namespace
@@ -52,7 +58,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor,
-                .surface = surface_weights(settings),
+                .surface = surface_weights(settings, labels.has_source()),
                 .moves_fitted = false,
                 .demands = {.sizes = labels.sizes()}},
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},

@@ -222,7 +222,9 @@ Smoother::Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& opt
       guard_(guard),
       debts_(debts),
       surface_energy_(options.surface.value_or(SurfaceWeights{})) {
-  if (fits_interfaces() && options_.surface->with_pressure) curvature_.measure(mesh, metric);
+  if (fits_interfaces() && options_.surface->with_pressure) {
+    curvature_.measure(mesh, metric, options_.surface->max_curvature);
+  }
 }
 
 void Smoother::collect_surface(LocalVertex v) {

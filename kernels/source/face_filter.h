@@ -33,7 +33,7 @@ class FaceFilter {
   void diffuse(std::vector<Value>& values) const;
 
   /// Applies the polynomial p of degree kSteps with p(1) = 1 and p'(1) = p''(1) = 0 for which the
-  /// integral of p^2 from -1 to 0.9, weighted by 1/sqrt(1 - x^2), is least.  So a bias begins with
+  /// integral of p^2 from -1 to 0.9 is least.  So a bias begins with
   /// the sixth derivatives of a surface, while the steps of its voxels fade as much as they can.
   /// REQUIRES: values below 2^26.
   void smooth(std::vector<Value>& values) const;

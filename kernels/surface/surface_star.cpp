@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "kernels/surface/bend.h"
@@ -13,13 +14,10 @@
 namespace mw {
 namespace {
 
-/// 1 / voxel: what is sharper than a ball of a few voxels is no shape but a step
-/// (bench/parameters.md, "Constants").
-constexpr double kMaxCurvature = 0.5;
 /// Where it cannot be told.
-constexpr double kUnknown = 2.0 * kMaxCurvature;
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-double curvature_of(const SurfaceStar& star) {
+double curvature_of(const SurfaceStar& star, double most) {
   Vec3 volume_gradient = Vec3::Zero(), area_gradient = Vec3::Zero();
   for (const SurfaceTriangle& t : star.triangles()) {
     const Vec3 normal = t.normal(Vec3::Zero());
@@ -30,7 +28,7 @@ double curvature_of(const SurfaceStar& star) {
   }
   const double square = volume_gradient.squaredNorm();
   if (!(square > 0.0)) return kUnknown;
-  return std::clamp(area_gradient.dot(volume_gradient) / square, -kMaxCurvature, kMaxCurvature);
+  return std::clamp(area_gradient.dot(volume_gradient) / square, -most, most);
 }
 
 }  // namespace
@@ -197,13 +195,13 @@ std::optional<LocalVertex> SurfaceStar::across(const TetMesh& mesh, const Surfac
   return others == 1 && rises == 1 ? std::optional(other) : std::nullopt;
 }
 
-void CurvatureField::measure(const TetMesh& mesh, const Metric& metric) {
+void CurvatureField::measure(const TetMesh& mesh, const Metric& metric, double most) {
   curvature_.assign(mesh.vertex_count(), kUnknown);
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
     if (mesh.order(v) != 2 || mesh.planes(v) != 0) continue;
     star_.collect(mesh, metric, v);
-    curvature_[v] = curvature_of(star_);
+    curvature_[v] = curvature_of(star_, most);
   }
 }
 

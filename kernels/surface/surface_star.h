@@ -112,8 +112,8 @@ class SurfaceStar {
 /// vertices between two labels, off the box.  Positive where the smaller label is convex.
 class CurvatureField {
  public:
-  /// Measures all vertices at once, as they are now.
-  void measure(const TetMesh& mesh, const Metric& metric);
+  /// Measures all vertices at once, as they are now.  Values are cut at `most`, 1 / voxel.
+  void measure(const TetMesh& mesh, const Metric& metric, double most);
 
   [[nodiscard]] std::optional<double> at(LocalVertex v) const;
 

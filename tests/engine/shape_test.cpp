@@ -203,6 +203,19 @@ TEST(SmoothSurface, TubesAndToriKeepTheirVolume) {
   EXPECT_LT(torus.report.shape->sharp_share, 0.03);
 }
 
+/// Edges of about the size of the threads must not pull them tight.
+TEST(SmoothSurface, ThreadsOfOneVoxelStayWhereEdgesHaveSizes) {
+  const SmallVolume threads = body(20, 2, [](const Vec3& p) {
+    const auto is_on = [](double x) { return static_cast<int>(x) % 5 == 2; };
+    return is_on(p[0]) && is_on(p[1]) ? 1U : 0U;
+  });
+  for (const double size : {1.8, 3.0}) {
+    MeshSettings settings;
+    settings.sizes.rules.others = size;
+    EXPECT_LT(run(threads, settings).volume_error(), 0.3) << size;
+  }
+}
+
 /// Half balls of two labels: a junction line where three labels meet.
 TEST(SmoothSurface, TwoLabelsShareABall) {
   const Vec3 normal = Vec3(0.2, 0.4, 0.9).normalized(), centre(24, 24, 24);

@@ -151,6 +151,39 @@ TEST(SourceSurface, LiesOnBallsOfAnyRadius) {
   }
 }
 
+/// A cube of 20 voxels, turned: away from its edges faces lie on its sides, normals are theirs.
+TEST(SourceSurface, KeepsEdgesSharp) {
+  constexpr std::int64_t kEdge = 44;
+  constexpr double kHalf = 10.0;
+  std::mt19937 random(76);
+  double heights = 0.0, angles = 0.0;
+  std::size_t count = 0;
+  for (int trial = 0; trial < 4; ++trial) {
+    Eigen::Matrix3d turn;
+    turn.row(0) = random_direction(random);
+    turn.row(1) = turn.row(0).cross(random_direction(random)).normalized();
+    turn.row(2) = turn.row(0).cross(turn.row(1));
+    const SmallVolume volume = sampled(kEdge, 2, [&](const Vec3& p) {
+      return (turn * p).lpNorm<Eigen::Infinity>() < kHalf ? Label{0} : Label{1};
+    });
+    for (const FoundFace& f : faces_of(volume)) {
+      const Vec3 p = turn * (f.place() - Vec3::Constant(0.5 * kEdge));
+      Eigen::Index side = 0;
+      const double height = p.cwiseAbs().maxCoeff(&side) - kHalf;
+      Vec3 along = p.cwiseAbs();
+      along[side] = 0.0;
+      if (along.maxCoeff() > kHalf - 2.0) continue;
+      const double cosine = std::abs((turn * f.plane.normal)[side]);
+      heights += height * height;
+      angles += std::pow(degrees(std::acos(std::min(1.0, cosine))), 2);
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 1000U);
+  EXPECT_LT(root_mean(heights, count), 0.08);
+  EXPECT_LT(root_mean(angles, count), 4.0);
+}
+
 /// Flat layers of any thickness, across any axis, of which labels come again: all as they are.
 TEST(SourceSurface, IsExactOnLayersAlongAxes) {
   const std::array<std::int64_t, 6> starts{3, 4, 6, 7, 12, 13};

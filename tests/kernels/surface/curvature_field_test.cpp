@@ -33,7 +33,7 @@ struct OfBall {
 
 OfBall measure(const TetMesh& mesh, Label inside) {
   CurvatureField field;
-  field.measure(mesh, Metric());
+  field.measure(mesh, Metric(), SurfaceWeights{}.max_curvature);
   OfBall out;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     const auto curvature = field.at(v);
@@ -85,7 +85,7 @@ TEST(CurvatureField, OfAPlaneIsZero) {
   const TetMesh mesh =
       dense_mesh(volume_from({6, 6, 6}, 2, [](auto, auto y, auto) { return y < 3 ? 0 : 1; }));
   CurvatureField field;
-  field.measure(mesh, metric);
+  field.measure(mesh, metric, SurfaceWeights{}.max_curvature);
   int known = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!field.at(v)) continue;
@@ -106,7 +106,7 @@ TEST(CurvatureField, IsUnknownAtJunctionsOnTheBoxAndAtFixedVertices) {
     disturb(mesh, random);
     CurvatureField field;
     EXPECT_FALSE(field.at(0).has_value());
-    field.measure(mesh, Metric());
+    field.measure(mesh, Metric(), SurfaceWeights{}.max_curvature);
     for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
       std::set<Label> labels;
       for (const LinkTriangle& t : mesh.star(v)) labels.insert(t.label);

@@ -97,7 +97,7 @@ TEST(SurfaceEnergy, HasItsDerivatives) {
     const Vec3 x = below(random, 4) == 0 ? Vec3::Zero() : random_offset(random);
     if (below(random, 4) != 0 || !is_regular(star, x)) return;
     CurvatureField curvature;
-    curvature.measure(mesh, metric);
+    curvature.measure(mesh, metric, SurfaceWeights{}.max_curvature);
     const VolumeDebts debts = random_debts(mesh, random);
     const SurfaceWeights no_bends{.bend = 0.0};
     for (const SurfaceWeights& weights : {no_bends, kFitAlone, kBendsAlone, SurfaceWeights{}}) {
@@ -187,7 +187,7 @@ TEST(SurfaceEnergy, HasPressureAndDebtsInProportionToTheArea) {
     if (of_area.norm() < 0.1 || !(added.norm() > 0.0)) return;
     const double factor = added.dot(of_area) / of_area.squaredNorm();
     CurvatureField curvature;
-    curvature.measure(mesh, metric);
+    curvature.measure(mesh, metric, SurfaceWeights{}.max_curvature);
     const VolumeDebts debts = random_debts(mesh, random);
     double sum = 0.0, count = 0.0;
     Vec3 of_volume = Vec3::Zero(), owed = Vec3::Zero();
