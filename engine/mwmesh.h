@@ -121,8 +121,11 @@ struct VolumeFile {
   std::optional<Vector> spacing{};  ///< instead of the file's
   std::optional<Vector> origin{};   ///< instead of the file's
   std::string frame = "file";       ///< world frame: "file", "ras", "lps" or "voxel"
-  std::optional<Box> crop{};        ///< voxels to keep; they stay in place unless origin is given
-  bool trust_paths = false;         ///< files that headers name may be outside of their folder
+  /// Which label a voxel gets that is in several masks: "first" or "last", that of one of them, or
+  /// "all", one for each set of masks; empty: it is an error.
+  std::string overlap{};
+  std::optional<Box> crop{};  ///< voxels to keep; they stay in place unless origin is given
+  bool trust_paths = false;   ///< files that headers name may be outside of their folder
 };
 
 class VolumeAccess;

@@ -16,6 +16,12 @@ namespace {
 
 namespace io = mw::io;
 
+io::Overlap overlap_rule(const std::string& name) {
+  if (name.empty()) return io::Overlap::kRefused;
+  if (const auto rule = io::parse_overlap(name)) return *rule;
+  throw mw::Error(mw::ErrorKind::kUsage, "overlap: '" + name + "' is none of first, last and all");
+}
+
 io::FrameChoice frame_choice(const std::string& name) {
   if (const auto choice = io::parse_frame_choice(name)) return *choice;
   throw mw::Error(mw::ErrorKind::kUsage, "frame " + name + ": expected file, ras, lps or voxel");
@@ -40,6 +46,7 @@ Volume Volume::open(const VolumeFile& file) {
                             .frame = frame_choice(file.frame),
                             .dataset = file.dataset,
                             .scale = file.scale,
+                            .overlap = overlap_rule(file.overlap),
                             .trust_paths = file.trust_paths};
     if (file.crop) options.crop = mw::api::io_box(*file.crop);
     if (file.scale && *file.scale < 0) {

@@ -14,6 +14,8 @@
 namespace mw::io {
 namespace {
 
+constexpr RawLabel kMostLayers = 1 << 16;
+
 /// "Segment12" of "Segment12_Name"; empty: it is no key of a segment.
 std::string_view segment_of(std::string_view key) {
   constexpr std::string_view kStart = "Segment";
@@ -43,34 +45,41 @@ std::optional<Colour> colour_of(std::string_view value) {
   return colour;
 }
 
-void refuse_layers(std::string_view key, const std::string& layer, std::string_view file) {
-  if (!key.ends_with("_Layer") || label_of(layer) == RawLabel{0}) return;
-  fail_input(file, text("NRRD key '", key, "' = ", layer),
-             "the segmentation has several layers, its segments overlap: a voxel may have more "
-             "than one label",
-             kSegmentsWayOut);
+/// A whole number of at least 0; 0 where there is none.
+std::int64_t layer_of(std::string_view value) {
+  const auto layer = label_of(value);
+  return layer && *layer < kMostLayers ? static_cast<std::int64_t>(*layer) : 0;
+}
+
+/// N of "SegmentN", as a string that sorts as the number does.
+std::pair<std::size_t, std::string_view> number_of_segment(std::string_view segment) {
+  return {segment.size(), segment};
 }
 
 }  // namespace
 
-bool has_segments(const NrrdKeys& keys) {
-  return std::any_of(keys.begin(), keys.end(),
-                     [](const auto& pair) { return !segment_of(pair.first).empty(); });
+std::vector<Segment> read_segments(const NrrdKeys& keys) {
+  std::vector<std::string_view> names;
+  for (const auto& [key, value] : keys) {
+    if (key.ends_with("_LabelValue") && label_of(value)) names.push_back(segment_of(key));
+  }
+  std::erase(names, std::string_view{});
+  std::sort(names.begin(), names.end(), [](std::string_view a, std::string_view b) {
+    return number_of_segment(a) < number_of_segment(b);
+  });
+  std::vector<Segment> out;
+  for (const std::string_view segment : names) {
+    out.push_back({.name = {.label = *label_of(value_of(keys, segment, "_LabelValue")),
+                            .name = value_of(keys, segment, "_Name"),
+                            .colour = colour_of(value_of(keys, segment, "_Color"))},
+                   .layer = layer_of(value_of(keys, segment, "_Layer"))});
+  }
+  return out;
 }
 
-LabelNames segment_names(const NrrdKeys& keys, std::string_view file) {
+LabelNames names_of(const std::vector<Segment>& segments) {
   std::vector<LabelName> rows;
-  for (const auto& [key, value] : keys) {
-    const std::string_view segment = segment_of(key);
-    if (segment.empty()) continue;
-    refuse_layers(key, value, file);
-    if (!key.ends_with("_LabelValue")) continue;
-    const auto label = label_of(value);
-    if (!label) continue;
-    rows.push_back({.label = *label,
-                    .name = value_of(keys, segment, "_Name"),
-                    .colour = colour_of(value_of(keys, segment, "_Color"))});
-  }
+  for (const Segment& segment : segments) rows.push_back(segment.name);
   return LabelNames(std::move(rows));
 }
 

@@ -4,9 +4,11 @@
 // the label table of Connectome Workbench in NIfTI files.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/names/label_names.h"
 
@@ -15,18 +17,17 @@ namespace mw::io {
 /// Keys and values of an NRRD header ("key:=value"), unescaped.
 using NrrdKeys = std::map<std::string, std::string, std::less<>>;
 
-/// SegmentN_Name, SegmentN_LabelValue and SegmentN_Color ("r g b", 0 to 1).  A segment without a
-/// label or with a damaged one has no name.
-/// ERRORS: mw::Error(kInput) when segments overlap, that is, when some SegmentN_Layer is not 0.
-[[nodiscard]] LabelNames segment_names(const NrrdKeys& keys, std::string_view file);
+/// One of 3D Slicer's segments.
+struct Segment {
+  LabelName name;          ///< with its value in its layer as the label
+  std::int64_t layer = 0;  ///< where its voxels are: segments of one layer do not overlap
+};
 
-/// Whether the keys are those of segments.
-[[nodiscard]] bool has_segments(const NrrdKeys& keys);
-
-/// What to do about segments that overlap.
-inline constexpr const char* kSegmentsWayOut =
-    "in Slicer, module Segmentations, export the segments to a labelmap and save that, or collapse "
-    "them to one layer (Representations, Binary labelmap, Collapse labelmap layers)";
+/// SegmentN_Name, SegmentN_LabelValue, SegmentN_Layer and SegmentN_Color ("r g b", 0 to 1), in the
+/// order of N.  A segment without a value or with a damaged one is left out.
+[[nodiscard]] std::vector<Segment> read_segments(const NrrdKeys& keys);
+/// Returns their names by value, whatever their layers.
+[[nodiscard]] LabelNames names_of(const std::vector<Segment>& segments);
 
 /// The first <LabelTable> of an XML text: <Label Key="1" Red=".." Green=".." Blue=".." Alpha="..">
 /// with the name inside, colours from 0 to 1.  Nothing where the text is no such XML; a label with

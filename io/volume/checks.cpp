@@ -45,8 +45,8 @@ std::uint64_t payload_bytes(const VolumeInfo& info) {
 }
 
 void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64_t offset,
-                   BytesBehind behind) {
-  const std::uint64_t wanted = payload_bytes(info);
+                   BytesBehind behind, std::uint64_t copies) {
+  const std::uint64_t wanted = saturating_product(payload_bytes(info), copies);
   // One byte more, since the end of a packed source has a checksum, which is compared there; what
   // is refused is counted further, so that it tells which type the voxels may have.
   const std::uint64_t max =
@@ -54,10 +54,10 @@ void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64
   const std::uint64_t size = source.size_within(saturating_sum(offset, max));
   const std::uint64_t held = size > offset ? size - offset : 0;
   if (held == wanted || (held > wanted && behind == BytesBehind::kIgnored)) return;
-  const std::string reason =
-      text("shape ", info.shape.x, " x ", info.shape.y, " x ", info.shape.z, " of ",
-           name(info.type), " needs ", wanted, " bytes after offset ", offset, ", the file holds ",
-           held < max ? "" : "at least ", held);
+  const std::string reason = text(
+      "shape ", info.shape.x, " x ", info.shape.y, " x ", info.shape.z, " of ", name(info.type),
+      copies == 1 ? "" : text(", ", copies, " times,"), " needs ", wanted, " bytes after offset ",
+      offset, ", the file holds ", held < max ? "" : "at least ", held);
   fail_input(source.name(), "voxel data", reason,
              held < wanted ? "the file is truncated or the shape or type is wrong"
                            : "the shape or type is wrong");

@@ -27,11 +27,11 @@ void check_origin(std::string_view file, std::string_view field, double origin);
 
 enum class BytesBehind { kIgnored, kRefused };
 
-/// ERRORS: kInput with both numbers unless source holds the voxels from `offset` on; with kRefused,
-/// also when bytes are left over.
+/// ERRORS: kInput with both numbers unless source holds the voxels, each as often as `copies` says,
+/// from `offset` on; with kRefused, also when bytes are left over.
 /// ENSURES: a source that is packed is unpacked as far as the voxels go, and not much further.
 void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64_t offset,
-                   BytesBehind behind = BytesBehind::kIgnored);
+                   BytesBehind behind = BytesBehind::kIgnored, std::uint64_t copies = 1);
 
 /// Bytes of all voxels.
 [[nodiscard]] std::uint64_t payload_bytes(const VolumeInfo& info);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/file/byte_order.h"
 #include "io/volume/label_volume.h"
@@ -28,6 +29,22 @@ enum class FrameChoice {
   kVoxel,  ///< the array's axes: spacing * corner, the first corner at 0
 };
 
+/// What a voxel becomes that is in several masks.
+enum class Overlap {
+  kRefused,  ///< an error
+  kFirst,    ///< the label of the first of them
+  kLast,     ///< the label of the last of them
+  kAll,      ///< a label that each such set of masks has for itself
+};
+
+/// kFirst of "first" and so on; none for other names.
+[[nodiscard]] inline std::optional<Overlap> parse_overlap(std::string_view name) {
+  if (name == "first") return Overlap::kFirst;
+  if (name == "last") return Overlap::kLast;
+  if (name == "all") return Overlap::kAll;
+  return std::nullopt;
+}
+
 struct OpenOptions {
   std::optional<RawLayout> raw;                  ///< read as raw, whatever the content
   std::optional<std::array<double, 3>> spacing;  ///< instead of the file's, which is not looked at
@@ -35,8 +52,9 @@ struct OpenOptions {
   FrameChoice frame = FrameChoice::kFile;
   /// The array within a file or store that may hold several; empty: found by convention.
   std::string dataset;
-  std::optional<int> scale;  ///< resolution level, 0 the finest; empty: the finest
-  std::optional<Box3> crop;  ///< part of the volume, voxels
+  std::optional<int> scale;             ///< resolution level, 0 the finest; empty: the finest
+  Overlap overlap = Overlap::kRefused;  ///< of masks
+  std::optional<Box3> crop;             ///< part of the volume, voxels
   /// Whether files that headers and metadata name may be anywhere, not only in their folder.
   bool trust_paths = false;
   std::uint64_t cache_bytes = 64ULL << 20U;  ///< of decoded chunks that a chunked volume may keep

@@ -16,6 +16,7 @@
 #include "io/volume/checks.h"
 #include "io/volume/cropped_volume.h"
 #include "io/volume/hdf5/open_hdf5.h"
+#include "io/volume/masks/open_masks.h"
 #include "io/volume/metaimage/open_metaimage.h"
 #include "io/volume/n5/open_n5.h"
 #include "io/volume/nifti/open_nifti.h"
@@ -49,12 +50,17 @@ struct VolumeFormat {
   OpenFolder open_folder = nullptr;
   bool has_datasets = false;  ///< --dataset chooses in it
   bool has_scales = false;    ///< --scale chooses in it
+  bool has_masks = false;     ///< --overlap says what masks become that overlap
 };
 
 /// Folders of slices come last: other stores may hold pictures, too.
 constexpr std::array kFormats{
     VolumeFormat{"NumPy", ".npy", has_npy_magic, open_npy},
-    VolumeFormat{"NRRD", ".nrrd .nhdr", has_nrrd_magic, open_nrrd},
+    VolumeFormat{.name = "NRRD",
+                 .endings = ".nrrd .nhdr",
+                 .is_file = has_nrrd_magic,
+                 .open_file = open_nrrd,
+                 .has_masks = true},
     VolumeFormat{.name = "HDF5",
                  .endings = ".h5 .hdf5 .hdf .he5 .h5ad .dream3d",
                  .is_file = has_hdf5_magic,
@@ -63,7 +69,11 @@ constexpr std::array kFormats{
     VolumeFormat{"MetaImage", ".mha .mhd", has_metaimage_magic, open_metaimage},
     VolumeFormat{"TIFF", ".tif .tiff", has_tiff_magic, open_tiff},
     VolumeFormat{"PNG", ".png", has_png_magic, open_png},
-    VolumeFormat{"NIfTI", ".nii", has_nifti_magic, open_nifti},
+    VolumeFormat{.name = "NIfTI",
+                 .endings = ".nii",
+                 .is_file = has_nifti_magic,
+                 .open_file = open_nifti,
+                 .has_masks = true},
     VolumeFormat{.name = "neuroglancer precomputed",
                  .is_folder = is_precomputed,
                  .open_folder = open_precomputed,
@@ -82,7 +92,13 @@ constexpr std::array kFormats{
     VolumeFormat{.name = "TIFF or PNG slices",
                  .is_folder = is_slice_folder,
                  .open_folder = open_slice_folder},
+    VolumeFormat{.name = "masks",
+                 .is_folder = is_mask_folder,
+                 .open_folder = open_mask_folder,
+                 .has_masks = true},
 };
+/// Masks that are listed instead of being in a folder of their own.
+constexpr VolumeFormat kMaskList{.name = "masks", .has_masks = true};
 /// Whatever the content, where the caller says how the voxels lie.
 constexpr VolumeFormat kRawFormat{.name = "raw"};
 
@@ -165,6 +181,9 @@ void check_understood(const VolumeFormat& format, const std::filesystem::path& p
     fail("--dataset", "arrays to choose from", formats_with_datasets());
   }
   if (options.scale && !format.has_scales) fail("--scale", "scales", formats_with_scales());
+  if (options.overlap != Overlap::kRefused && !format.has_masks) {
+    fail("--overlap", "masks", formats_with_masks());
+  }
 }
 
 std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
@@ -177,6 +196,10 @@ std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
     const VolumeFormat& format = format_of_folder(path);
     check_understood(format, path, options);
     return format.open_folder(path, options);
+  }
+  if (const std::vector<std::filesystem::path> masks = listed_masks(path); !masks.empty()) {
+    check_understood(kMaskList, path, options);
+    return open_masks(masks, path.string(), options);
   }
   std::unique_ptr<ByteSource> source = open_bytes(path);
   const VolumeFormat& format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
@@ -207,6 +230,10 @@ std::string formats_with_datasets() {
 
 std::string formats_with_scales() {
   return names_of([](const VolumeFormat& format) { return format.has_scales; });
+}
+
+std::string formats_with_masks() {
+  return names_of([](const VolumeFormat& format) { return format.has_masks; });
 }
 
 void check_place(const std::optional<Vector3>& spacing, const std::optional<Vector3>& origin) {

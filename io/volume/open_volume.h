@@ -16,6 +16,8 @@ namespace mw::io {
 /// The formats in which OpenOptions::dataset and OpenOptions::scale choose.
 [[nodiscard]] std::string formats_with_datasets();
 [[nodiscard]] std::string formats_with_scales();
+/// The formats in which OpenOptions::overlap decides.
+[[nodiscard]] std::string formats_with_masks();
 
 /// What a caller says of the place, instead of the file.
 /// ERRORS: mw::Error(kUsage) unless spacing is finite and positive, and origin finite.

@@ -130,7 +130,10 @@ void read_array(const ByteSource& source, const StoredArray& array, const Box3& 
 
 StoredArray RawArrayVolume::stored() const {
   const Index3 n = info_.shape;
-  return {.strides = info_.z_fastest ? Index3{n.y * n.z, n.z, 1} : Index3{1, n.x, n.x * n.y},
+  const Index3 strides = info_.z_fastest ? Index3{n.y * n.z, n.z, 1} : Index3{1, n.x, n.x * n.y};
+  return {.first = static_cast<std::uint64_t>(position_.number),
+          .strides = {strides.x * position_.numbers, strides.y * position_.numbers,
+                      strides.z * position_.numbers},
           .coding = {info_.type, position_.order, position_.scaling},
           .box = {{0, 0, 0}, n},
           .name = source_->name(),

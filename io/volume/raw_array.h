@@ -22,6 +22,8 @@ struct ArrayLayout {
   std::uint64_t offset = 0;
   ByteOrder order = ByteOrder::kLittle;
   VoxelScaling scaling{};
+  std::int64_t numbers = 1;  ///< how many each voxel has, one behind the other
+  std::int64_t number = 0;   ///< which of them is read
 };
 
 /// An array of voxels in a ByteSource.
@@ -50,7 +52,7 @@ void read_array(const ByteSource& source, const StoredArray& array, const Box3& 
 class RawArrayVolume : public LabelVolume, public NumberVolume {
  public:
   /// REQUIRES: the source holds all voxels (check_payload).
-  RawArrayVolume(std::unique_ptr<ByteSource> source, VolumeInfo info, ArrayLayout position)
+  RawArrayVolume(std::shared_ptr<const ByteSource> source, VolumeInfo info, ArrayLayout position)
       : source_(std::move(source)), info_(std::move(info)), position_(position) {}
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
@@ -61,7 +63,7 @@ class RawArrayVolume : public LabelVolume, public NumberVolume {
  private:
   [[nodiscard]] StoredArray stored() const;
 
-  std::unique_ptr<ByteSource> source_;
+  std::shared_ptr<const ByteSource> source_;
   VolumeInfo info_;
   ArrayLayout position_;
 };

@@ -171,6 +171,15 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
   add_place_options(options, request);
   add_raw_options(options, request);
   add_array_options(options, request);
+  options.add({.name = "overlap",
+               .value = "RULE",
+               .help = "which label a voxel of several masks gets; all: one for each set of masks",
+               .group = kInputGroup,
+               .choices = {"first", "last", "all"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.overlap, [](const std::string& text) {
+                 return io::parse_overlap(text).value();
+               })});
   options.add({.name = "crop",
                .value = "X0,Y0,Z0,X1,Y1,Z1",
                .help = "the box from the first voxel to before the second",
@@ -208,6 +217,7 @@ io::OpenOptions open_options(const VolumeRequest& request) {
                           .frame = request.frame,
                           .dataset = request.dataset,
                           .scale = request.scale,
+                          .overlap = request.overlap,
                           .crop = request.crop,
                           .trust_paths = request.trust_paths,
                           .cache_bytes = request.cache_bytes};

@@ -12,6 +12,7 @@
 #include "io/file/text_numbers.h"
 #include "io/names/header_names.h"
 #include "io/volume/checks.h"
+#include "io/volume/masks/mask_merger.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {
@@ -94,6 +95,8 @@ void check_magic(const View& view, std::string_view file) {
   }
 }
 
+constexpr std::int64_t kMaxVolumes = 32767;
+
 VoxelType parse_datatype(int code, std::string_view file) {
   switch (code) {
     case 2:
@@ -122,7 +125,8 @@ VoxelType parse_datatype(int code, std::string_view file) {
   }
 }
 
-Index3 parse_dim(const View& view, std::string_view file) {
+/// Returns the shape, and finds how many volumes there are.
+Index3 parse_dim(const View& view, std::int64_t& volumes, std::string_view file) {
   const std::int64_t rank = view.dim(0);
   if (rank < 3 || rank > 7) {
     fail_input(file, "dim[0]", text("the volume has ", rank, " axes, 3 are needed"));
@@ -130,6 +134,10 @@ Index3 parse_dim(const View& view, std::string_view file) {
   for (std::int64_t i = 4; i <= rank; ++i) {
     const std::int64_t extent = view.dim(static_cast<std::size_t>(i));
     if (extent == 1) continue;
+    if (i == 4 && extent > 1 && extent <= kMaxVolumes) {
+      volumes = extent;
+      continue;
+    }
     fail_input(file, text("dim[", i, "]"), text("extent ", extent, " of a further axis is not 1"),
                "pick one volume of the series");
   }
@@ -260,7 +268,7 @@ NiftiHeader parse_nifti_header(std::span<const std::byte> bytes, std::string_vie
                      .scaling = parse_scaling(*view, file),
                      .space = parse_space(*view)};
   header.type = parse_datatype(view->int16(view->fields().datatype), file);
-  header.shape = parse_dim(*view, file);
+  header.shape = parse_dim(*view, header.masks, file);
   header.data_offset = parse_vox_offset(*view, file);
   return header;
 }
@@ -314,6 +322,26 @@ LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header)
   return {};
 }
 
+namespace {
+
+/// Labels of masks that lie one behind the other.
+std::unique_ptr<LabelVolume> open_masks(const std::shared_ptr<const ByteSource>& source,
+                                        const VolumeInfo& info, const NiftiHeader& header,
+                                        Overlap overlap) {
+  MaskMerger merger(info, overlap, source->name());
+  for (std::int64_t i = 0; i < header.masks; ++i) {
+    const RawArrayVolume volume(
+        source, info,
+        {.offset = header.data_offset + static_cast<std::uint64_t>(i) * payload_bytes(info),
+         .order = header.order,
+         .scaling = header.scaling});
+    merger.add({.volume = &volume, .file = text(source->name(), ", volume ", i)});
+  }
+  return merger.finish();
+}
+
+}  // namespace
+
 std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
                                         const OpenOptions& options) {
   const std::string& file = source->name();
@@ -322,7 +350,9 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
   info.space = placed(file, header.space, options);
   info.scaled = !header.scaling.is_identity();
   info.names = read_nifti_names(*source, header);
-  check_payload(*source, info, header.data_offset);
+  const auto masks = static_cast<std::uint64_t>(header.masks);
+  check_payload(*source, info, header.data_offset, BytesBehind::kIgnored, masks);
+  if (masks > 1) return open_masks(std::move(source), info, header, options.overlap);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
       ArrayLayout{.offset = header.data_offset, .order = header.order, .scaling = header.scaling});

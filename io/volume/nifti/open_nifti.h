@@ -25,6 +25,7 @@ struct NiftiHeader {
   ByteOrder order = ByteOrder::kLittle;
   VoxelType type = VoxelType::kU8;
   Index3 shape;
+  std::int64_t masks = 1;  ///< volumes one behind the other
   std::uint64_t data_offset = 0;
   VoxelScaling scaling{};
   /// By the sform, else the qform (NIfTI-1 methods 3 and 2), in RAS; else by pixdim alone (method
@@ -46,7 +47,8 @@ struct NiftiHeader {
 /// file cannot be read.
 [[nodiscard]] LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header);
 
-/// Bytes behind the voxels are ignored.  ERRORS: mw::Error(kInput) naming file and field.
+/// Bytes behind the voxels are ignored.  Where the file has several volumes they are masks
+/// (io/volume/masks/mask_merger.h).  ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
                                                       const OpenOptions& options);
 

@@ -178,18 +178,23 @@ std::vector<bool> is_spatial(const FieldMap& fields) {
   return out;
 }
 
-/// The sizes of the axes in space: further ones must have a single element, and go.
-std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, const NrrdKeys& keys,
+/// The sizes of the axes in space.  Another one may have the layers of segments; further ones must
+/// have a single element, and go.
+std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, NrrdHeader& header,
                                         std::string_view file) {
   auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
   const std::vector<bool> spatial = is_spatial(fields);
   for (std::size_t i = spatial.size(); i-- > 0;) {
     if (spatial[i] || spatial.size() != sizes.size()) continue;
-    if (sizes[i] != 1) {
+    const bool is_end = i == 0 || i + 1 == sizes.size();
+    if (sizes[i] > 1 && is_end && header.layers == 1 && !header.segments.empty()) {
+      header.layers = sizes[i];
+      header.layers_first = i == 0;
+    } else if (sizes[i] != 1) {
       fail_input(
           file, "NRRD fields 'dimension', 'space directions' and 'kinds'",
           text("of ", sizes.size(), " axes one that is none of space has ", sizes[i], " elements"),
-          has_segments(keys) ? kSegmentsWayOut : "pick one channel");
+          "pick one channel");
     }
     sizes.erase(sizes.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -198,17 +203,27 @@ std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, const NrrdKeys& 
   return sizes;
 }
 
-Index3 parse_sizes(const FieldMap& fields, const NrrdKeys& keys, std::string_view file) {
+/// Returns the shape, and finds layers.
+Index3 parse_sizes(const FieldMap& fields, NrrdHeader& header, std::string_view file) {
   const auto all = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
   const auto rank =
       parse_numbers<std::int64_t>(required(fields, "dimension", file), "dimension", file);
-  const std::vector<std::int64_t> sizes = spatial_sizes(fields, keys, file);
+  const std::vector<std::int64_t> sizes = spatial_sizes(fields, header, file);
   if (sizes.size() != 3 || rank.size() != 1 || rank[0] != static_cast<std::int64_t>(all.size())) {
     fail_input(file, "NRRD fields 'dimension' and 'sizes'",
-               text("the volume has ", all.size(), " axes, 3 are needed"),
-               has_segments(keys) ? kSegmentsWayOut : "pick one channel");
+               text("the volume has ", all.size(), " axes, 3 are needed"), "pick one channel");
   }
   return checked_shape(file, "NRRD field 'sizes'", {sizes[0], sizes[1], sizes[2]});
+}
+
+void check_layers(const NrrdHeader& header, std::string_view file) {
+  for (const Segment& segment : header.segments) {
+    if (segment.layer < header.layers) continue;
+    fail_input(file, "NRRD keys 'SegmentN_Layer'",
+               text("segment '", segment.name.name, "' is in layer ", segment.layer, " of ",
+                    header.layers),
+               "save the segmentation again");
+  }
 }
 
 ByteOrder parse_endian(const FieldMap& fields, VoxelType type, std::string_view file) {
@@ -332,9 +347,10 @@ NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
   NrrdHeader header;
   NrrdKeys keys;
   const FieldMap fields = split_fields(head, header.bytes, keys, file);
-  header.names = segment_names(keys, file);
+  header.segments = read_segments(keys);
   header.type = parse_type(required(fields, "type", file), file);
-  header.shape = parse_sizes(fields, keys, file);
+  header.shape = parse_sizes(fields, header, file);
+  check_layers(header, file);
   header.order = parse_endian(fields, header.type, file);
   header.gzip = parse_encoding(fields, file);
   parse_skips(fields, header, file);

@@ -9,6 +9,7 @@
 #include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
+#include "io/volume/masks/mask_merger.h"
 #include "io/volume/raw_array.h"
 
 namespace mw::io {
@@ -28,6 +29,31 @@ std::unique_ptr<ByteSource> data_source(std::unique_ptr<ByteSource> source,
       named_beside(source->name(), "NRRD field 'data file'", header.data_file, is_trusted));
 }
 
+/// Labels of segments that lie in several layers.
+/// REQUIRES: the source holds them.
+std::unique_ptr<LabelVolume> open_layers(std::unique_ptr<ByteSource> data, const VolumeInfo& info,
+                                         std::uint64_t offset, const NrrdHeader& header,
+                                         Overlap overlap) {
+  const std::shared_ptr<const ByteSource> shared = std::move(data);
+  MaskMerger merger(info, overlap, shared->name());
+  for (const Segment& segment : header.segments) {
+    ArrayLayout layout{.offset = offset, .order = header.order};
+    if (header.layers_first) {
+      layout.numbers = header.layers;
+      layout.number = segment.layer;
+    } else {
+      layout.offset += static_cast<std::uint64_t>(segment.layer) * payload_bytes(info);
+    }
+    const RawArrayVolume layer(shared, info, layout);
+    merger.add({.volume = &layer,
+                .value = segment.name.label,
+                .file = text(shared->name(), ", segment '", segment.name.name, "'"),
+                .name = segment.name.name,
+                .colour = segment.name.colour});
+  }
+  return merger.finish();
+}
+
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
@@ -36,7 +62,7 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   const NrrdHeader header = read_header(*source);
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nrrd"};
   info.space = placed(file, header.space, options);
-  info.names = header.names;
+  info.names = names_of(header.segments);
 
   std::unique_ptr<ByteSource> data = data_source(std::move(source), header, options.trust_paths);
   std::uint64_t offset = header.data_file.empty() ? header.bytes : 0;
@@ -44,13 +70,15 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
     data = std::make_unique<InflatedSource>(std::move(data), offset);
     offset = 0;
   }
-  const std::uint64_t needed = payload_bytes(info);
+  const auto layers = static_cast<std::uint64_t>(header.layers);
+  const std::uint64_t needed = saturating_product(payload_bytes(info), layers);
   if (header.byte_skip > 0) offset += static_cast<std::uint64_t>(header.byte_skip);
   if (header.byte_skip == -1) {
     const std::uint64_t size = data->size();
     if (size >= offset + needed) offset = size - needed;
   }
-  check_payload(*data, info, offset);
+  check_payload(*data, info, offset, BytesBehind::kIgnored, layers);
+  if (header.layers > 1) return open_layers(std::move(data), info, offset, header, options.overlap);
   return std::make_unique<RawArrayVolume>(std::move(data), std::move(info),
                                           ArrayLayout{.offset = offset, .order = header.order});
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/file/byte_order.h"
 #include "io/file/source/byte_source.h"
@@ -30,7 +31,11 @@ struct NrrdHeader {
   /// By `space directions`, `space origin` and `space`, else `spacings`.  `space origin` is the
   /// centre of the first sample whatever the centering (format definition).
   FileSpace space;
-  LabelNames names;  ///< of the segments of a .seg.nrrd
+  /// Numbers at each voxel, more than one only where segments overlap; where layers_first, the
+  /// numbers of a voxel follow each other, else those of a layer.
+  std::int64_t layers = 1;
+  bool layers_first = true;
+  std::vector<Segment> segments;  ///< of a .seg.nrrd
 };
 
 [[nodiscard]] bool has_nrrd_magic(std::span<const std::byte> head);

@@ -256,7 +256,7 @@ TEST(VolumeFormats, AreListedFromOneTable) {
   }
   EXPECT_EQ(formats_with_datasets(), "HDF5, neuroglancer precomputed, N5, Zarr");
   EXPECT_EQ(formats_with_scales(), "neuroglancer precomputed, N5, Zarr");
-  EXPECT_EQ(volume_folders(), formats_with_scales() + ", TIFF or PNG slices");
+  EXPECT_EQ(volume_folders(), formats_with_scales() + ", TIFF or PNG slices, masks");
 }
 
 TEST(VolumeErrors, Gzip) {
@@ -312,7 +312,8 @@ TEST(VolumeErrors, Nifti) {
     bend([](NiftiSample& s) { s.datatype = 1536; }, {"datatype 1536", "floats of 32"});
     bend([](NiftiSample& s) { s.datatype = 128; }, {"datatype 128", "unsupported"});
     bend([](NiftiSample& s) { s.dim[0] = 2; }, {"dim[0]"});
-    bend([](NiftiSample& s) { s.dim = {4, 5, 4, 3, 2, 1, 1, 1}; }, {"dim[4]"});
+    bend([](NiftiSample& s) { s.dim = {5, 5, 4, 3, 1, 2, 1, 1}; }, {"dim[5]"});
+    bend([](NiftiSample& s) { s.dim = {4, 5, 4, 3, 2, 1, 1, 1}; }, {"voxel data", "2 times"});
     bend([](NiftiSample& s) { s.dim[2] = 0; }, {"dim", "(y)"});
     bend([](NiftiSample& s) { s.dim[1] = -5; }, {"dim", "(x)"});
     bend([](NiftiSample& s) { s.pixdim[2] = 0; }, {"pixdim (y)", "--spacing"});

@@ -33,17 +33,15 @@ TEST(SegNrrd, NamesAndColours) {
   EXPECT_TRUE(open_volume(dir.file("b.nrrd", seg_nrrd("")))->info().names.empty());
 }
 
-TEST(SegNrrd, OverlappingSegmentsAreRefusedWithAWayOut) {
+TEST(SegNrrd, LayersThatAreNotThereAreRefused) {
   const TempDir dir;
-  const auto refuse = [&](const std::string& content, std::vector<std::string> pieces) {
-    const auto path = dir.file("a.seg.nrrd", content);
-    pieces.insert(pieces.end(), {path.string(), "Slicer", "labelmap"});
-    expect_not_opened(path, pieces);
-  };
-  refuse(seg_nrrd("Segment0_Layer:=0\nSegment1_Layer:=1\n"), {"Segment1_Layer", "overlap"});
-  refuse(seg_nrrd("Segment0_Layer:=x\n"), {"Segment0_Layer"});
-  refuse(seg_nrrd("Segment0_Name:=a\nkinds: list domain domain domain\n", "4\nsizes: 2 2 2 1"),
-         {"dimension", "axes"});
+  const auto path = dir.file(
+      "a.seg.nrrd", seg_nrrd("Segment1_Layer:=1\nSegment1_LabelValue:=1\nSegment1_Name:=x\n"));
+  expect_not_opened(path, {path.string(), "SegmentN_Layer", "'x'", "layer 1 of 1"});
+  const auto none = dir.file(
+      "b.seg.nrrd",
+      seg_nrrd("Segment0_Name:=a\nkinds: list domain domain domain\n", "4\nsizes: 2 2 2 1"));
+  expect_not_opened(none, {none.string(), "dimension", "axes"});
 }
 
 /// Header extensions as they lie in a file: length, code, text padded to 16 bytes.

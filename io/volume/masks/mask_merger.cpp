@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Each voxel has the number of the set of masks that it is in.
+#include "io/volume/masks/mask_merger.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "io/file/errors.h"
+#include "io/file/source/file_source.h"
+#include "io/volume/checks.h"
+#include "io/volume/raw_array.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::int64_t kSlabVoxels = 1 << 20;
+constexpr std::size_t kMostSets = std::numeric_limits<std::uint16_t>::max();
+
+/// Labels of an array of sets.
+class SetVolume : public VolumeView {
+ public:
+  SetVolume(std::unique_ptr<LabelVolume> sets, std::vector<RawLabel> labels)
+      : VolumeView(std::move(sets)), labels_(std::move(labels)) {}
+
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    below().read(box, out);
+    for (RawLabel& label : out) label = labels_[static_cast<std::size_t>(label)];
+  }
+
+ private:
+  std::vector<RawLabel> labels_;
+};
+
+/// Whether two places are one, up to what is lost when text and floats of 32 bits are written.
+bool is_same_place(const VolumeSpace& a, const VolumeSpace& b) {
+  constexpr double kTolerance = 1e-3;  // voxels
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double step = a.spacing[axis] * a.axes[axis][k] - b.spacing[axis] * b.axes[axis][k];
+      const double origin = a.origin[k] - b.origin[k];
+      if (!(std::abs(step) <= kTolerance * a.spacing[axis])) return false;
+      if (!(std::abs(origin) <= kTolerance * a.spacing[axis])) return false;
+    }
+  }
+  return true;
+}
+
+/// Calls visit(box) on slabs of about kSlabVoxels voxels that cover a volume, in order.  A slab is
+/// a run of whole slices or, where slices are large, of whole rows of one.
+template <typename Visit>
+void each_slab(Index3 shape, Visit visit) {
+  const std::int64_t rows = std::clamp<std::int64_t>(kSlabVoxels / shape.x, 1, shape.y);
+  const std::int64_t slices =
+      std::clamp<std::int64_t>(kSlabVoxels / (shape.x * shape.y), 1, shape.z);
+  for (std::int64_t z = 0; z < shape.z; z += slices) {
+    for (std::int64_t y = 0; y < shape.y; y += rows) {
+      visit(Box3{{0, y, z}, {shape.x, std::min(y + rows, shape.y), std::min(z + slices, shape.z)}});
+    }
+  }
+}
+
+}  // namespace
+
+MaskMerger::MaskMerger(const VolumeInfo& frame, Overlap overlap, std::string name)
+    : info_{.shape = frame.shape,
+            .space = frame.space,
+            .type = VoxelType::kU16,
+            .format = "masks",
+            .is_placed = frame.is_placed},
+      overlap_(overlap),
+      name_(std::move(name)),
+      file_(scratch_folder()),
+      sets_(1),
+      voxels_(1) {
+  // What is not written in between reads as zeros.
+  const Set none = 0;
+  file_.write_at(payload_bytes(info_) - sizeof(Set), std::as_bytes(std::span(&none, 1)));
+}
+
+void MaskMerger::check_frame(const Mask& mask) const {
+  const VolumeInfo& info = mask.volume->info();
+  const Index3 a = info.shape, b = info_.shape;
+  if (a != b) {
+    fail_input(mask.file, "shape",
+               text(a.x, " x ", a.y, " x ", a.z, " voxels, but the masks before it have ", b.x,
+                    " x ", b.y, " x ", b.z),
+               "give masks of one grid");
+  }
+  if (is_same_place(info.space, info_.space)) return;
+  fail_input(mask.file, "place", "the mask lies elsewhere than those before it",
+             "resample the masks to one grid, or give --spacing and --origin");
+}
+
+MaskMerger::Set MaskMerger::new_set(std::vector<std::uint16_t> masks) {
+  if (sets_.size() > kMostSets) {
+    fail_input(name_, "masks", text("there are more than ", kMostSets, " sets of masks"),
+               "give --overlap first or last");
+  }
+  sets_.push_back(std::move(masks));
+  voxels_.push_back(0);
+  return static_cast<Set>(sets_.size() - 1);
+}
+
+MaskMerger::Set MaskMerger::joined(Set present, Set own) {
+  if (present == 0) return own;
+  ++overlaps_;
+  if (overlap_ != Overlap::kAll) return overlap_ == Overlap::kLast ? own : present;
+  const auto [at, is_new] = joins_.try_emplace({present, own}, Set{0});
+  if (is_new) {
+    std::vector<std::uint16_t> masks = sets_[present];
+    masks.push_back(sets_[own].front());
+    at->second = new_set(std::move(masks));
+  }
+  return at->second;
+}
+
+void MaskMerger::add_slab(const Mask& mask, Set own, const Box3& slab) {
+  const auto count = static_cast<std::size_t>(slab.voxels());
+  std::vector<RawLabel> labels(count);
+  std::vector<Set> sets(count);
+  mask.volume->read(slab, labels);
+  const std::uint64_t offset =
+      static_cast<std::uint64_t>(Box3{{0, 0, 0}, info_.shape}.offset(slab.lo)) * sizeof(Set);
+  file_.read_at(offset, std::as_writable_bytes(std::span(sets)));
+  bool is_changed = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (mask.value ? labels[i] != *mask.value : labels[i] == 0) continue;
+    if (!value_) value_ = labels[i];
+    if (labels[i] != *value_) {
+      fail_input(mask.file, "mask",
+                 text("it has the labels ", *value_, " and ", labels[i], ", a mask has one"),
+                 "give a volume of labels by itself");
+    }
+    const Set present = sets[i];
+    if (present != 0 && overlap_ == Overlap::kRefused && refused_.voxels++ == 0) {
+      refused_.with = present;
+      refused_.first =
+          Index3{static_cast<std::int64_t>(i) % info_.shape.x,
+                 slab.lo.y + static_cast<std::int64_t>(i) / info_.shape.x % slab.shape().y,
+                 slab.lo.z + static_cast<std::int64_t>(i) / (info_.shape.x * slab.shape().y)};
+    }
+    sets[i] = joined(present, own);
+    --voxels_[present];
+    ++voxels_[sets[i]];
+    is_changed = true;
+  }
+  if (is_changed) file_.write_at(offset, std::as_bytes(std::span(sets)));
+}
+
+void MaskMerger::refuse_overlap(const Mask& mask) const {
+  const Index3& at = refused_.first;
+  const LabelName& other = names_[sets_[refused_.with].front()];
+  fail_input(mask.file, "mask",
+             text(refused_.voxels, " of its voxels are in other masks, too; the first is ", at.x,
+                  ",", at.y, ",", at.z, " of ",
+                  other.name.empty() ? text("mask ", other.label) : text("'", other.name, "'")),
+             "give --overlap first, last or all");
+}
+
+void MaskMerger::add(const Mask& mask) {
+  check_frame(mask);
+  value_ = mask.value;
+  const Set own = new_set({static_cast<std::uint16_t>(names_.size())});
+  names_.push_back({.label = names_.size() + 1, .name = mask.name, .colour = mask.colour});
+  each_slab(info_.shape, [&](const Box3& slab) { add_slab(mask, own, slab); });
+  if (refused_.voxels != 0) refuse_overlap(mask);
+}
+
+/// Returns the label of each set, and adds names of those that have several masks.
+std::vector<RawLabel> MaskMerger::label_sets(std::vector<LabelName>& names) const {
+  std::vector<RawLabel> labels(sets_.size());
+  std::vector<std::size_t> several;
+  for (std::size_t set = 1; set < sets_.size(); ++set) {
+    if (sets_[set].size() == 1) labels[set] = sets_[set].front() + 1U;
+    if (sets_[set].size() > 1 && voxels_[set] > 0) several.push_back(set);
+  }
+  std::sort(several.begin(), several.end(),
+            [&](std::size_t a, std::size_t b) { return sets_[a] < sets_[b]; });
+  for (const std::size_t set : several) {
+    labels[set] = names.size() + 1;
+    std::string joined;
+    for (const std::uint16_t mask : sets_[set]) {
+      joined += (joined.empty() ? "" : " + ") + names_[mask].name;
+    }
+    names.push_back({.label = labels[set], .name = joined, .colour = {}});
+  }
+  return labels;
+}
+
+std::unique_ptr<LabelVolume> MaskMerger::finish() {
+  std::vector<LabelName> names = names_;
+  std::vector<RawLabel> labels = label_sets(names);
+  if (overlaps_ != 0) info_.note = text(name_, ": ", overlaps_, " voxels are in several masks");
+  info_.names = LabelNames(std::move(names));
+  const std::uint64_t bytes = payload_bytes(info_);
+  auto source = std::make_unique<FileSource>(file_.release(), bytes, name_);
+  auto sets =
+      std::make_unique<RawArrayVolume>(std::move(source), info_, ArrayLayout{.order = kHostOrder});
+  return std::make_unique<SetVolume>(std::move(sets), std::move(labels));
+}
+
+}  // namespace mw::io

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Masks that may overlap become labels that do not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/file/scratch/scratch_file.h"
+#include "io/volume/label_volume.h"
+#include "io/volume/open_options.h"
+
+namespace mw::io {
+
+/// The voxels of a volume that belong to a mask, and what the mask is called.
+struct Mask {
+  const LabelVolume* volume = nullptr;
+  /// The value of its voxels; none: whatever is not 0, of which there may be one value only.
+  std::optional<RawLabel> value;
+  std::string file;  ///< what errors call the volume
+  std::string name;
+  std::optional<Colour> colour;
+};
+
+/// Puts masks over each other, one at a time, so that only one of them need be open.  The first
+/// mask becomes label 1, the second label 2 and so on; 0 is where no mask is.  With Overlap::kAll
+/// each set of masks that have voxels in common gets a label of its own behind them, in the order
+/// of the sets' masks, and a name such as "liver + tumour".
+/// Memory: 10 MiB, and some bytes a set.  Two bytes a voxel of a mask wait in $TMPDIR.
+/// ERRORS: mw::Error(kResource) naming the folder when the disk is full.
+class MaskMerger {
+ public:
+  /// frame: shape and place, which all masks have.  name: what errors call the masks together.
+  MaskMerger(const VolumeInfo& frame, Overlap overlap, std::string name);
+
+  /// ERRORS: mw::Error(kInput) naming files when a mask has another shape or place than the first,
+  /// or several values where one is due; when masks overlap and nothing was said about that; when
+  /// there are more than 65,535 labels.
+  void add(const Mask& mask);
+
+  /// Returns the labels.  REQUIRES: the object is not used afterwards.
+  [[nodiscard]] std::unique_ptr<LabelVolume> finish();
+
+ private:
+  /// A row of sets_; 0 is the empty set.
+  using Set = std::uint16_t;
+
+  struct Refused {
+    std::uint64_t voxels = 0;
+    Set with = 0;
+    Index3 first{0, 0, 0};
+  };
+
+  void check_frame(const Mask& mask) const;
+  [[nodiscard]] Set new_set(std::vector<std::uint16_t> masks);
+  /// The set of a voxel of the mask that is being added.
+  [[nodiscard]] Set joined(Set present, Set own);
+  void add_slab(const Mask& mask, Set own, const Box3& slab);
+  void refuse_overlap(const Mask& mask) const;
+  [[nodiscard]] std::vector<RawLabel> label_sets(std::vector<LabelName>& names) const;
+
+  VolumeInfo info_;
+  Overlap overlap_;
+  std::string name_;
+  UnlinkedFile file_;
+  std::vector<LabelName> names_;                  ///< of the masks
+  std::vector<std::vector<std::uint16_t>> sets_;  ///< masks of each set, ascending
+  std::vector<std::int64_t> voxels_;              ///< of each set
+  std::map<std::pair<Set, Set>, Set> joins_;
+  std::uint64_t overlaps_ = 0;
+  std::optional<RawLabel> value_;  ///< of the mask that is being added
+  Refused refused_;
+};
+
+}  // namespace mw::io

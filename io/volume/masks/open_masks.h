@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Opens files that have one mask each as a volume of labels: a folder of them, or a list.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/volume/open_options.h"
+
+namespace mw::io {
+
+/// Whether the folder holds a NIfTI, NRRD or MetaImage file; hidden files do not count.
+[[nodiscard]] bool is_mask_folder(const std::filesystem::path& folder);
+
+/// All these files, in natural order of their names, are masks; other files are not looked at.
+/// REQUIRES: is_mask_folder(folder).  ERRORS: as open_masks().
+[[nodiscard]] std::unique_ptr<LabelVolume> open_mask_folder(const std::filesystem::path& folder,
+                                                            const OpenOptions& options);
+
+/// The paths of "A,B,C", where this names no file itself and each of its parts does; empty: it is
+/// no list.
+[[nodiscard]] std::vector<std::filesystem::path> listed_masks(const std::filesystem::path& list);
+
+/// Each file is a mask, named after the file; see MaskMerger.  options: all but crop.
+/// ERRORS: mw::Error(kInput) naming the file that is no mask, or lies elsewhere than the others.
+[[nodiscard]] std::unique_ptr<LabelVolume> open_masks(
+    const std::vector<std::filesystem::path>& files, const std::string& name,
+    const OpenOptions& options);
+
+}  // namespace mw::io
