@@ -119,7 +119,7 @@ class Thickness {
       const Index3 other{v.x + sign * d.x, v.y + sign * d.y, v.z + sign * d.z};
       const auto here = static_cast<std::size_t>(i),
                  there = static_cast<std::size_t>(i + sign * step);
-      if (!all.contains(other) || labels_.labels[there] == kExterior) {
+      if (!all.contains(other)) {
         runs[here] = kFar;
       } else if (labels_.labels[here] != labels_.labels[there]) {
         runs[here] = 0;

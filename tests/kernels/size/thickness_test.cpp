@@ -71,6 +71,22 @@ TEST(Thickness, IsLengthOfTheMetric) {
   }
 }
 
+/// A bar of 4 x 4 voxels that is the whole volume, and one that lies along its end.
+TEST(Thickness, EndsAtTheEndOfTheVolume) {
+  const Box3 volume{{0, 0, 0}, {4, 4, 40}};
+  const Found all = thin_in(volume, [&](Index3 v) { return volume.contains(v) ? 0U : kExterior; });
+  const Found layer = thin_in({{0, 0, 0}, {40, 40, 40}}, [](Index3 v) -> Label {
+    return v.z < 0 ? kExterior : v.z < 5 ? 1 : 0;
+  });
+  EXPECT_GE(all.size(), 100U);
+  for (const auto& [place, t] : all) EXPECT_NEAR(t, 4.0, 1e-5);
+  ASSERT_EQ(layer.size(), 1600U);
+  for (const auto& [place, t] : layer) {
+    EXPECT_EQ(std::get<2>(place), 2);
+    EXPECT_NEAR(t, 5.0, 1e-5);
+  }
+}
+
 /// Corners and edges of a thick part are not thin, and neither is one voxel that sticks out.
 TEST(Thickness, OfThickPartsIsNotFound) {
   const Box3 asked{{0, 0, 0}, {60, 60, 60}};
