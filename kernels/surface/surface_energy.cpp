@@ -30,6 +30,49 @@ Vec3 cosine_gradient(const Vec3& normal, double length, const Vec3& edge, const 
   return (other - cosine * normal).cross(edge) / length;
 }
 
+/// Pieces of one carrier in metric units.
+struct MetricPieces {
+  PointLanes middles;  ///< from v
+  StoredLanes areas;   ///< s, negative where the normal looks down its axis
+  StoredInts axes;     ///< of the normals
+};
+
+MW_WIDE void to_metric(const PieceGroup& pieces, const Metric& metric, const Vec3& at,
+                       MetricPieces& out) {
+  const Vec3 voxel = metric.voxel();
+  const double volume = voxel.prod();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<int>(i);
+    store(load(pieces.middles[i]) * voxel[k] - at[k], out.middles[i]);
+  }
+  const Lanes area = by_axis(load(pieces.axes), lanes(volume / voxel[0]), lanes(volume / voxel[1]),
+                             lanes(volume / voxel[2]));
+  constexpr double kEach = 1.0 / kSamplesPerFace;
+  store(load(pieces.signs) * (load(pieces.quarters) * kEach * area), out.areas);
+  out.axes = pieces.axes;
+}
+
+/// What pieces add to the sums of a triangle that their feet are on.
+struct InsideFits {
+  StoredLanes weights;  ///< w
+  StoredLanes squares;  ///< w f^2
+  StoredLanes volumes;  ///< w f r
+};
+
+/// The triangle's plane goes through v, so that r is the height above it.
+MW_WIDE void fit_inside(const MetricPieces& pieces, const StoredLanes& shares, const Vec3& normal,
+                        InsideFits& out) {
+  const Lanes3 n = lanes(normal);
+  const Lanes weight = load(pieces.areas) * by_axis(load(pieces.axes), n.x, n.y, n.z);
+  const Lanes share = load(shares);
+  // The sum in the order in which Eigen adds.
+  const Lanes height = n.x * load(pieces.middles[0]) +
+                       (n.y * load(pieces.middles[1]) + n.z * load(pieces.middles[2]));
+  store(weight, out.weights);
+  store(weight * share * share, out.squares);
+  store(weight * share * height, out.volumes);
+}
+
 }  // namespace
 
 void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
@@ -61,23 +104,13 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
 }
 
 void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard& guard) {
-  const Vec3 voxel = metric.voxel();
   const Vec3 at = metric.vector({}, origin);
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
   fits_.assign(triangles.size(), {});
-  PieceGroup group;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
-    const TriangleKey key = triangle_key(star_->vertex(), t.a, t.b);
-    guard.for_each_piece(key, t.low, [&](const DistanceGuard::Piece& piece) {
-      const double area = piece.quarters / kSamplesPerFace * metric.face_area(piece.axis);
-      const Vec3 p = piece.middle.cwiseProduct(voxel) - at;
-      for (std::size_t k = 0; k < 3; ++k) group.middles[k][group.size] = p[static_cast<int>(k)];
-      group.areas[group.size] = piece.sign * area;
-      group.axes[group.size++] = piece.axis;
-      if (group.size == kLanes) add_pieces(group, i);
-    });
-    if (group.size != 0) add_pieces(group, i);
+    guard.for_each_group(triangle_key(star_->vertex(), t.a, t.b), t.low,
+                         [&](const PieceGroup& pieces) { add_pieces(pieces, i, metric, at); });
   }
   sum_up_fits();
 }
@@ -101,27 +134,33 @@ std::pair<std::size_t, Foot> SurfaceEnergy::foot_of(const Vec3& p, std::size_t c
   return best;
 }
 
-/// Empties the group.  Most feet are on the carrier, which is found out for several at once.
-void SurfaceEnergy::add_pieces(PieceGroup& group, std::size_t carrier) {
+/// Most feet are on the carrier, which is found out for several at once.
+void SurfaceEnergy::add_pieces(const PieceGroup& pieces, std::size_t carrier, const Metric& metric,
+                               const Vec3& at) {
   const SurfaceTriangle& own = star_->triangles()[carrier];
+  MetricPieces group;
+  to_metric(pieces, metric, at, group);
   const FeetInside feet = feet_inside(group.middles, own.to_a, own.to_b);
-  for (std::size_t k = 0; k < group.size; ++k) {
-    const Vec3 p(group.middles[0][k], group.middles[1][k], group.middles[2][k]);
-    std::size_t row = carrier;
-    double share = feet.at_corner[k];
-    if ((feet.points >> k & 1U) == 0) {
-      const auto [nearest, foot] = foot_of(p, carrier);
-      row = nearest;
-      share = foot.weights[0];
+  TriangleFit& fit_of_own = fits_[carrier];
+  InsideFits inside;
+  fit_inside(group, feet.at_corner, unit_normals_[carrier], inside);
+  for (std::size_t k = 0; k < pieces.size; ++k) {
+    if ((feet.points >> k & 1U) != 0) {
+      if (!(inside.weights[k] > 0.0)) continue;
+      fit_of_own.square += inside.squares[k];
+      fit_of_own.volume += inside.volumes[k];
+      continue;
     }
+    const Vec3 p(group.middles[0][k], group.middles[1][k], group.middles[2][k]);
+    const auto [row, foot] = foot_of(p, carrier);
+    const double share = foot.weights[0];
     const Vec3& n = unit_normals_[row];
-    const double weight = group.areas[k] * n[static_cast<int>(group.axes[k])];
+    const double weight = group.areas[k] * n[static_cast<int>(pieces.axes[k])];
     if (!(weight > 0.0)) continue;
     // The triangle's plane goes through v, so that r is the height above it.
     fits_[row].square += weight * share * share;
     fits_[row].volume += weight * share * n.dot(p);
   }
-  group.size = 0;
 }
 
 void SurfaceEnergy::sum_up_fits() {

@@ -85,18 +85,11 @@ class SurfaceEnergy {
     double volume = 0.0;  ///< sum of w f r
   };
 
-  /// Some pieces of one carrier.
-  struct PieceGroup {
-    PointLanes middles{};                 ///< from v
-    StoredLanes areas{};                  ///< s, negative where the normal looks down its axis
-    std::array<unsigned, kLanes> axes{};  ///< of the normals
-    std::size_t size = 0;
-  };
-
   [[nodiscard]] Balance& balance(Label low, Label high);
   void fit(const Metric& metric, Point origin, const DistanceGuard& guard);
   [[nodiscard]] std::pair<std::size_t, Foot> foot_of(const Vec3& p, std::size_t carrier) const;
-  void add_pieces(PieceGroup& group, std::size_t carrier);
+  void add_pieces(const PieceGroup& pieces, std::size_t carrier, const Metric& metric,
+                  const Vec3& at);
   void sum_up_fits();
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
