@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <span>
 
 #include "kernels/distance/point_triangle.h"
 #include "kernels/surface/bend.h"
@@ -73,6 +74,48 @@ MW_WIDE void fit_inside(const MetricPieces& pieces, const StoredLanes& shares, c
   store(weight * share * height, out.volumes);
 }
 
+/// Triangles at v, what is known of each.
+struct KnownTriangles {
+  std::span<const SurfaceTriangle> triangles;
+  std::span<const Vec3> unit_normals;
+  std::span<const CornerProducts> products;
+};
+
+/// The triangles that feet are on, and the weights of v there.
+struct NearestFeet {
+  std::array<std::int64_t, kLanes> rows;
+  StoredLanes at_corner;
+};
+
+/// Of the points whose bits are set in `wanted`: a foot is on the carrier when it is inside, else
+/// on the nearest triangle between the same labels.
+MW_WIDE void find_nearest(const KnownTriangles& known, std::size_t carrier,
+                          const PointLanes& points, unsigned wanted, NearestFeet& out) {
+  const Lanes3 p{load(points[0]), load(points[1]), load(points[2])};
+  const SurfaceTriangle& own = known.triangles[carrier];
+  const FootLanes first = feet_on_triangle(p, own.to_a, own.to_b, known.products[carrier]);
+  const LaneMask bits{1, 2, 4, 8};
+  const LaneMask searches = ((static_cast<std::int64_t>(wanted) & bits) == bits) & ~first.inside;
+  // What is searched no more finds nothing nearer.
+  Lanes least = searches ? first.squared_distance : lanes(-1.0);
+  Lanes share = first.at_corner;
+  LaneMask rows = LaneMask{} + static_cast<std::int64_t>(carrier);
+  for (std::size_t i = 0; any(searches) && i < known.triangles.size(); ++i) {
+    const SurfaceTriangle& t = known.triangles[i];
+    if (i == carrier || !t.is_between(own.low, own.high)) continue;
+    // The triangle is no nearer than its plane, which goes through v.
+    const Lanes height = eigen_dot(lanes(known.unit_normals[i]), p);
+    if (!any(height * height <= kRoundedUp * least)) continue;
+    const FootLanes foot = feet_on_triangle(p, t.to_a, t.to_b, known.products[i]);
+    const LaneMask nearer = foot.squared_distance < least;
+    least = nearer ? foot.squared_distance : least;
+    share = nearer ? foot.at_corner : share;
+    rows = nearer ? LaneMask{} + static_cast<std::int64_t>(i) : rows;
+  }
+  store(share, out.at_corner);
+  std::memcpy(out.rows.data(), &rows, sizeof rows);
+}
+
 }  // namespace
 
 void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
@@ -107,31 +150,14 @@ void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard&
   const Vec3 at = metric.vector({}, origin);
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
   fits_.assign(triangles.size(), {});
+  products_.clear();
+  for (const SurfaceTriangle& t : triangles) products_.push_back(corner_products(t.to_a, t.to_b));
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
     guard.for_each_group(triangle_key(star_->vertex(), t.a, t.b), t.low,
                          [&](const PieceGroup& pieces) { add_pieces(pieces, i, metric, at); });
   }
   sum_up_fits();
-}
-
-/// The triangle that p's foot is on: the carrier when it is inside, else the nearest of its labels.
-std::pair<std::size_t, Foot> SurfaceEnergy::foot_of(const Vec3& p, std::size_t carrier) const {
-  const std::vector<SurfaceTriangle>& triangles = star_->triangles();
-  const SurfaceTriangle& own = triangles[carrier];
-  std::pair<std::size_t, Foot> best{carrier, foot_on_triangle(p, own.to_a, own.to_b)};
-  const std::array<double, 3>& w = best.second.weights;
-  if (w[0] > 0.0 && w[1] > 0.0 && w[2] > 0.0) return best;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const SurfaceTriangle& t = triangles[i];
-    if (i == carrier || !t.is_between(own.low, own.high)) continue;
-    // The triangle is no nearer than its plane, which goes through v.
-    const double height = unit_normals_[i].dot(p);
-    if (height * height > kRoundedUp * best.second.squared_distance) continue;
-    const Foot foot = foot_on_triangle(p, t.to_a, t.to_b);
-    if (foot.squared_distance < best.second.squared_distance) best = {i, foot};
-  }
-  return best;
 }
 
 /// Most feet are on the carrier, which is found out for several at once.
@@ -144,16 +170,22 @@ void SurfaceEnergy::add_pieces(const PieceGroup& pieces, std::size_t carrier, co
   TriangleFit& fit_of_own = fits_[carrier];
   InsideFits inside;
   fit_inside(group, feet.at_corner, unit_normals_[carrier], inside);
+  const unsigned outside = ((1U << pieces.size) - 1U) & ~feet.points;
+  NearestFeet nearest;
+  if (outside != 0) {
+    find_nearest({star_->triangles(), unit_normals_, products_}, carrier, group.middles, outside,
+                 nearest);
+  }
   for (std::size_t k = 0; k < pieces.size; ++k) {
-    if ((feet.points >> k & 1U) != 0) {
+    if ((outside >> k & 1U) == 0) {
       if (!(inside.weights[k] > 0.0)) continue;
       fit_of_own.square += inside.squares[k];
       fit_of_own.volume += inside.volumes[k];
       continue;
     }
     const Vec3 p(group.middles[0][k], group.middles[1][k], group.middles[2][k]);
-    const auto [row, foot] = foot_of(p, carrier);
-    const double share = foot.weights[0];
+    const auto row = static_cast<std::size_t>(nearest.rows[k]);
+    const double share = nearest.at_corner[k];
     const Vec3& n = unit_normals_[row];
     const double weight = group.areas[k] * n[static_cast<int>(pieces.axes[k])];
     if (!(weight > 0.0)) continue;

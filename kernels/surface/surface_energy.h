@@ -3,7 +3,7 @@
 // What a good interface costs: distance to the input's faces, area at constant volume, bends.
 #pragma once
 
-#include <utility>
+#include <vector>
 
 #include "kernels/distance/distance_guard.h"
 #include "kernels/distance/point_triangle.h"
@@ -87,7 +87,6 @@ class SurfaceEnergy {
 
   [[nodiscard]] Balance& balance(Label low, Label high);
   void fit(const Metric& metric, Point origin, const DistanceGuard& guard);
-  [[nodiscard]] std::pair<std::size_t, Foot> foot_of(const Vec3& p, std::size_t carrier) const;
   void add_pieces(const PieceGroup& pieces, std::size_t carrier, const Metric& metric,
                   const Vec3& at);
   void sum_up_fits();
@@ -109,6 +108,7 @@ class SurfaceEnergy {
   Vec3 pressure_ = Vec3::Zero();
   double present_ = 0.0;
   std::vector<TriangleFit> fits_;  ///< of the star's triangles
+  std::vector<CornerProducts> products_;
   std::vector<Balance> balances_;
   std::vector<VolumeDebt> debts_;
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch
