@@ -27,8 +27,8 @@ class CandidateFinder {
         failed_(mesh.vertex_count()),
         seen_(mesh.vertex_count() + 1) {}
 
-  /// Candidates of v, cheapest first, until the next call.  An edge between two vertices that never
-  /// changed belongs to its smaller end; the others are looked at from both sides.
+  /// Candidates of v until the next call.  An edge between two vertices that never changed belongs
+  /// to its smaller end; the others are looked at from both sides.
   const std::vector<Contraction>& collect(LocalVertex v) {
     collect_neighbours(v);
     candidates_.clear();
@@ -38,6 +38,12 @@ class CandidateFinder {
       if (failed_.contains(mesh_, v, w)) continue;
       if (const auto c = plan_contraction(mesh_, metric_, v, w)) candidates_.push_back(*c);
     }
+    return candidates_;
+  }
+
+  /// The same candidates, cheapest first.
+  const std::vector<Contraction>& collect_sorted(LocalVertex v) {
+    collect(v);
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Contraction& a, const Contraction& b) {
                 if (a.cost != b.cost) return a.cost < b.cost;
@@ -104,7 +110,11 @@ void push_cheapest(CandidateFinder& finder, const TetMesh& mesh, std::size_t fir
   for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
     if (!mesh.is_free(v)) continue;
     const std::vector<Contraction>& candidates = finder.collect(v);
-    if (!candidates.empty()) queue.push(v, candidates.front().cost);
+    if (candidates.empty()) continue;
+    const auto cheapest = std::min_element(
+        candidates.begin(), candidates.end(),
+        [](const Contraction& a, const Contraction& b) { return a.cost < b.cost; });
+    queue.push(v, cheapest->cost);
   }
 }
 
@@ -143,7 +153,7 @@ class Simplifier {
  private:
   void visit(LocalVertex v) {
     const double bound = queue_.current_bound();
-    for (const Contraction& c : finder_.collect(v)) {
+    for (const Contraction& c : finder_.collect_sorted(v)) {
       if (c.cost > bound) {
         queue_.push(v, c.cost);
         return;

@@ -116,6 +116,31 @@ MW_WIDE void find_nearest(const KnownTriangles& known, std::size_t carrier,
   std::memcpy(out.rows.data(), &rows, sizeof rows);
 }
 
+/// SurfaceTriangle::normal() of four triangles, and their areas.
+MW_WIDE void find_normals(const std::array<StoredLanes, 6>& places, const Vec3& x,
+                          SurfaceNormal* normals, double* areas) {
+  const Lanes3 at = lanes(x);
+  const Lanes3 a = Lanes3{load(places[0]), load(places[1]), load(places[2])} - at;
+  const Lanes3 b = Lanes3{load(places[3]), load(places[4]), load(places[5])} - at;
+  const Lanes3 n = cross(a, b);
+  const Lanes square = eigen_dot(n, n), area = 0.5 * root(square);
+  // Transposed: a normal and its square lie together.
+  constexpr LaneMask kEven{0, 4, 2, 6}, kOdd{1, 5, 3, 7}, kLow{0, 1, 4, 5}, kHigh{2, 3, 6, 7};
+  const Lanes xy02 = __builtin_shuffle(n.x, n.y, kEven), xy13 = __builtin_shuffle(n.x, n.y, kOdd);
+  const Lanes zs02 = __builtin_shuffle(n.z, square, kEven),
+              zs13 = __builtin_shuffle(n.z, square, kOdd);
+  const std::array<Lanes, kLanes> rows{
+      __builtin_shuffle(xy02, zs02, kLow), __builtin_shuffle(xy13, zs13, kLow),
+      __builtin_shuffle(xy02, zs02, kHigh), __builtin_shuffle(xy13, zs13, kHigh)};
+  static_assert(sizeof(SurfaceNormal) == sizeof(Lanes));
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    StoredLanes row;
+    store(rows[k], row);
+    normals[k] = {Vec3(row[0], row[1], row[2]), row[3]};
+  }
+  std::memcpy(areas, &area, sizeof area);
+}
+
 }  // namespace
 
 void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
@@ -143,7 +168,22 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
   if (debts != nullptr && mass_ > 0.0) take_debts(*debts);
+  gather_corners();
   present_ = raw_value_at(Vec3::Zero());
+}
+
+void SurfaceEnergy::gather_corners() {
+  const std::vector<SurfaceTriangle>& triangles = star_->triangles();
+  corners_.assign((triangles.size() + kLanes - 1) / kLanes, {});
+  normals_.resize(corners_.size() * kLanes);
+  areas_.resize(normals_.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    std::array<StoredLanes, 6>& places = corners_[i / kLanes].places;
+    for (std::size_t k = 0; k < 3; ++k) {
+      places[k][i % kLanes] = triangles[i].to_a[static_cast<int>(k)];
+      places[3 + k][i % kLanes] = triangles[i].to_b[static_cast<int>(k)];
+    }
+  }
 }
 
 void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard& guard) {
@@ -278,12 +318,16 @@ double SurfaceEnergy::min_cosine() const {
 double SurfaceEnergy::raw_value_at(const Vec3& x) const {
   double value = 0.0;
   const bool has_area = mass_ > 0.0 && area_weight_ > 0.0, has_bends = weights_.bend > 0.0;
-  if (has_area || has_bends) star_->normals_at(x, normals_);
+  if (has_area || has_bends) {
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      find_normals(corners_[i].places, x, &normals_[i * kLanes], &areas_[i * kLanes]);
+    }
+  }
   if (mass_ > 0.0) {
     value = x.dot(square_ * x) - 2.0 * linear_.dot(x);
     if (has_area) {
       double area = 0.0;
-      for (const SurfaceNormal& n : normals_) area += 0.5 * std::sqrt(n.square);
+      for (std::size_t i = 0; i < star_->triangles().size(); ++i) area += areas_[i];
       value += area_weight_ * (area - pressure_.dot(x));
     }
     value *= fit_weight_ / mass_;

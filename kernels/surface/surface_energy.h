@@ -52,7 +52,7 @@ class SurfaceEnergy {
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
 
   /// The energy at the star's vertex.  What is null is left out: pressure, debts of the ring.
-  /// Keeps references to star and mesh.  REQUIRES: rims collected, for weights.bend > 0.
+  /// Keeps references to star and mesh.  REQUIRES: spokes and rims collected, for weights.bend > 0.
   void collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
                const DistanceGuard& guard, const CurvatureField* curvature,
                const VolumeDebts* debts);
@@ -85,6 +85,12 @@ class SurfaceEnergy {
     double volume = 0.0;  ///< sum of w f r
   };
 
+  /// Corners of four triangles, x, y and z of a and of b; all at v where there is none.
+  struct CornerLanes {
+    std::array<StoredLanes, 6> places{};
+  };
+
+  void gather_corners();
   [[nodiscard]] Balance& balance(Label low, Label high);
   void fit(const Metric& metric, Point origin, const DistanceGuard& guard);
   void add_pieces(const PieceGroup& pieces, std::size_t carrier, const Metric& metric,
@@ -111,7 +117,9 @@ class SurfaceEnergy {
   std::vector<CornerProducts> products_;
   std::vector<Balance> balances_;
   std::vector<VolumeDebt> debts_;
-  mutable std::vector<SurfaceNormal> normals_;  ///< scratch
+  std::vector<CornerLanes> corners_;            ///< of the star's triangles
+  mutable std::vector<SurfaceNormal> normals_;  ///< scratch; four for each of corners_
+  mutable std::vector<double> areas_;           ///< of the triangles, likewise
 };
 
 }  // namespace mw

@@ -40,8 +40,14 @@ double curvature_of(const SurfaceStar& star) {
 }  // namespace
 
 void SurfaceStar::collect(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
+  collect_triangles(mesh, metric, v);
+  find_spokes();
+}
+
+void SurfaceStar::collect_triangles(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
   vertex_ = v;
   triangles_.clear();
+  spokes_.clear();
   rims_.clear();
   fan_.collect(mesh, v, found_);
   const Point origin = mesh.position(v);
@@ -50,7 +56,6 @@ void SurfaceStar::collect(const TetMesh& mesh, const Metric& metric, LocalVertex
     triangles_.push_back({a, b, t.low, t.high, metric.vector(origin, mesh.position(a)),
                           metric.vector(origin, mesh.position(b))});
   }
-  find_spokes();
 }
 
 /// Normals agree along an interface, so the two triangles of a spoke run through it in opposite
@@ -206,7 +211,7 @@ void CurvatureField::measure(const TetMesh& mesh, const Metric& metric) {
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
     if (mesh.order(v) != 2 || mesh.planes(v) != 0) continue;
-    star_.collect(mesh, metric, v);
+    star_.collect_triangles(mesh, metric, v);
     curvature_[v] = curvature_of(star_);
   }
 }
