@@ -85,6 +85,10 @@ MW_LANES Lanes3 operator*(const Lanes& s, const Lanes3& v) {
 MW_LANES Lanes dot(const Lanes3& a, const Lanes3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// Takes the sum in the order in which Eigen adds.
+MW_LANES Lanes eigen_dot(const Lanes3& a, const Lanes3& b) {
+  return a.x * b.x + (a.y * b.y + a.z * b.z);
+}
 MW_LANES Lanes3 cross(const Lanes3& a, const Lanes3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

@@ -74,19 +74,14 @@ struct FeetInside {
   StoredLanes at_corner{};  ///< weights of corner 0, of those
 };
 
-/// foot_on_triangle() of each point, to the last bit: the weight of corner 0 and the squared
-/// distance.
+/// Feet of four points.
 struct FootLanes {
-  Lanes at_corner, squared_distance;
+  Lanes at_corner;  ///< weights of corner 0
+  Lanes squared_distance;
   LaneMask inside;  ///< all weights are positive
 };
 
-/// The dot product with its sum in the order in which Eigen adds.
-MW_LANES Lanes eigen_dot(const Lanes3& a, const Lanes3& b) {
-  return a.x * b.x + (a.y * b.y + a.z * b.z);
-}
-
-/// As share_of_way() in foot_on_triangle().
+/// Share of the way along an edge of this squared length; along: products with the edge.
 MW_LANES Lanes share_of_edge(const Lanes& along, double square) {
   if (!(square > 0.0)) return lanes(0.0);
   const Lanes share = along / square, zero = lanes(0.0), one = lanes(1.0);
@@ -94,6 +89,7 @@ MW_LANES Lanes share_of_edge(const Lanes& along, double square) {
   return one < positive ? one : positive;
 }
 
+/// Finds what foot_on_triangle() finds for each, to the last bit.  of: corner_products(a, b).
 MW_LANES FootLanes feet_on_triangle(const Lanes3& p, const Vec3& a, const Vec3& b,
                                     const CornerProducts& of) {
   const Lanes3 to_a = lanes(a), to_b = lanes(b), edge = lanes(Vec3(b - a)), from_a = p - to_a;

@@ -11,10 +11,6 @@ MW_LANES Lanes3 edge(const TetLanes& tets, std::size_t i, const Vec3& unit) {
           to_lanes(tets.edges[3 * i + 2]) * unit[2]};
 }
 
-MW_LANES Lanes eigen_dot(const Lanes3& a, const Lanes3& b) {
-  return a.x * b.x + (a.y * b.y + a.z * b.z);
-}
-
 MW_LANES Lanes norm(const Lanes3& v) {
   return root(eigen_dot(v, v));
 }

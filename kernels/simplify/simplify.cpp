@@ -41,9 +41,8 @@ class CandidateFinder {
     return candidates_;
   }
 
-  /// The same candidates, cheapest first.
-  const std::vector<Contraction>& collect_sorted(LocalVertex v) {
-    collect(v);
+  /// Sorts what was collected last, cheapest first.
+  const std::vector<Contraction>& sort() {
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Contraction& a, const Contraction& b) {
                 if (a.cost != b.cost) return a.cost < b.cost;
@@ -104,17 +103,21 @@ class CandidateFinder {
   std::vector<Contraction> candidates_;
 };
 
+/// REQUIRES: not empty.
+double least_cost(const std::vector<Contraction>& candidates) {
+  return std::min_element(
+             candidates.begin(), candidates.end(),
+             [](const Contraction& a, const Contraction& b) { return a.cost < b.cost; })
+      ->cost;
+}
+
 /// Files the free vertices of [first, last) under the cost of their cheapest candidate.
 void push_cheapest(CandidateFinder& finder, const TetMesh& mesh, std::size_t first,
                    std::size_t last, VertexQueue& queue) {
   for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
     if (!mesh.is_free(v)) continue;
     const std::vector<Contraction>& candidates = finder.collect(v);
-    if (candidates.empty()) continue;
-    const auto cheapest = std::min_element(
-        candidates.begin(), candidates.end(),
-        [](const Contraction& a, const Contraction& b) { return a.cost < b.cost; });
-    queue.push(v, cheapest->cost);
+    if (!candidates.empty()) queue.push(v, least_cost(candidates));
   }
 }
 
@@ -153,7 +156,13 @@ class Simplifier {
  private:
   void visit(LocalVertex v) {
     const double bound = queue_.current_bound();
-    for (const Contraction& c : finder_.collect_sorted(v)) {
+    const std::vector<Contraction>& candidates = finder_.collect(v);
+    if (candidates.empty()) return;
+    if (const double least = least_cost(candidates); least > bound) {
+      queue_.push(v, least);
+      return;
+    }
+    for (const Contraction& c : finder_.sort()) {
       if (c.cost > bound) {
         queue_.push(v, c.cost);
         return;
