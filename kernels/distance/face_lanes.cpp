@@ -65,7 +65,10 @@ struct QuarterLanes {
 };
 
 MW_LANES QuarterLanes sums_of(const FaceGroup& faces) {
-  QuarterLanes out{};
+  constexpr QuarterSums kWhole = kQuarterSums[kAllQuarters];
+  QuarterLanes out{lanes(kWhole.first), lanes(kWhole.second), lanes(kWhole.count)};
+  const FaceSamples all = faces.samples[0] & faces.samples[1] & faces.samples[2] & faces.samples[3];
+  if (quarters_of(all) == kAllQuarters) return out;
   for (std::size_t k = 0; k < kLanes; ++k) {
     const QuarterSums& sums = kQuarterSums[quarters_of(faces.samples[k])];
     out.first[k] = sums.first;
