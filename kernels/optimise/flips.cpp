@@ -103,8 +103,10 @@ bool Flipper::cut_into_polygons() {
   const std::size_t n = ring_.size();
   std::vector<Label>& labels = ring_.labels;
   std::size_t start = 0, changes = 0;
+  Label before = labels[n - 1];
   for (std::size_t i = 0; i < n; ++i) {
-    if (labels[i] == labels[(i + n - 1) % n]) continue;
+    const bool changed = labels[i] != std::exchange(before, labels[i]);
+    if (!changed) continue;
     start = i;
     ++changes;
   }
