@@ -57,12 +57,21 @@ MW_LANES Lanes load(const StoredLanes& s) {
   std::memcpy(&v, s.data(), sizeof v);
   return v;
 }
+[[gnu::always_inline]] inline void store(const Lanes& values, StoredLanes& out) {
+  std::memcpy(out.data(), &values, sizeof values);
+}
 MW_LANES Lanes to_lanes(const StoredInts& s) {
   return __builtin_convertvector(load(s), Lanes);
 }
 /// Where a stored number is another one than `value`.
 MW_LANES LaneMask differs(const StoredInts& s, std::int32_t value) {
   return __builtin_convertvector(load(s) != value, LaneMask);
+}
+/// x, y or z, by the number of an axis in each lane.
+MW_LANES Lanes by_axis(const LaneInts& axes, const Lanes& x, const Lanes& y, const Lanes& z) {
+  const LaneMask is_x = __builtin_convertvector(axes == 0, LaneMask),
+                 is_y = __builtin_convertvector(axes == 1, LaneMask);
+  return is_x ? x : is_y ? y : z;
 }
 MW_LANES Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -75,6 +84,10 @@ MW_LANES Lanes3 operator*(const Lanes& s, const Lanes3& v) {
 }
 MW_LANES Lanes dot(const Lanes3& a, const Lanes3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+/// Takes the sum in the order in which Eigen adds.
+MW_LANES Lanes eigen_dot(const Lanes3& a, const Lanes3& b) {
+  return a.x * b.x + (a.y * b.y + a.z * b.z);
 }
 MW_LANES Lanes3 cross(const Lanes3& a, const Lanes3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

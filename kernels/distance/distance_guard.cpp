@@ -51,6 +51,15 @@ DistanceGuard::Piece DistanceGuard::piece_of_face(FaceSamples samples, Label low
   return out;
 }
 
+PieceGroup DistanceGuard::group_of(const FaceGroup& faces, Label low) const {
+  PieceGroup out = pieces_of(faces, labels_, low);
+  for (std::size_t k = 0; source_ != nullptr && k < faces.size; ++k) {
+    const Vec3 middle = piece(faces.samples[k], low).middle;
+    for (std::size_t i = 0; i < 3; ++i) out.middles[i][k] = middle[static_cast<int>(i)];
+  }
+  return out;
+}
+
 void DistanceGuard::add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other,
                                 LocalVertex survivor, Point target,
                                 std::span<const FanTriangle> fan) {
@@ -173,16 +182,10 @@ bool DistanceGuard::carry_samples(std::size_t from) {
 unsigned DistanceGuard::keepers(std::span<const FaceSamples> samples, const Changed& t) const {
   const double limit = placing_distance_ - kSampleCoveringRadius;
   if (limit < 0.0) return 0;
-  PointLanes points;
-  unsigned looking = 0;
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    const FaceSamples s = samples[std::min(k, samples.size() - 1)];
-    const Vec3 p = in_voxels(face_centre(s));
-    for (std::size_t i = 0; i < 3; ++i) points[i][k] = p[static_cast<int>(i)];
-    const double cosine = sign_of(s, t.low) * t.shape.unit_normal()[static_cast<int>(axis_of(s))];
-    if (k < samples.size() && cosine >= kMinCosine) looking |= 1U << k;
-  }
-  return looking == 0 ? 0 : looking & t.shape.within(points, limit * limit);
+  const FaceCentres centres =
+      centres_of(FaceGroup(samples), labels_, t.low, t.shape.unit_normal(), kMinCosine);
+  if (centres.looking == 0) return 0;
+  return centres.looking & t.shape.within(centres.points, limit * limit);
 }
 
 /// Together when the centre of the face is so near that all of them are, else one by one.

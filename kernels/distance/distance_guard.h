@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kernels/distance/carried_samples.h"
+#include "kernels/distance/face_lanes.h"
 #include "kernels/distance/interface_fan.h"
 #include "kernels/distance/label_reach.h"
 #include "kernels/distance/near_triangle.h"
@@ -52,6 +53,20 @@ class DistanceGuard {
   template <typename Visit>
   void for_each_piece(const TriangleKey& key, Label low, Visit visit) const {
     for (const FaceSamples s : samples_.of(key)) visit(piece(s, low));
+  }
+  /// True if holds(piece) is true for all pieces of for_each_piece(); stops at the first other one.
+  template <typename Holds>
+  [[nodiscard]] bool all_pieces(const TriangleKey& key, Label low, Holds holds) const {
+    const std::span<const FaceSamples> all = samples_.of(key);
+    return std::all_of(all.begin(), all.end(), [&](FaceSamples s) { return holds(piece(s, low)); });
+  }
+  /// Calls visit(group) for the pieces of for_each_piece(), in the same order, several at a time.
+  template <typename Visit>
+  void for_each_group(const TriangleKey& key, Label low, Visit visit) const {
+    const std::span<const FaceSamples> all = samples_.of(key);
+    for (std::size_t i = 0; i < all.size(); i += kLanes) {
+      visit(group_of(FaceGroup(all.subspan(i, std::min(kLanes, all.size() - i))), low));
+    }
   }
 
   /// Would contracting (keep, drop) to `target` keep the bound?  Remembers where the samples go.
@@ -104,6 +119,7 @@ class DistanceGuard {
 
   [[nodiscard]] Piece piece(FaceSamples samples, Label low) const;
   [[nodiscard]] Piece piece_of_face(FaceSamples samples, Label low) const;
+  [[nodiscard]] PieceGroup group_of(const FaceGroup& faces, Label low) const;
   [[nodiscard]] double sign_of(FaceSamples samples, Label low) const;
   void add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other, LocalVertex survivor,
                    Point target, std::span<const FanTriangle> fan);

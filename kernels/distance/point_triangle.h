@@ -56,11 +56,65 @@ struct Foot {
 /// The foot of p on the triangle with corners 0, a and b; degenerate ones included.
 [[nodiscard]] Foot foot_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b);
 
+/// Products of the corners a and b of a triangle whose third corner is 0.
+struct CornerProducts {
+  double aa = 0.0;
+  double ab = 0.0;
+  double bb = 0.0;
+  double edge = 0.0;  ///< squared length of the edge from a to b
+};
+
+[[nodiscard]] inline CornerProducts corner_products(const Vec3& a, const Vec3& b) {
+  return {a.squaredNorm(), a.dot(b), b.squaredNorm(), (b - a).squaredNorm()};
+}
+
 /// Feet of some points at once.
 struct FeetInside {
   unsigned points = 0;      ///< one bit for each whose foot has positive weights
   StoredLanes at_corner{};  ///< weights of corner 0, of those
 };
+
+/// Feet of four points.
+struct FootLanes {
+  Lanes at_corner;  ///< weights of corner 0
+  Lanes squared_distance;
+  LaneMask inside;  ///< all weights are positive
+};
+
+/// Share of the way along an edge of this squared length; along: products with the edge.
+MW_LANES Lanes share_of_edge(const Lanes& along, double square) {
+  if (!(square > 0.0)) return lanes(0.0);
+  const Lanes share = along / square, zero = lanes(0.0), one = lanes(1.0);
+  const Lanes positive = share < zero ? zero : share;
+  return one < positive ? one : positive;
+}
+
+/// Finds what foot_on_triangle() finds for each, to the last bit.  of: corner_products(a, b).
+MW_LANES FootLanes feet_on_triangle(const Lanes3& p, const Vec3& a, const Vec3& b,
+                                    const CornerProducts& of) {
+  const Lanes3 to_a = lanes(a), to_b = lanes(b), edge = lanes(Vec3(b - a)), from_a = p - to_a;
+  const Lanes pa = eigen_dot(p, to_a), pb = eigen_dot(p, to_b);
+  const Lanes on_a = share_of_edge(pa, of.aa), on_b = share_of_edge(pb, of.bb),
+              on_edge = share_of_edge(eigen_dot(from_a, edge), of.edge);
+  const Lanes3 off_a = p - on_a * to_a, off_b = p - on_b * to_b, off_edge = from_a - on_edge * edge;
+  const Lanes one = lanes(1.0);
+  FootLanes out{one - on_a, eigen_dot(off_a, off_a), LaneMask{}};
+  const Lanes by_b = eigen_dot(off_b, off_b), by_edge = eigen_dot(off_edge, off_edge);
+  out.at_corner = by_b < out.squared_distance ? one - on_b : out.at_corner;
+  out.squared_distance = by_b < out.squared_distance ? by_b : out.squared_distance;
+  out.at_corner = by_edge < out.squared_distance ? lanes(0.0) : out.at_corner;
+  out.squared_distance = by_edge < out.squared_distance ? by_edge : out.squared_distance;
+  const double area = of.aa * of.bb - of.ab * of.ab;
+  const Lanes u = of.bb * pa - of.ab * pb, v = of.aa * pb - of.ab * pa;
+  const LaneMask within = (u >= 0.0) & (v >= 0.0) & (u + v <= area);
+  if (!(area > 0.0) || !any(within)) return out;
+  const Lanes along_a = u / area, along_b = v / area, share = one - along_a - along_b;
+  const Lanes3 off = p - along_a * to_a - along_b * to_b;
+  out.at_corner = within ? share : out.at_corner;
+  out.squared_distance = within ? eigen_dot(off, off) : out.squared_distance;
+  out.inside = within & (share > 0.0) & (along_a > 0.0) & (along_b > 0.0);
+  return out;
+}
 
 /// Those on the triangle with corners 0, a and b; none when it is degenerate.
 [[nodiscard]] FeetInside feet_inside(const PointLanes& p, const Vec3& a, const Vec3& b);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/ratio_lanes.h"
 
 namespace mw {
 
@@ -23,12 +24,24 @@ double Flipper::energy_of(const LocalTet& tet) const {
 /// Also decides what new tets must reach: the worst present one, or `decent`.
 double Flipper::energy_of_old_tets(double decent) {
   double worst = 1.0, sum = 0.0;
+  TetLanes group;
+  std::size_t used = 0;
+  const auto add_group = [&] {
+    const StoredLanes ratios = radius_ratios(group, metric_);
+    for (std::size_t k = 0; k < used; ++k) {
+      worst = std::min(worst, ratios[k]);
+      sum += shape_energy(ratios[k], 0.0);
+    }
+    used = 0;
+  };
   for (const LocalTet& t : old_tets_) {
     if (t.label == kExterior) continue;
-    const double r = radius_ratio(mesh_, metric_, t);
-    worst = std::min(worst, r);
-    sum += shape_energy(r, 0.0);
+    const auto& v = t.vertices;
+    group.set(used++, mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]),
+              mesh_.position(v[3]));
+    if (used == kLanes) add_group();
   }
+  if (used != 0) add_group();
   min_ = min_allowed(worst, decent, quality_floor_);
   return sum;
 }
@@ -90,8 +103,10 @@ bool Flipper::cut_into_polygons() {
   const std::size_t n = ring_.size();
   std::vector<Label>& labels = ring_.labels;
   std::size_t start = 0, changes = 0;
+  Label before = labels[n - 1];
   for (std::size_t i = 0; i < n; ++i) {
-    if (labels[i] == labels[(i + n - 1) % n]) continue;
+    const bool changed = labels[i] != std::exchange(before, labels[i]);
+    if (!changed) continue;
     start = i;
     ++changes;
   }

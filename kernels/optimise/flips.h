@@ -75,8 +75,9 @@ class Flipper {
   [[nodiscard]] bool collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring);
   [[nodiscard]] bool cut_into_polygons();
   [[nodiscard]] bool surface_allows(LocalVertex p, LocalVertex q);
+  /// REQUIRES: at most the ring's size, which is vertex 0.
   [[nodiscard]] LocalVertex ring_vertex(std::size_t i) const {
-    return ring_.vertices[i % ring_.size()];
+    return ring_.vertices[i == ring_.size() ? 0 : i];
   }
   [[nodiscard]] double energy_of_old_tets(double decent);
   /// Rings of less energy are not worth a search: of 5,900 that were replaced on EM 40^3, none had

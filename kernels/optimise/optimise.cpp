@@ -4,12 +4,14 @@
 #include "kernels/optimise/optimise.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/optimise/smooth.h"
 #include "kernels/optimise/unfold.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/ratio_lanes.h"
 
 namespace mw {
 namespace {
@@ -83,21 +85,52 @@ class EdgeFlips {
   FailedPairs failed_;
 };
 
+/// The tets of which a vertex is the smallest, so that a walk over all vertices meets each once.
+class OwnTets {
+ public:
+  OwnTets(const TetMesh& mesh, const Metric& metric) : mesh_(mesh), metric_(metric) {}
+
+  /// Rows of v's star, from `first` on, of such tets with a radius ratio below `limit`; of the
+  /// first kLanes tets at most that are v's own.  ENSURES: `first` is behind those.
+  std::span<const std::size_t> poor(LocalVertex v, double limit, std::size_t& first) {
+    const auto star = mesh_.star(v);
+    const Point at = mesh_.position(v);
+    std::size_t used = 0;
+    for (; used < kLanes && first < star.size(); ++first) {
+      const LinkTriangle& t = star[first];
+      if (v > t.a || v > t.b || v > t.c || t.label == kExterior) continue;
+      group_.set(used, at, mesh_.position(t.a), mesh_.position(t.b), mesh_.position(t.c));
+      rows_[used++] = first;
+    }
+    if (used == 0) return {};
+    const StoredLanes ratios = radius_ratios(group_, metric_);
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < used; ++k) {
+      if (ratios[k] < limit) rows_[found++] = rows_[k];
+    }
+    return {rows_.data(), found};
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const Metric& metric_;
+  TetLanes group_;
+  std::array<std::size_t, kLanes> rows_{};
+};
+
 std::uint64_t flip_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                          DistanceGuard* guard, const Turns& turns) {
   EdgeFlips flipper(mesh, metric, options, guard);
+  OwnTets own(mesh, metric);
   std::uint64_t flips = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!turns.has(v)) continue;
-    for (std::size_t i = 0; i < mesh.star(v).size();) {
-      const LinkTriangle t = mesh.star(v)[i];
-      const bool mine = v < t.a && v < t.b && v < t.c && t.label != kExterior;
-      if (mine && radius_ratio(mesh, metric, mesh.position(v), t) < options.flip_below &&
-          flipper.improve_tet(v, t)) {
+    for (std::size_t next = 0; next < mesh.star(v).size();) {
+      for (const std::size_t row : own.poor(v, options.flip_below, next)) {
+        if (!flipper.improve_tet(v, mesh.star(v)[row])) continue;
         ++flips;
-        i = 0;
-      } else {
-        ++i;
+        next = 0;
+        break;
       }
     }
   }

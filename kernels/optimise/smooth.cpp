@@ -229,8 +229,12 @@ Smoother::Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& opt
 
 void Smoother::collect_surface(LocalVertex v) {
   const SurfaceWeights& weights = *options_.surface;
-  surface_.collect(mesh_, metric_, v);
-  if (weights.bend > 0.0) surface_.collect_rims(mesh_, metric_);
+  if (weights.bend > 0.0) {
+    surface_.collect(mesh_, metric_, v);
+    surface_.collect_rims(mesh_, metric_);
+  } else {
+    surface_.collect_triangles(mesh_, metric_, v);
+  }
   surface_energy_.collect(mesh_, metric_, surface_, *guard_,
                           weights.with_pressure ? &curvature_ : nullptr, debts_);
 }

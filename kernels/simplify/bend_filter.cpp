@@ -19,14 +19,19 @@ constexpr double kFreeElsewhere = 1.0;
 }  // namespace
 
 bool BendFilter::stays_smooth(const Contraction& c) {
-  const Gathered &keep = star_of(c.keep, c.drop), &drop = star_of(c.drop, c.keep);
+  Gathered &keep = star_of(c.keep, c.drop), &drop = star_of(c.drop, c.keep);
   merged_.merge(keep.star, metric_.vector(mesh_.position(c.keep), c.position), drop.star,
                 metric_.vector(mesh_.position(c.drop), c.position));
   const bool two = mesh_.order(c.keep) == 2 && mesh_.order(c.drop) == 2;
   const double free = two ? kFreeBetweenTwo : kFreeElsewhere;
   const double after = merged_.bends_at(Vec3::Zero());
   if (after <= free) return true;
-  return after <= kShareOfPresent * (keep.bends + drop.bends) + free;
+  return after <= kShareOfPresent * (present_bends(keep) + present_bends(drop)) + free;
+}
+
+double BendFilter::present_bends(Gathered& g) {
+  if (!g.bends) g.bends = g.star.bends_at(Vec3::Zero());
+  return *g.bends;
 }
 
 std::span<const FanTriangle> BendFilter::fan(LocalVertex end) const {
@@ -36,16 +41,16 @@ std::span<const FanTriangle> BendFilter::fan(LocalVertex end) const {
 }
 
 /// Replaces the star of neither v nor other: several candidates of a vertex share its star.
-const BendFilter::Gathered& BendFilter::star_of(LocalVertex v, LocalVertex other) {
+BendFilter::Gathered& BendFilter::star_of(LocalVertex v, LocalVertex other) {
   const std::uint64_t now = mesh_.changes() + 1;
-  for (const Gathered& g : gathered_) {
+  for (Gathered& g : gathered_) {
     if (g.is(v, now)) return g;
   }
   Gathered& g = gathered_[gathered_[0].is(other, now) ? 1 : 0];
   g.at = now;
+  g.bends.reset();
   g.star.collect(mesh_, metric_, v);
   g.star.collect_rims(mesh_, metric_);
-  g.bends = g.star.bends_at(Vec3::Zero());
   return g;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "kernels/simplify/contraction.h"
@@ -31,14 +32,15 @@ class BendFilter {
   /// A star with its rims, as it was after that number of changes of the mesh.
   struct Gathered {
     SurfaceStar star;
-    double bends = 0.0;
-    std::uint64_t at = 0;  ///< TetMesh::changes(), and 1; 0: nothing gathered
+    std::optional<double> bends;  ///< of the star as it is, once somebody asked
+    std::uint64_t at = 0;         ///< TetMesh::changes(), and 1; 0: nothing gathered
     [[nodiscard]] bool is(LocalVertex v, std::uint64_t now) const {
       return star.vertex() == v && at == now;
     }
   };
 
-  [[nodiscard]] const Gathered& star_of(LocalVertex v, LocalVertex other);
+  [[nodiscard]] Gathered& star_of(LocalVertex v, LocalVertex other);
+  [[nodiscard]] static double present_bends(Gathered& g);
 
   const TetMesh& mesh_;
   const Metric& metric_;

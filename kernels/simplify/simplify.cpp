@@ -25,11 +25,10 @@ class CandidateFinder {
       : mesh_(mesh),
         metric_(metric),
         failed_(mesh.vertex_count()),
-        edge_labels_(mesh.vertex_count() + 1),
-        neighbour_marks_(mesh.vertex_count() + 1) {}
+        seen_(mesh.vertex_count() + 1) {}
 
-  /// Candidates of v, cheapest first, until the next call.  An edge between two vertices that never
-  /// changed belongs to its smaller end; the others are looked at from both sides.
+  /// Candidates of v until the next call.  An edge between two vertices that never changed belongs
+  /// to its smaller end; the others are looked at from both sides.
   const std::vector<Contraction>& collect(LocalVertex v) {
     collect_neighbours(v);
     candidates_.clear();
@@ -39,6 +38,11 @@ class CandidateFinder {
       if (failed_.contains(mesh_, v, w)) continue;
       if (const auto c = plan_contraction(mesh_, metric_, v, w)) candidates_.push_back(*c);
     }
+    return candidates_;
+  }
+
+  /// Sorts what was collected last, cheapest first.
+  const std::vector<Contraction>& sort() {
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Contraction& a, const Contraction& b) {
                 if (a.cost != b.cost) return a.cost < b.cost;
@@ -52,16 +56,30 @@ class CandidateFinder {
   void forget(const Contraction& c) { failed_.insert(mesh_, c.keep, c.drop); }
 
  private:
+  /// A vertex that some call met, and the labels around the edge to it.
+  struct Seen {
+    std::uint64_t labels = 0;
+    std::uint32_t call = 0;
+  };
+
   void collect_neighbours(LocalVertex v) {
     neighbours_.clear();
-    neighbour_marks_.clear();
+    ++call_;
+    Label label = kExterior;
+    std::uint64_t bit = mesh_.label_bit(label);
     for (const LinkTriangle& t : mesh_.star(v)) {
+      if (t.label != label) {
+        label = t.label;
+        bit = mesh_.label_bit(label);
+      }
       for (LocalVertex w : {t.a, t.b, t.c}) {
-        if (neighbour_marks_.insert(w)) {
-          edge_labels_[w] = 0;
-          if (w != mesh_.infinity()) neighbours_.push_back(w);
+        Seen& seen = seen_[w];
+        if (seen.call == call_) {
+          seen.labels |= bit;
+          continue;
         }
-        edge_labels_[w] |= mesh_.label_bit(t.label);
+        seen = {bit, call_};
+        if (w != mesh_.infinity()) neighbours_.push_back(w);
       }
     }
   }
@@ -70,7 +88,7 @@ class CandidateFinder {
   /// around the edge, and an edge inside one label never joins two boundary vertices.  Labels
   /// that share a bit can only be a reason to refuse.
   [[nodiscard]] bool labels_allow(LocalVertex v, LocalVertex w) const {
-    const std::uint64_t edge = edge_labels_[w];
+    const std::uint64_t edge = seen_[w].labels;
     if ((mesh_.label_signature(v) & mesh_.label_signature(w) & ~edge) != 0) return false;
     const bool several = (edge & (edge - 1)) != 0;
     return several || mesh_.order(v) == 1 || mesh_.order(w) == 1;
@@ -79,11 +97,19 @@ class CandidateFinder {
   const TetMesh& mesh_;
   const Metric& metric_;
   FailedPairs failed_;
-  std::vector<std::uint64_t> edge_labels_;
-  VertexMarks neighbour_marks_;
+  std::vector<Seen> seen_;
+  std::uint32_t call_ = 0;
   std::vector<LocalVertex> neighbours_;
   std::vector<Contraction> candidates_;
 };
+
+/// REQUIRES: not empty.
+double least_cost(const std::vector<Contraction>& candidates) {
+  return std::min_element(
+             candidates.begin(), candidates.end(),
+             [](const Contraction& a, const Contraction& b) { return a.cost < b.cost; })
+      ->cost;
+}
 
 /// Files the free vertices of [first, last) under the cost of their cheapest candidate.
 void push_cheapest(CandidateFinder& finder, const TetMesh& mesh, std::size_t first,
@@ -91,7 +117,7 @@ void push_cheapest(CandidateFinder& finder, const TetMesh& mesh, std::size_t fir
   for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
     if (!mesh.is_free(v)) continue;
     const std::vector<Contraction>& candidates = finder.collect(v);
-    if (!candidates.empty()) queue.push(v, candidates.front().cost);
+    if (!candidates.empty()) queue.push(v, least_cost(candidates));
   }
 }
 
@@ -130,7 +156,13 @@ class Simplifier {
  private:
   void visit(LocalVertex v) {
     const double bound = queue_.current_bound();
-    for (const Contraction& c : finder_.collect(v)) {
+    const std::vector<Contraction>& candidates = finder_.collect(v);
+    if (candidates.empty()) return;
+    if (const double least = least_cost(candidates); least > bound) {
+      queue_.push(v, least);
+      return;
+    }
+    for (const Contraction& c : finder_.sort()) {
       if (c.cost > bound) {
         queue_.push(v, c.cost);
         return;

@@ -17,17 +17,14 @@ FlatPlane plane_of(const DistanceGuard::Piece& piece) {
 /// False if the fan carries a face elsewhere.  An empty plane becomes that of the first face.
 bool add_fan(const DistanceGuard& guard, LocalVertex v, std::span<const FanTriangle> fan,
              std::optional<FlatPlane>& plane) {
-  bool is_flat = true;
-  const auto add = [&](const DistanceGuard::Piece& piece) {
+  const auto is_there = [&](const DistanceGuard::Piece& piece) {
     const FlatPlane found = plane_of(piece);
     if (!plane) plane = found;
-    is_flat = is_flat && found == *plane;
+    return found == *plane;
   };
-  for (const FanTriangle& t : fan) {
-    guard.for_each_piece(triangle_key(v, t.a, t.b), t.low, add);
-    if (!is_flat) return false;
-  }
-  return true;
+  return std::all_of(fan.begin(), fan.end(), [&](const FanTriangle& t) {
+    return guard.all_pieces(triangle_key(v, t.a, t.b), t.low, is_there);
+  });
 }
 
 std::optional<FlatPlane> plane_of(const TetMesh& mesh, LocalVertex v,

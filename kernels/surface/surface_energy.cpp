@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <span>
 
 #include "kernels/distance/point_triangle.h"
 #include "kernels/surface/bend.h"
@@ -28,6 +29,116 @@ Vec3 unit(const Vec3& normal) {
 Vec3 cosine_gradient(const Vec3& normal, double length, const Vec3& edge, const Vec3& other,
                      double cosine) {
   return (other - cosine * normal).cross(edge) / length;
+}
+
+/// Pieces of one carrier in metric units.
+struct MetricPieces {
+  PointLanes middles;  ///< from v
+  StoredLanes areas;   ///< s, negative where the normal looks down its axis
+  StoredInts axes;     ///< of the normals
+};
+
+MW_WIDE void to_metric(const PieceGroup& pieces, const Metric& metric, const Vec3& at,
+                       MetricPieces& out) {
+  const Vec3 voxel = metric.voxel();
+  const double volume = voxel.prod();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<int>(i);
+    store(load(pieces.middles[i]) * voxel[k] - at[k], out.middles[i]);
+  }
+  const Lanes area = by_axis(load(pieces.axes), lanes(volume / voxel[0]), lanes(volume / voxel[1]),
+                             lanes(volume / voxel[2]));
+  constexpr double kEach = 1.0 / kSamplesPerFace;
+  store(load(pieces.signs) * (load(pieces.quarters) * kEach * area), out.areas);
+  out.axes = pieces.axes;
+}
+
+/// What pieces add to the sums of a triangle that their feet are on.
+struct InsideFits {
+  StoredLanes weights;  ///< w
+  StoredLanes squares;  ///< w f^2
+  StoredLanes volumes;  ///< w f r
+};
+
+/// The triangle's plane goes through v, so that r is the height above it.
+MW_WIDE void fit_inside(const MetricPieces& pieces, const StoredLanes& shares, const Vec3& normal,
+                        InsideFits& out) {
+  const Lanes3 n = lanes(normal);
+  const Lanes weight = load(pieces.areas) * by_axis(load(pieces.axes), n.x, n.y, n.z);
+  const Lanes share = load(shares);
+  // The sum in the order in which Eigen adds.
+  const Lanes height = n.x * load(pieces.middles[0]) +
+                       (n.y * load(pieces.middles[1]) + n.z * load(pieces.middles[2]));
+  store(weight, out.weights);
+  store(weight * share * share, out.squares);
+  store(weight * share * height, out.volumes);
+}
+
+/// Triangles at v, what is known of each.
+struct KnownTriangles {
+  std::span<const SurfaceTriangle> triangles;
+  std::span<const Vec3> unit_normals;
+  std::span<const CornerProducts> products;
+};
+
+/// The triangles that feet are on, and the weights of v there.
+struct NearestFeet {
+  std::array<std::int64_t, kLanes> rows;
+  StoredLanes at_corner;
+};
+
+/// Of the points whose bits are set in `wanted`: a foot is on the carrier when it is inside, else
+/// on the nearest triangle between the same labels.
+MW_WIDE void find_nearest(const KnownTriangles& known, std::size_t carrier,
+                          const PointLanes& points, unsigned wanted, NearestFeet& out) {
+  const Lanes3 p{load(points[0]), load(points[1]), load(points[2])};
+  const SurfaceTriangle& own = known.triangles[carrier];
+  const FootLanes first = feet_on_triangle(p, own.to_a, own.to_b, known.products[carrier]);
+  const LaneMask bits{1, 2, 4, 8};
+  const LaneMask searches = ((static_cast<std::int64_t>(wanted) & bits) == bits) & ~first.inside;
+  // What is searched no more finds nothing nearer.
+  Lanes least = searches ? first.squared_distance : lanes(-1.0);
+  Lanes share = first.at_corner;
+  LaneMask rows = LaneMask{} + static_cast<std::int64_t>(carrier);
+  for (std::size_t i = 0; any(searches) && i < known.triangles.size(); ++i) {
+    const SurfaceTriangle& t = known.triangles[i];
+    if (i == carrier || !t.is_between(own.low, own.high)) continue;
+    // The triangle is no nearer than its plane, which goes through v.
+    const Lanes height = eigen_dot(lanes(known.unit_normals[i]), p);
+    if (!any(height * height <= kRoundedUp * least)) continue;
+    const FootLanes foot = feet_on_triangle(p, t.to_a, t.to_b, known.products[i]);
+    const LaneMask nearer = foot.squared_distance < least;
+    least = nearer ? foot.squared_distance : least;
+    share = nearer ? foot.at_corner : share;
+    rows = nearer ? LaneMask{} + static_cast<std::int64_t>(i) : rows;
+  }
+  store(share, out.at_corner);
+  std::memcpy(out.rows.data(), &rows, sizeof rows);
+}
+
+/// SurfaceTriangle::normal() of four triangles, and their areas.
+MW_WIDE void find_normals(const std::array<StoredLanes, 6>& places, const Vec3& x,
+                          SurfaceNormal* normals, double* areas) {
+  const Lanes3 at = lanes(x);
+  const Lanes3 a = Lanes3{load(places[0]), load(places[1]), load(places[2])} - at;
+  const Lanes3 b = Lanes3{load(places[3]), load(places[4]), load(places[5])} - at;
+  const Lanes3 n = cross(a, b);
+  const Lanes square = eigen_dot(n, n), area = 0.5 * root(square);
+  // Transposed: a normal and its square lie together.
+  constexpr LaneMask kEven{0, 4, 2, 6}, kOdd{1, 5, 3, 7}, kLow{0, 1, 4, 5}, kHigh{2, 3, 6, 7};
+  const Lanes xy02 = __builtin_shuffle(n.x, n.y, kEven), xy13 = __builtin_shuffle(n.x, n.y, kOdd);
+  const Lanes zs02 = __builtin_shuffle(n.z, square, kEven),
+              zs13 = __builtin_shuffle(n.z, square, kOdd);
+  const std::array<Lanes, kLanes> rows{
+      __builtin_shuffle(xy02, zs02, kLow), __builtin_shuffle(xy13, zs13, kLow),
+      __builtin_shuffle(xy02, zs02, kHigh), __builtin_shuffle(xy13, zs13, kHigh)};
+  static_assert(sizeof(SurfaceNormal) == sizeof(Lanes));
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    StoredLanes row;
+    store(rows[k], row);
+    normals[k] = {Vec3(row[0], row[1], row[2]), row[3]};
+  }
+  std::memcpy(areas, &area, sizeof area);
 }
 
 }  // namespace
@@ -57,71 +168,71 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
   if (debts != nullptr && mass_ > 0.0) take_debts(*debts);
+  gather_corners();
   present_ = raw_value_at(Vec3::Zero());
 }
 
+void SurfaceEnergy::gather_corners() {
+  const std::vector<SurfaceTriangle>& triangles = star_->triangles();
+  corners_.assign((triangles.size() + kLanes - 1) / kLanes, {});
+  normals_.resize(corners_.size() * kLanes);
+  areas_.resize(normals_.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    std::array<StoredLanes, 6>& places = corners_[i / kLanes].places;
+    for (std::size_t k = 0; k < 3; ++k) {
+      places[k][i % kLanes] = triangles[i].to_a[static_cast<int>(k)];
+      places[3 + k][i % kLanes] = triangles[i].to_b[static_cast<int>(k)];
+    }
+  }
+}
+
 void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard& guard) {
-  const Vec3 voxel = metric.voxel();
   const Vec3 at = metric.vector({}, origin);
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
   fits_.assign(triangles.size(), {});
-  PieceGroup group;
+  products_.clear();
+  for (const SurfaceTriangle& t : triangles) products_.push_back(corner_products(t.to_a, t.to_b));
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const SurfaceTriangle& t = triangles[i];
-    const TriangleKey key = triangle_key(star_->vertex(), t.a, t.b);
-    guard.for_each_piece(key, t.low, [&](const DistanceGuard::Piece& piece) {
-      const double area = piece.quarters / kSamplesPerFace * metric.face_area(piece.axis);
-      const Vec3 p = piece.middle.cwiseProduct(voxel) - at;
-      for (std::size_t k = 0; k < 3; ++k) group.middles[k][group.size] = p[static_cast<int>(k)];
-      group.areas[group.size] = piece.sign * area;
-      group.axes[group.size++] = piece.axis;
-      if (group.size == kLanes) add_pieces(group, i);
-    });
-    if (group.size != 0) add_pieces(group, i);
+    guard.for_each_group(triangle_key(star_->vertex(), t.a, t.b), t.low,
+                         [&](const PieceGroup& pieces) { add_pieces(pieces, i, metric, at); });
   }
   sum_up_fits();
 }
 
-/// The triangle that p's foot is on: the carrier when it is inside, else the nearest of its labels.
-std::pair<std::size_t, Foot> SurfaceEnergy::foot_of(const Vec3& p, std::size_t carrier) const {
-  const std::vector<SurfaceTriangle>& triangles = star_->triangles();
-  const SurfaceTriangle& own = triangles[carrier];
-  std::pair<std::size_t, Foot> best{carrier, foot_on_triangle(p, own.to_a, own.to_b)};
-  const std::array<double, 3>& w = best.second.weights;
-  if (w[0] > 0.0 && w[1] > 0.0 && w[2] > 0.0) return best;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const SurfaceTriangle& t = triangles[i];
-    if (i == carrier || !t.is_between(own.low, own.high)) continue;
-    // The triangle is no nearer than its plane, which goes through v.
-    const double height = unit_normals_[i].dot(p);
-    if (height * height > kRoundedUp * best.second.squared_distance) continue;
-    const Foot foot = foot_on_triangle(p, t.to_a, t.to_b);
-    if (foot.squared_distance < best.second.squared_distance) best = {i, foot};
-  }
-  return best;
-}
-
-/// Empties the group.  Most feet are on the carrier, which is found out for several at once.
-void SurfaceEnergy::add_pieces(PieceGroup& group, std::size_t carrier) {
+/// Most feet are on the carrier, which is found out for several at once.
+void SurfaceEnergy::add_pieces(const PieceGroup& pieces, std::size_t carrier, const Metric& metric,
+                               const Vec3& at) {
   const SurfaceTriangle& own = star_->triangles()[carrier];
+  MetricPieces group;
+  to_metric(pieces, metric, at, group);
   const FeetInside feet = feet_inside(group.middles, own.to_a, own.to_b);
-  for (std::size_t k = 0; k < group.size; ++k) {
-    const Vec3 p(group.middles[0][k], group.middles[1][k], group.middles[2][k]);
-    std::size_t row = carrier;
-    double share = feet.at_corner[k];
-    if ((feet.points >> k & 1U) == 0) {
-      const auto [nearest, foot] = foot_of(p, carrier);
-      row = nearest;
-      share = foot.weights[0];
+  TriangleFit& fit_of_own = fits_[carrier];
+  InsideFits inside;
+  fit_inside(group, feet.at_corner, unit_normals_[carrier], inside);
+  const unsigned outside = ((1U << pieces.size) - 1U) & ~feet.points;
+  NearestFeet nearest;
+  if (outside != 0) {
+    find_nearest({star_->triangles(), unit_normals_, products_}, carrier, group.middles, outside,
+                 nearest);
+  }
+  for (std::size_t k = 0; k < pieces.size; ++k) {
+    if ((outside >> k & 1U) == 0) {
+      if (!(inside.weights[k] > 0.0)) continue;
+      fit_of_own.square += inside.squares[k];
+      fit_of_own.volume += inside.volumes[k];
+      continue;
     }
+    const Vec3 p(group.middles[0][k], group.middles[1][k], group.middles[2][k]);
+    const auto row = static_cast<std::size_t>(nearest.rows[k]);
+    const double share = nearest.at_corner[k];
     const Vec3& n = unit_normals_[row];
-    const double weight = group.areas[k] * n[static_cast<int>(group.axes[k])];
+    const double weight = group.areas[k] * n[static_cast<int>(pieces.axes[k])];
     if (!(weight > 0.0)) continue;
     // The triangle's plane goes through v, so that r is the height above it.
     fits_[row].square += weight * share * share;
     fits_[row].volume += weight * share * n.dot(p);
   }
-  group.size = 0;
 }
 
 void SurfaceEnergy::sum_up_fits() {
@@ -207,12 +318,16 @@ double SurfaceEnergy::min_cosine() const {
 double SurfaceEnergy::raw_value_at(const Vec3& x) const {
   double value = 0.0;
   const bool has_area = mass_ > 0.0 && area_weight_ > 0.0, has_bends = weights_.bend > 0.0;
-  if (has_area || has_bends) star_->normals_at(x, normals_);
+  if (has_area || has_bends) {
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      find_normals(corners_[i].places, x, &normals_[i * kLanes], &areas_[i * kLanes]);
+    }
+  }
   if (mass_ > 0.0) {
     value = x.dot(square_ * x) - 2.0 * linear_.dot(x);
     if (has_area) {
       double area = 0.0;
-      for (const SurfaceNormal& n : normals_) area += 0.5 * std::sqrt(n.square);
+      for (std::size_t i = 0; i < star_->triangles().size(); ++i) area += areas_[i];
       value += area_weight_ * (area - pressure_.dot(x));
     }
     value *= fit_weight_ / mass_;

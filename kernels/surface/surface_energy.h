@@ -3,7 +3,7 @@
 // What a good interface costs: distance to the input's faces, area at constant volume, bends.
 #pragma once
 
-#include <utility>
+#include <vector>
 
 #include "kernels/distance/distance_guard.h"
 #include "kernels/distance/point_triangle.h"
@@ -55,7 +55,7 @@ class SurfaceEnergy {
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
 
   /// The energy at the star's vertex.  What is null is left out: pressure, debts of the ring.
-  /// Keeps references to star and mesh.  REQUIRES: rims collected, for weights.bend > 0.
+  /// Keeps references to star and mesh.  REQUIRES: spokes and rims collected, for weights.bend > 0.
   void collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
                const DistanceGuard& guard, const CurvatureField* curvature,
                const VolumeDebts* debts);
@@ -88,18 +88,16 @@ class SurfaceEnergy {
     double volume = 0.0;  ///< sum of w f r
   };
 
-  /// Some pieces of one carrier.
-  struct PieceGroup {
-    PointLanes middles{};                 ///< from v
-    StoredLanes areas{};                  ///< s, negative where the normal looks down its axis
-    std::array<unsigned, kLanes> axes{};  ///< of the normals
-    std::size_t size = 0;
+  /// Corners of four triangles, x, y and z of a and of b; all at v where there is none.
+  struct CornerLanes {
+    std::array<StoredLanes, 6> places{};
   };
 
+  void gather_corners();
   [[nodiscard]] Balance& balance(Label low, Label high);
   void fit(const Metric& metric, Point origin, const DistanceGuard& guard);
-  [[nodiscard]] std::pair<std::size_t, Foot> foot_of(const Vec3& p, std::size_t carrier) const;
-  void add_pieces(PieceGroup& group, std::size_t carrier);
+  void add_pieces(const PieceGroup& pieces, std::size_t carrier, const Metric& metric,
+                  const Vec3& at);
   void sum_up_fits();
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
@@ -119,9 +117,12 @@ class SurfaceEnergy {
   Vec3 pressure_ = Vec3::Zero();
   double present_ = 0.0;
   std::vector<TriangleFit> fits_;  ///< of the star's triangles
+  std::vector<CornerProducts> products_;
   std::vector<Balance> balances_;
   std::vector<VolumeDebt> debts_;
-  mutable std::vector<SurfaceNormal> normals_;  ///< scratch
+  std::vector<CornerLanes> corners_;            ///< of the star's triangles
+  mutable std::vector<SurfaceNormal> normals_;  ///< scratch; four for each of corners_
+  mutable std::vector<double> areas_;           ///< of the triangles, likewise
 };
 
 }  // namespace mw

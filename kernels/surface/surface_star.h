@@ -54,6 +54,8 @@ struct Rim {
 /// The interface triangles at a vertex, as they were when it was collected.
 class SurfaceStar {
  public:
+  /// Triangles without spokes and rims.  REQUIRES: v free.
+  void collect_triangles(const TetMesh& mesh, const Metric& metric, LocalVertex v);
   /// Triangles and spokes.  REQUIRES: v free.
   void collect(const TetMesh& mesh, const Metric& metric, LocalVertex v);
   /// Rims as well, of the star collected last: those with all tets around them loaded.

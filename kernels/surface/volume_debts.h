@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "kernels/core/label.h"
@@ -24,20 +23,27 @@ struct VolumeDebt {
 class VolumeDebts {
  public:
   void set(LocalVertex v, std::span<const VolumeDebt> debts) {
-    of_[v].assign(debts.begin(), debts.end());
+    if (v >= rows_.size()) rows_.resize(std::size_t{v} + 1, kNone);
+    if (rows_[v] == kNone) {
+      rows_[v] = static_cast<std::uint32_t>(lists_.size());
+      lists_.emplace_back();
+    }
+    lists_[rows_[v]].assign(debts.begin(), debts.end());
   }
   /// 0 at vertices that were not visited.
   [[nodiscard]] double of(LocalVertex v, Label low, Label high) const {
-    const auto found = of_.find(v);
-    if (found == of_.end()) return 0.0;
-    for (const VolumeDebt& d : found->second) {
+    if (v >= rows_.size() || rows_[v] == kNone) return 0.0;
+    for (const VolumeDebt& d : lists_[rows_[v]]) {
       if (d.low == low && d.high == high) return d.volume;
     }
     return 0.0;
   }
 
  private:
-  std::unordered_map<LocalVertex, std::vector<VolumeDebt>> of_;  ///< for look-ups only
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  std::vector<std::uint32_t> rows_;  ///< of lists_, by vertex
+  std::vector<std::vector<VolumeDebt>> lists_;
 };
 
 }  // namespace mw

@@ -28,11 +28,13 @@ bool LinkCondition::look_from(const TetMesh& mesh, LocalVertex end, LocalVertex 
       if (s != kNoSlot) side.vertex_labels[s] |= bit;
     }
     if (t.has(other)) continue;
+    // Remainders would be divisions.
+    const auto after = [n](std::size_t s) { return s + 1 == n ? 0 : s + 1; };
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t s = slot[i], r = slot[(i + 1) % 3];
+      const std::size_t s = slot[i], r = slot[i == 2 ? 0 : i + 1];
       if (s == kNoSlot || r == kNoSlot) continue;
-      if ((s + 1) % n == r) side.beyond[s] = t.label;
-      if ((r + 1) % n == s) side.beyond[r] = t.label;
+      if (after(s) == r) side.beyond[s] = t.label;
+      if (after(r) == s) side.beyond[r] = t.label;
     }
   }
   return true;

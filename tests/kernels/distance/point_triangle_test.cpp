@@ -199,6 +199,32 @@ TEST(Foot, SeveralInsideAreThoseOfEachAlone) {
   EXPECT_GT(outside, 1000);
 }
 
+TEST(Foot, OfSeveralPointsIsThatOfEach) {
+  std::mt19937 random(1105);
+  int inside = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const auto [a, b] = random_sides(random, i);
+    PointLanes points;
+    std::array<Foot, kLanes> expected;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const Vec3 p = random_point(random) - Vec3::Constant(2.0);
+      for (std::size_t axis = 0; axis < 3; ++axis) points[axis][k] = p[static_cast<int>(axis)];
+      expected[k] = foot_on_triangle(p, a, b);
+    }
+    const FootLanes feet = feet_on_triangle({load(points[0]), load(points[1]), load(points[2])}, a,
+                                            b, corner_products(a, b));
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const auto& w = expected[k].weights;
+      const bool is_inside = w[0] > 0.0 && w[1] > 0.0 && w[2] > 0.0;
+      ASSERT_EQ(feet.at_corner[k], w[0]) << i;
+      ASSERT_EQ(feet.squared_distance[k], expected[k].squared_distance) << i;
+      ASSERT_EQ(feet.inside[k] != 0, is_inside) << i;
+      inside += is_inside ? 1 : 0;
+    }
+  }
+  EXPECT_GT(inside, 1000);
+}
+
 /// A point of the triangle is its own foot.
 TEST(Foot, OfAPointOfTheTriangleHasItsWeights) {
   std::mt19937 random(1103);

@@ -3,6 +3,7 @@
 // Radius ratio and Eq (3) against other formulas for the same, and known tets.
 #include "kernels/quality/quality.h"
 #include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/ratio_lanes.h"
 #include "kernels/quality/star_batch.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
@@ -57,6 +58,31 @@ double variance_from_moments(const Corners& p) {
     }
   }
   return 6.0 * squares / (sum * sum) - 1.0;
+}
+
+/// Inverted and flat ones are among them.
+TEST(RadiusRatio, OfSeveralTetsIsThatOfEach) {
+  std::mt19937 random(705);
+  const Metric metric({1.0, 1.3, 2.5});
+  int positive = 0, other = 0;
+  for (int i = 0; i < 2000; ++i) {
+    TetLanes tets;
+    std::array<double, kLanes> expected;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      std::array<Point, 4> p;
+      for (Point& q : p) {
+        const auto place = [&] { return static_cast<std::int32_t>(random() % 9) * 511; };
+        const std::int32_t x = place(), y = place();
+        q = {x, y, place()};
+      }
+      tets.set(k, p[0], p[1], p[2], p[3]);
+      expected[k] = radius_ratio(tet_edges(metric, p[0], p[1], p[2], p[3]));
+      (expected[k] > 0.0 ? positive : other) += 1;
+    }
+    EXPECT_EQ(radius_ratios(tets, metric), expected);
+  }
+  EXPECT_GT(positive, 1000);
+  EXPECT_GT(other, 1000);
 }
 
 TEST(Sec54Quality, RegularTetIsBest) {
