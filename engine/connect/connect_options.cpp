@@ -75,6 +75,7 @@ io::CohesiveRule parse_cohesive(std::string_view text) {
     if (out.has(bottom, top)) fail_expected("no pair of labels twice", text);
     out.pairs.push_back({bottom, top});
   }
+  std::sort(out.pairs.begin(), out.pairs.end());
   return out;
 }
 

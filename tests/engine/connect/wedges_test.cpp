@@ -187,7 +187,7 @@ TEST(Wedges, AreNoneWhereNoVertexIsDoubled) {
 
 TEST(ConnectOptions, OfCohesiveInterfaces) {
   const io::CohesiveRule rule = parse_cohesive("3|1,2|3");
-  EXPECT_EQ(rule.pairs, (std::vector<std::array<RawLabel, 2>>{{3, 1}, {2, 3}}));
+  EXPECT_EQ(rule.pairs, (std::vector<std::array<RawLabel, 2>>{{2, 3}, {3, 1}}));
   EXPECT_TRUE(rule.has(1, 3) && rule.has(3, 1) && rule.names(3, 1));
   EXPECT_FALSE(rule.names(1, 3) || rule.has(1, 2) || rule.has(1, 1));
   EXPECT_TRUE(parse_cohesive("*").has(1, 2));
