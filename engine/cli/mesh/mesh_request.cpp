@@ -185,7 +185,7 @@ void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
                .assign = into(connect.split, engine::parse_split)});
   options.add({.name = "cohesive",
                .value = "A|B,...",
-               .help = "splits interfaces and puts wedges of no thickness in, from A to B; *: all",
+               .help = "--split, with wedges of no thickness in between, from A to B",
                .group = kOutputGroup,
                .listed = Listed::kInHelpAll,
                .has_labels = true,
