@@ -54,12 +54,12 @@ struct MeshFormat {
   }
   /// Wedges of six nodes, and of twelve.
   [[nodiscard]] bool has_wedges6() const {
-    constexpr std::array<std::string_view, 3> kWithSixAlone{".msh", ".msh2", ".inp"};
+    constexpr std::array<std::string_view, 4> kWithSixAlone{".msh", ".msh2", ".inp", ".exo"};
     return has_wedges12() ||
            std::find(kWithSixAlone.begin(), kWithSixAlone.end(), extension) != kWithSixAlone.end();
   }
   [[nodiscard]] bool has_wedges12() const {
-    constexpr std::array<std::string_view, 3> kWithTwelve{".vtkhdf", ".vtu", ".exo"};
+    constexpr std::array<std::string_view, 2> kWithTwelve{".vtkhdf", ".vtu"};
     return std::find(kWithTwelve.begin(), kWithTwelve.end(), extension) != kWithTwelve.end();
   }
   [[nodiscard]] bool has_wedges(Element element) const {

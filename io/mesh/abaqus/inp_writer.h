@@ -21,9 +21,10 @@ namespace mw::io {
 /// label is, with its name and colour as in MEDIT files.
 /// Wedges between the sides of an interface are elements COH3D6 behind the tets, in a set
 /// COHESIVE_1_2: their nodes 1 2 3 are on the side of label 1, and 4 5 6 on that of label 2.
-/// Materials are element sets beside those of the labels; empty ones are left out.
-/// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
-/// which is all that Abaqus has numbers for.
+/// Between tets of ten nodes they are not written: Abaqus has no such element. Materials are
+/// element sets beside those of the labels; empty ones are left out. Memory: 9 MiB.  ERRORS: see
+/// AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements, which is all that Abaqus has
+/// numbers for.
 class InpWriter : public GroupedWriter {
  public:
   explicit InpWriter(const std::filesystem::path& path,

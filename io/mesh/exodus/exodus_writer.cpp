@@ -167,13 +167,12 @@ std::vector<int> ExodusWriter::define_blocks(const GroupedMesh& mesh, Plan& plan
     const RowRange range =
         has_tets ? mesh.label_tets()[b] : mesh.wedge_groups()[b - mesh.table().size()].wedges;
     const std::uint64_t nodes =
-        has_tets ? node_count(mesh.element()) : wedge_node_count(mesh.element());
+        has_tets ? node_count(mesh.element()) : wedge_node_count(Element::kTet4);
     out.push_back(out_.add_dimension(text("num_el_in_blk", b + 1), range.size()));
     const int columns = out_.add_dimension(text("num_nod_per_el", b + 1), nodes);
     plan.connectivity.push_back(out_.add_integers(text("connect", b + 1), {out.back(), columns}));
     const char* const of_tets = quadratic ? "TETRA10" : "TETRA";
-    const char* const of_wedges = quadratic ? "WEDGE12" : "WEDGE";
-    out_.add_attribute(plan.connectivity.back(), "elem_type", has_tets ? of_tets : of_wedges);
+    out_.add_attribute(plan.connectivity.back(), "elem_type", has_tets ? of_tets : "WEDGE");
   }
   return out;
 }
@@ -298,7 +297,7 @@ void ExodusWriter::write_block(GroupedMesh& mesh, RowRange tets, int variable) {
 }
 
 void ExodusWriter::write_wedges(GroupedMesh& mesh, const Plan& plan) {
-  const std::size_t columns = wedge_node_count(mesh.element());
+  const std::size_t columns = wedge_node_count(Element::kTet4);
   for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
     const RowRange wedges = mesh.wedge_groups()[g].wedges;
     in_steps(wedges, [&](std::uint64_t first, std::uint64_t count) {

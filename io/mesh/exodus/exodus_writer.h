@@ -16,11 +16,11 @@ namespace mw::io {
 /// (X_MIN to Z_MAX), and OUTER for what else bounds the mesh.  The nodes of each of these, of an
 /// interface once, are a node set of the same name.  Side and node sets have ids from 1 on.  The
 /// elements of a block have their faces numbered as Exodus II does: side 1 has the nodes 1 2 4,
-/// side 2 has 2 3 4, side 3 has 1 4 3, side 4 has 1 3 2. Wedges
-/// between the sides of an interface are blocks of WEDGE, with tets of ten nodes WEDGE12, whose
-/// names are COHESIVE_1_2 and whose ids are above those of labels.  Memory: 9 MiB.  ERRORS: see
-/// NetcdfOutput;
-/// mw::Error(kUsage) above 2,147,483,647 nodes or tets.
+/// side 2 has 2 3 4, side 3 has 1 4 3, side 4 has 1 3 2.
+/// Wedges between the sides of an interface are blocks of WEDGE behind those of labels, with ids
+/// above theirs and names such as COHESIVE_1_2; between tets of ten nodes they are not written,
+/// because VTK's reader and libMesh know no wedge of 12 nodes.
+/// Memory: 9 MiB.  ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or tets.
 class ExodusWriter : public GroupedWriter {
  public:
   explicit ExodusWriter(const std::filesystem::path& path,
