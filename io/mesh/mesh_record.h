@@ -39,8 +39,7 @@ struct MeshPromises {
 /// Interfaces between whose two sides there are wedges of no thickness (--cohesive).
 struct CohesiveRule {
   bool all = false;  ///< those of all labels, each from its lower label to its higher one
-  /// The label that is under the wedges, and the one that is on top of them; no pair twice,
-  /// ascending where a run made the mesh.
+  /// The label that is under the wedges, and the one that is on top of them; no pair twice.
   std::vector<std::array<RawLabel, 2>> pairs;
 
   [[nodiscard]] bool any() const { return all || !pairs.empty(); }
