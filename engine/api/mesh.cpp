@@ -57,15 +57,11 @@ class ValuesSink : public io::MeshDataSink {
 };
 
 /// A job with its images opened.
-engine::MeshJob job_of(const Volume& volume, const Settings& settings, const Options& options,
-                       const Hooks& hooks) {
+engine::MeshJob job_of(const Settings& settings, const Options& options, const Hooks& hooks) {
   engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
   for (engine::SampleImage& sample : job.samples) {
     sample.image =
         io::open_volume(mw::api::checked_path(sample.file, "sample"), {.dataset = sample.dataset});
-    if (sample.image->info().format == "npy") {
-      sample.space = VolumeAccess::labels(volume).info().space;
-    }
   }
   return job;
 }
@@ -112,7 +108,7 @@ Mesh mesh(const Volume& volume, const Settings& settings, const Options& options
           const Hooks& hooks) {
   return mw::api::guarded([&] {
     ValuesSink sink;
-    std::string report = run_into(sink, {}, volume, job_of(volume, settings, options, hooks));
+    std::string report = run_into(sink, {}, volume, job_of(settings, options, hooks));
     Mesh mesh = mw::api::library_mesh(std::move(sink.mesh()));
     mesh.values = std::move(sink.values());
     mesh.report = std::move(report);
@@ -124,7 +120,7 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
                     const Options& options, const Hooks& hooks) {
   return mw::api::guarded([&] {
     WriterSink sink(writer);
-    return run_into(sink, {}, volume, job_of(volume, settings, options, hooks));
+    return run_into(sink, {}, volume, job_of(settings, options, hooks));
   });
 }
 
@@ -135,7 +131,7 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
     if (!options.sample.empty()) io::require_place_for_values(path);
     const io::Element kind = io::parse_element(element);
     if (!options.cohesive.empty()) io::require_place_for_wedges(path, kind);
-    engine::MeshJob job = job_of(volume, settings, options, hooks);
+    engine::MeshJob job = job_of(settings, options, hooks);
     job.folder = mw::api::checked_path(path).parent_path();
     const auto sink =
         io::open_mesh_sink(path, kind, io::Encoding::kUsual,

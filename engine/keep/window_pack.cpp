@@ -392,18 +392,20 @@ std::array<std::vector<std::byte>, kColumns> unpack_columns(std::span<const std:
   if (in.low_bytes(kSumBytes) != io::checksum(in.rest())) {
     throw BadBytes{"its checksum is wrong"};
   }
-  static_cast<void>(in.varint());
   std::array<std::size_t, kColumns> sizes{}, frames{};
   std::size_t joined_bytes = 0;
   for (std::size_t c = 0; c < kColumns; ++c) {
     sizes[c] = in.varint();
-    if (has_own_frame(sizes[c])) frames[c] = in.varint();
-    if (!has_own_frame(sizes[c])) joined_bytes += sizes[c];
+    if (has_own_frame(sizes[c])) {
+      frames[c] = in.varint();
+    } else {
+      joined_bytes += sizes[c];
+    }
   }
   std::array<std::vector<std::byte>, kColumns> out;
   for (std::size_t c = 0; c < kColumns; ++c) {
-    if (has_own_frame(sizes[c]))
-      out[c] = io::unpack_zstd(in.bytes(frames[c]), sizes[c], "versions");
+    if (!has_own_frame(sizes[c])) continue;
+    out[c] = io::unpack_zstd(in.bytes(frames[c]), sizes[c], "versions");
   }
   const std::vector<std::byte> joined = io::unpack_zstd(in.rest(), joined_bytes, "versions");
   ByteReader all(joined);
@@ -424,7 +426,6 @@ std::vector<std::byte> pack_blocks(std::span<const std::vector<std::byte>> block
   std::vector<std::byte> frames, joined;
   ByteWriter head;
   head.low_bytes(0, kSumBytes);
-  head.varint(blocks.size());
   for (ByteWriter& column : writer.columns) {
     const std::span<const std::byte> bytes = column.written();
     head.varint(bytes.size());

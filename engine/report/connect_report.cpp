@@ -72,8 +72,8 @@ std::string connect_text(const engine::ConnectFacts& facts) {
     add(io::text("hinges: ", facts.hinge_vertices, " vertices, ", facts.hinge_edges, " edges"));
   }
   if (facts.copies > 0) {
-    add(io::text(facts.doubled, " vertices doubled by ", facts.copies, " copies, then ",
-                 facts.parts_after, " parts"));
+    add(io::text(facts.doubled, " vertices doubled by ", facts.copies,
+                 " copies, parts after that: ", facts.parts_after));
   }
   if (facts.wedges + facts.closed > 0) {
     add(io::text(facts.wedges, " cohesive wedges"));

@@ -72,10 +72,11 @@ double value_of(const Tally& tally, Statistic statistic) {
   return tally.first + tally.sum / tally.volume;
 }
 
-/// Where the image is in the world of the labels.
+/// Where the image is in the world of the labels.  One that cannot say so has the voxels of the
+/// labels' file.
 io::VolumeSpace space_in(const SampleImage& sample, const io::VolumeInfo& labels) {
   const io::VolumeInfo& image = sample.image->info();
-  if (sample.space) return *sample.space;
+  if (!image.is_placed) return moved_to(labels.space, Index3{} - labels.first);
   const std::string &own = image.space.unit, &wanted = labels.space.unit;
   if (!own.empty() && !wanted.empty() && own != wanted) {
     throw Error(ErrorKind::kUsage,

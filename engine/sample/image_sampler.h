@@ -29,7 +29,6 @@ struct SampleImage {
   std::string dataset{};  ///< within a file that holds several
   Statistic statistic = Statistic::kMean;
   std::shared_ptr<const io::LabelVolume> image{};  ///< once it is opened
-  std::optional<io::VolumeSpace> space{};  ///< where it lies, instead of what it says itself
 };
 
 /// What was found for all tets that were written.

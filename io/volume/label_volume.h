@@ -35,7 +35,9 @@ struct VolumeInfo {
   /// What is read at once anyhow: boxes that begin and end at multiples of it are the cheapest.  0
   /// along an axis: any box is.
   Index3 chunk{0, 0, 0};
-  LabelNames names;  ///< what the file calls labels
+  Index3 first{0, 0, 0};  ///< which voxel of the file is the first of these
+  bool is_placed = true;  ///< false: the format cannot say where voxels are
+  LabelNames names;       ///< what the file calls labels
   std::string note;  ///< what was taken for what the file leaves open, for people; mostly empty
 };
 

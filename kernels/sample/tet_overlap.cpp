@@ -7,14 +7,12 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/core/tet_facets.h"
+
 namespace mw {
 namespace {
 
 constexpr std::size_t kX = 0, kY = 1, kZ = 2;
-
-/// Corners of the faces, normals outwards.
-constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 /// Convex and flat.  Each clip adds one corner at most, and those to the slab, the column and the
 /// planes across it, which are parallel, six to a triangle.
@@ -192,7 +190,7 @@ void TetOverlap::cut(const Box3& box,
   };
   Faces faces;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (const std::size_t corner : kFaces[f]) faces[f].add(corners_[corner]);
+    for (const std::size_t corner : kTetFacets[f]) faces[f].add(corners_[corner]);
   }
   std::vector<double> volumes;
   const Extent z_range = within(faces, kZ, box.lo.z, box.hi.z);

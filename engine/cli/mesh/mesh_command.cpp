@@ -99,20 +99,15 @@ std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
   return io::open_volume(image, {.spacing = open_options(request.volume).spacing});
 }
 
-/// Opens the images that tets get values from.  A .npy file says nothing of its place: its voxels
-/// are those of the labels' file.
-void open_samples(const MeshRequest& request, const io::VolumeInfo& labels,
-                  std::vector<engine::SampleImage>& samples) {
+/// Opens the images that tets get values from.
+void open_samples(const MeshRequest& request, std::vector<engine::SampleImage>& samples) {
   if (!run_processes().speaks()) samples.clear();
-  const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
   for (engine::SampleImage& sample : samples) {
     sample.image =
         io::open_volume(sample.file, {.dataset = sample.dataset,
                                       .trust_paths = request.volume.trust_paths,
                                       .cache_bytes = request.volume.cache_bytes / samples.size()});
-    if (sample.image->info().format == "npy") {
-      sample.space = moved_to(labels.space, Index3{} - first);
-    } else if (request.volume.frame == io::FrameChoice::kVoxel) {
+    if (sample.image->info().is_placed && request.volume.frame == io::FrameChoice::kVoxel) {
       throw Error(ErrorKind::kUsage, "--frame voxel: " + sample.file +
                                          " lies in the world, which the mesh then is not in");
     }
@@ -127,7 +122,7 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   engine::MeshJob job = request.job;
   job.stop = stop_if_interrupted;
   job.size_image = open_sizes(request);
-  open_samples(request, volume.info(), job.samples);
+  open_samples(request, job.samples);
   job.labels_known = [](std::size_t labels) { log_info(io::text("meshing ", labels, " labels")); };
   engine::RunHooks& run = job.run;
   run.keep.say = [](const std::string& line) { log_warning(line); };

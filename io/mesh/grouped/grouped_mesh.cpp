@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/core/tet_facets.h"
+
 namespace mw::io {
 
 GroupedMesh::GroupedMesh(const std::filesystem::path& folder)

@@ -62,10 +62,6 @@ struct Wedge {
   std::uint64_t top_tet = 0;
 };
 
-/// The corners of the facet opposite to each corner of a positive tet, normal outwards.
-inline constexpr std::array<std::array<std::size_t, 3>, 4> kTetFacets{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
 /// The six edges of a tet by its corners, in the order of VTK's, Abaqus' and FEBio's ten nodes.
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};

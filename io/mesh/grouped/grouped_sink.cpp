@@ -12,6 +12,7 @@
 #include "io/mesh/merged_vertices.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/core/assert.h"
+#include "kernels/core/tet_facets.h"
 
 namespace mw::io {
 namespace {

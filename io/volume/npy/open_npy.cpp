@@ -162,7 +162,7 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
   std::string dict(prefix.dict_length, '\0');
   source->read_at(prefix.dict_offset, std::as_writable_bytes(std::span(dict)));
   const NpyHeader header = parse_npy_dict(dict, source->name());
-  VolumeInfo info{.shape = header.shape, .type = header.type, .format = "npy"};
+  VolumeInfo info{.shape = header.shape, .type = header.type, .format = "npy", .is_placed = false};
   info.z_fastest = header.fortran_order;
   info.space = placed(source->name(), {}, options);
   check_payload(*source, info, offset);

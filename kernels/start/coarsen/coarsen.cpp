@@ -9,6 +9,7 @@
 
 #include "kernels/core/index.h"
 #include "kernels/start/carrier_faces.h"
+#include "kernels/start/cells/cell.h"
 #include "kernels/start/coarsen/simple_voxel.h"
 
 namespace mw {
@@ -121,7 +122,7 @@ class Coarsener {
   /// neighbours at least are as thin as it is.
   [[nodiscard]] bool is_in_sheet(Index3 v) const {
     constexpr int kInSheet = 3;
-    const std::array<Index3, 3> steps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const std::array<Index3, 3> steps{axis_vector(0), axis_vector(1), axis_vector(2)};
     return std::any_of(steps.begin(), steps.end(), [&](Index3 across) {
       if (!is_thin(v, across)) return false;
       int thin = 0;
@@ -162,7 +163,7 @@ class Coarsener {
       if (before[i] == now) continue;
       const Index3 v = cube_voxel(cube, i);
       for (unsigned axis = 0; axis < 3; ++axis) {
-        const Index3 step{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
+        const Index3 step = axis_vector(axis);
         for (const VoxelFace& face : {VoxelFace{v, axis}, VoxelFace{v - step, axis}}) {
           const LabelPair pair = label_pair(label_before(face.lower), label_before(face.upper()));
           if (pair.low == pair.high || pair.high == kExterior) continue;

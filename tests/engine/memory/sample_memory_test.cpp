@@ -34,11 +34,8 @@ TEST(Promise6BoundedMemory, OfValuesOfTets) {
     SmallVolume numbers{.shape = {60, 50, 40}};
     numbers.labels.resize(static_cast<std::size_t>(numbers.shape.product()));
     std::iota(numbers.labels.begin(), numbers.labels.end(), 0);
-    const auto image = std::make_shared<MemoryVolume>(numbers, Frame{});
-    io::VolumeSpace space;
-    space.spacing = {0.4, 0.4, 0.55};
-    ImageSampler sampler({{.name = "x", .statistic = statistic, .image = image, .space = space}},
-                         file.info(), 2);
+    const auto image = std::make_shared<MemoryVolume>(numbers, Frame{.spacing = {0.4, 0.4, 0.55}});
+    ImageSampler sampler({{.name = "x", .statistic = statistic, .image = image}}, file.info(), 2);
     std::uint64_t held = 0;
     OutputOptions options{.values = &sampler};
     options.hold = [&](std::uint64_t bytes) { held = std::max(held, bytes); };

@@ -487,6 +487,10 @@ class Values(InFolder):
         again = pickle.loads(pickle.dumps(mesh))
         np.testing.assert_array_equal(again.values["hu"], mesh.values["hu"])
         mesh.save(self.path("m.vtu"))
+        np.save(self.path("v.npy"), labels)
+        part = mwmesh.mesh(self.path("v.npy"), crop=((2, 1, 3), (9, 8, 10)),
+                           sample={"hu": self.path("image.npy")})
+        self.assertAlmostEqual(part.values["hu"] @ part.tet_volumes(), image[3:10, 1:8, 2:9].sum(), 6)
         with self.assertRaisesRegex(mwmesh.UsageError, "no place for values"):
             mesh.save(self.path("m.bdf"))
 
