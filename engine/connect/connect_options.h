@@ -51,7 +51,7 @@ struct ConnectOptions {
 [[nodiscard]] PartsRule parse_parts(std::string_view text);
 /// "1|2,1|3", or "*": all interfaces.  ERRORS: mw::Error(kUsage).
 [[nodiscard]] SplitRule parse_split(std::string_view text);
-/// As parse_split(): wedges go from the first label of a pair to the second.
+/// Takes pairs as parse_split() does; wedges go from the first label of a pair to the second.
 /// ERRORS: mw::Error(kUsage), also for a pair that is there twice.
 [[nodiscard]] io::CohesiveRule parse_cohesive(std::string_view text);
 /// ERRORS: mw::Error(kUsage) for a label in --split or --cohesive that the volume does not have.

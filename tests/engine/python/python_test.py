@@ -692,7 +692,8 @@ class Errors(InFolder):
             "workdir": (3, "a\0b"), "resume": ("yes", 2), "certify": (True, "maybe", []),
             "report": ("no",), "parts": (0, -1, "most", 1.5, None, True), "open_hinges": ("yes", 2),
             "split": ("1|2", 3, [1], [(1, 1)], [(1, 2, 0)], [(1, "x")], [(1, 77)]),
-            "cohesive": ("1|2", 3, [(1, 1)], [(1, 77)], [(0, 1), (1, 0)]), "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
+            "cohesive": ("1|2", 3, [(1, 1)], [(1, 77)], [(0, 1), (1, 0)]),
+            "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
             "window": (5, 1e3, 2**40, True, nan, "x", [32]), "max_distance": (nan, inf, -1, "x"),
             "surface": ("smoth", 1), "preset": ("quick",), "gradation": (0.2, -1),
         }
