@@ -297,8 +297,9 @@ void add_mesh(py::module_& module) {
     const auto count = static_cast<py::ssize_t>(found.rows.size());
     py::array_t<std::int64_t> rows({count, py::ssize_t{6}});
     py::array_t<std::uint64_t> labels({count, py::ssize_t{2}});
-    std::memcpy(rows.mutable_data(), found.rows.data(), rows.nbytes());
-    std::memcpy(labels.mutable_data(), found.labels.data(), labels.nbytes());
+    std::memcpy(rows.mutable_data(), found.rows.data(), found.rows.size() * sizeof found.rows[0]);
+    std::memcpy(labels.mutable_data(), found.labels.data(),
+                found.labels.size() * sizeof found.labels[0]);
     return py::make_tuple(rows, labels);
   });
   module.def("picture", [](const Mesh& mesh, int width, int height) {
