@@ -121,6 +121,8 @@ def _pairs_text(volume, value, name):
     pairs = [tuple(label(volume, one, name) for one in pair) for pair in value]
     if any(a == b for a, b in pairs):
         raise UsageError(f"{name}: two labels make a pair")
+    if name == "cohesive" and len({frozenset(pair) for pair in pairs}) < len(pairs):
+        raise UsageError(f"{name}: a pair is there twice")
     return ",".join(f"{a}|{b}" for a, b in pairs)
 
 

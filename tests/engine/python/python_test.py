@@ -6,6 +6,7 @@ import copy
 import doctest
 import json
 import os
+import pathlib
 import pickle
 import signal
 import subprocess
@@ -363,6 +364,7 @@ class Figures(unittest.TestCase):
             mwmesh.mesh(labels, parts=10**9, **place)
 
     def test_wedges(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         labels = np.ones((8, 8, 12), np.int8)
         labels[:, :, 6:] = -2
         split = mwmesh.mesh(labels, split=[(1, -2)])
@@ -381,18 +383,15 @@ class Figures(unittest.TestCase):
             np.testing.assert_array_equal(a, above)
             normals = np.cross(b - a, c - a) / 2
             np.testing.assert_allclose(normals.sum(axis=0), [64 if first == 1 else -64, 0, 0], atol=1e-9)
-            for other in (pickle.loads(pickle.dumps(mesh)), self.saved(mesh, "w.vtu")):
+            mesh.save(folder / "w.vtu")
+            for other in (pickle.loads(pickle.dumps(mesh)), mwmesh.read(folder / "w.vtu")):
                 np.testing.assert_array_equal(other.points[other.wedges], mesh.points[mesh.wedges])
             with self.assertRaises(mwmesh.UsageError):
-                mesh.save(self.path("w.mesh"))
+                mesh.save(folder / "w.mesh")
             with self.assertRaises(mwmesh.UsageError):
-                mwmesh.mesh_to_file(labels, self.path("w.bdf"), cohesive="*")
+                mwmesh.mesh_to_file(labels, folder / "w.bdf", cohesive="*")
             with self.assertRaises(ValueError):
                 mesh.wedges[0] = 0
-
-    def saved(self, mesh, name):
-        mesh.save(self.path(name))
-        return mwmesh.read(self.path(name))
 
     def test_choices(self):
         mesh = mwmesh.mesh(self.volume, labels=[-1, 2], merge={1: 2}, names={2: "ball"})
