@@ -222,6 +222,9 @@ struct Options {
   std::string parts = "all";
   /// Interfaces whose vertices are doubled so that they open, "1|2,1|3"; "*": all; empty: none.
   std::string split;
+  /// Interfaces that are split, too, with wedges of no thickness between their two sides, from the
+  /// first label of a pair to the second (wedges()); as split.
+  std::string cohesive;
   bool open_hinges = false;  ///< vertices at which parts hang are doubled, so that they come apart
   int threads = 0;           ///< 1 to 1,024; 0: all cores
   /// Bytes that the run may take; the mesh in memory, and the volume's arrays, come on top.
@@ -295,24 +298,34 @@ class MeshWriter {
 [[nodiscard]] Mesh mesh(const Volume& volume, const Settings& settings = {},
                         const Options& options = {}, const Hooks& hooks = {});
 
-/// Meshes the volume into a writer, as mesh() does.  Returns the report.
+/// Meshes the volume into a writer, as mesh() does; without wedges.  Returns the report.
 std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& settings = {},
                     const Options& options = {}, const Hooks& hooks = {});
 
 /// Meshes the volume into a file of any format of `mwmesh convert`, which appears under its name
 /// only once the mesh is whole.  element: "tet4" or "tet10".  Returns the report.
-/// ERRORS: also kUsage for values in a format that has no place for them.
+/// ERRORS: also kUsage for values or wedges in a format that has no place for them.
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings = {}, const Options& options = {},
                          const Hooks& hooks = {}, std::string_view element = "tet4");
 
 /// ERRORS: kInput naming file and place; kUsage for an unknown extension.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
-/// ERRORS: also kUsage for values in a format that has no place for them.
+/// ERRORS: also kUsage for values or wedges in a format that has no place for them.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                 std::string_view element = "tet4");
 /// Returns the label of a mesh that has this number or name.  ERRORS: those of find_label(Volume).
 [[nodiscard]] std::uint64_t find_label(const Mesh& mesh, std::string_view text);
+/// Wedges of no thickness, by row.
+struct Wedges {
+  /// Rows of points: three of the facet under the wedge, whose normal points to the other side, and
+  /// those above them in the same order.  Where an interface ends they may be the same.
+  std::vector<std::array<std::uint64_t, 6>> rows;
+  std::vector<std::array<std::uint64_t, 2>> labels;  ///< under the wedge, and on top of it
+};
+/// Returns the wedges between the two sides of the interfaces that Options::cohesive named, by
+/// interface.
+[[nodiscard]] Wedges wedges(const Mesh& mesh);
 /// Returns a PNG of all labels except the one around them, as `mwmesh picture` draws it.
 /// ERRORS: kUsage for fewer than 16 or more than 8,192 pixels; kInput when nothing is to be seen.
 [[nodiscard]] std::string picture(const Mesh& mesh, int width = 1200, int height = 900);

@@ -107,22 +107,25 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
   if (const std::string& image = values.sizes.rules.image; !image.empty()) {
     sizes = io::open_volume(image);
   }
-  return {.steps = input_steps(options),
-          .settings = std::move(values),
-          .size_image = std::move(sizes),
-          .samples = samples_of(options),
-          .choice = label_choice(options),
-          .connect = {.parts = engine::parse_parts(options.parts),
-                      .split = options.split.empty() ? engine::SplitRule{}
-                                                     : engine::parse_split(options.split),
-                      .open_hinges = options.open_hinges},
-          .finds_parts = options.report,
-          .certify = certify_of(options.certify),
-          .is_measured = options.report,
-          .wants_delta = options.from_kept && options.report,
-          .folder = io::scratch_folder(),
-          .run = run_hooks(options, hooks),
-          .stop = stop_function(hooks)};
+  return {
+      .steps = input_steps(options),
+      .settings = std::move(values),
+      .size_image = std::move(sizes),
+      .samples = samples_of(options),
+      .choice = label_choice(options),
+      .connect = {.parts = engine::parse_parts(options.parts),
+                  .split = options.split.empty() ? engine::SplitRule{}
+                                                 : engine::parse_split(options.split),
+                  .open_hinges = options.open_hinges,
+                  .cohesive = options.cohesive.empty() ? io::CohesiveRule{}
+                                                       : engine::parse_cohesive(options.cohesive)},
+      .finds_parts = options.report,
+      .certify = certify_of(options.certify),
+      .is_measured = options.report,
+      .wants_delta = options.from_kept && options.report,
+      .folder = io::scratch_folder(),
+      .run = run_hooks(options, hooks),
+      .stop = stop_function(hooks)};
 }
 
 std::function<void()> stop_function(const mwmesh::Hooks& hooks) {

@@ -129,9 +129,13 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
                          std::string_view element) {
   return mw::api::guarded([&] {
     if (!options.sample.empty()) io::require_place_for_values(path);
+    const io::Element kind = io::parse_element(element);
+    if (!options.cohesive.empty()) io::require_place_for_wedges(path, kind);
     engine::MeshJob job = job_of(settings, options, hooks);
     job.folder = mw::api::checked_path(path).parent_path();
-    const auto sink = io::open_mesh_sink(path, io::parse_element(element));
+    const auto sink =
+        io::open_mesh_sink(path, kind, io::Encoding::kUsual,
+                           options.cohesive.empty() ? io::Wedges::kNone : io::Wedges::kSome);
     return run_into(*sink, path, volume, job);
   });
 }

@@ -32,6 +32,23 @@ std::uint64_t find_label(const Mesh& mesh, std::string_view text) {
   });
 }
 
+Wedges wedges(const Mesh& mesh) {
+  return mw::api::guarded([&] {
+    mw::io::GroupedSink sink(mw::io::scratch_folder(), nullptr);
+    mw::api::deliver(mesh, sink);
+    mw::io::GroupedMesh& grouped = sink.mesh();
+    Wedges out;
+    for (const mw::io::WedgeGroup& group : grouped.wedge_groups()) {
+      for (std::uint64_t w = group.wedges.begin; w < group.wedges.end; ++w) {
+        const auto& [bottom, top, under, above] = grouped.wedge(w);
+        out.rows.push_back({bottom[0], bottom[1], bottom[2], top[0], top[1], top[2]});
+        out.labels.push_back({grouped.table().raw(group.bottom), grouped.table().raw(group.top)});
+      }
+    }
+    return out;
+  });
+}
+
 std::string picture(const Mesh& mesh, int width, int height) {
   return mw::api::guarded([&] {
     mw::picture::check_sides(width, height);

@@ -26,31 +26,67 @@ PartsRule parse_parts(std::string_view text) {
   return {.least_tets = tets};
 }
 
-SplitRule parse_split(std::string_view text) {
-  if (text == "*") return {.all = true, .pairs = {}};
-  SplitRule out;
+namespace {
+
+/// Pairs as they stand there.
+std::vector<std::array<RawLabel, 2>> parse_pairs(std::string_view text) {
+  std::vector<std::array<RawLabel, 2>> out;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string_view pair = text.substr(begin, end - begin);
     const std::size_t bar = pair.find('|');
     if (bar == pair.npos) fail_expected("pairs of labels such as 1|2,1|3, or *", pair);
-    const auto ends =
-        std::minmax({parse_label(pair.substr(0, bar)), parse_label(pair.substr(bar + 1))});
-    if (ends.first == ends.second) fail_expected("two labels", pair);
-    out.pairs.emplace_back(ends);
+    out.push_back({parse_label(pair.substr(0, bar)), parse_label(pair.substr(bar + 1))});
+    if (out.back()[0] == out.back()[1]) fail_expected("two labels", pair);
     begin = end + 1;
+  }
+  return out;
+}
+
+void check_label(RawLabel label, const char* option, const io::LabelTable& table) {
+  if (table.contains(label)) return;
+  throw Error(ErrorKind::kUsage,
+              io::text(option, ": the volume has no label ", static_cast<std::int64_t>(label)));
+}
+
+}  // namespace
+
+SplitRule ConnectOptions::all_split() const {
+  SplitRule out = split;
+  out.all = out.all || cohesive.all;
+  for (const auto& [bottom, top] : cohesive.pairs) out.pairs.emplace_back(std::minmax(bottom, top));
+  std::sort(out.pairs.begin(), out.pairs.end());
+  return out;
+}
+
+SplitRule parse_split(std::string_view text) {
+  if (text == "*") return {.all = true, .pairs = {}};
+  SplitRule out;
+  for (const auto& [one, other] : parse_pairs(text))
+    out.pairs.emplace_back(std::minmax(one, other));
+  std::sort(out.pairs.begin(), out.pairs.end());
+  return out;
+}
+
+io::CohesiveRule parse_cohesive(std::string_view text) {
+  if (text == "*") return {.all = true, .pairs = {}};
+  io::CohesiveRule out;
+  for (const auto& [bottom, top] : parse_pairs(text)) {
+    if (out.has(bottom, top)) fail_expected("no pair of labels twice", text);
+    out.pairs.push_back({bottom, top});
   }
   std::sort(out.pairs.begin(), out.pairs.end());
   return out;
 }
 
-void check_split(const SplitRule& split, const io::LabelTable& table) {
-  for (const auto& [low, high] : split.pairs) {
-    for (const RawLabel label : {low, high}) {
-      if (table.contains(label)) continue;
-      throw Error(ErrorKind::kUsage,
-                  io::text("--split: the volume has no label ", static_cast<std::int64_t>(label)));
-    }
+void check_interfaces(const ConnectOptions& options, const io::LabelTable& table) {
+  for (const auto& [low, high] : options.split.pairs) {
+    check_label(low, "--split", table);
+    check_label(high, "--split", table);
+  }
+  for (const auto& [bottom, top] : options.cohesive.pairs) {
+    check_label(bottom, "--cohesive", table);
+    check_label(top, "--cohesive", table);
   }
 }
 

@@ -37,19 +37,25 @@ struct ConnectOptions {
   PartsRule parts;
   SplitRule split;
   bool open_hinges = false;
+  io::CohesiveRule cohesive{};  ///< interfaces that are split, too, and get wedges
 
   /// Whether the mesh that is written differs from the one that was made.
   [[nodiscard]] bool change_mesh() const {
-    return parts.leaves_out() || split.any() || open_hinges;
+    return parts.leaves_out() || split.any() || open_hinges || cohesive.any();
   }
+  /// All interfaces whose vertices are doubled.
+  [[nodiscard]] SplitRule all_split() const;
 };
 
 /// "all", "largest", or the least number of tets.  ERRORS: mw::Error(kUsage).
 [[nodiscard]] PartsRule parse_parts(std::string_view text);
 /// "1|2,1|3", or "*": all interfaces.  ERRORS: mw::Error(kUsage).
 [[nodiscard]] SplitRule parse_split(std::string_view text);
-/// ERRORS: mw::Error(kUsage) for a label that the volume does not have.
-void check_split(const SplitRule& split, const io::LabelTable& table);
+/// Takes pairs as parse_split() does; wedges go from the first label of a pair to the second.
+/// ERRORS: mw::Error(kUsage), also for a pair that is there twice.
+[[nodiscard]] io::CohesiveRule parse_cohesive(std::string_view text);
+/// ERRORS: mw::Error(kUsage) for a label in --split or --cohesive that the volume does not have.
+void check_interfaces(const ConnectOptions& options, const io::LabelTable& table);
 
 /// Parts of fewer tets are counted apart.
 inline constexpr std::uint64_t kSmallPartTets = 20;
@@ -90,6 +96,8 @@ struct ConnectFacts {
   std::uint64_t doubled = 0;       ///< vertices that were doubled
   std::uint64_t copies = 0;        ///< vertices that were added by that
   std::uint64_t parts_after = 0;   ///< parts of the mesh with its doubled vertices
+  std::uint64_t wedges = 0;        ///< between the sides of cohesive interfaces
+  std::uint64_t closed = 0;        ///< facets of these whose vertices all stayed one
 };
 
 }  // namespace mw::engine

@@ -30,6 +30,7 @@ ConnectedSink::ConnectedSink(io::MeshSink& below, ConnectTask task)
 
 void ConnectedSink::begin(const io::MeshHeader& header) {
   header_ = header;
+  header_.record.cohesive = task_.options.cohesive;
   finder_.emplace(task_.options, task_.folder, task_.memory_bytes);
   if (!task_.options.change_mesh()) below_.begin(header);
 }

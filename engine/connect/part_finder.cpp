@@ -43,11 +43,13 @@ bool are_cut(const SplitRule& split, std::span<const StarTet> star, const StarPa
 PartFinder::PartFinder(ConnectOptions options, std::filesystem::path folder,
                        std::size_t memory_bytes)
     : options_(std::move(options)),
+      split_(options_.all_split()),
       folder_(std::move(folder)),
       memory_bytes_(memory_bytes),
       stars_(folder_, memory_bytes_),
       pinched_(folder_, memory_bytes_ / 2),
-      copied_(folder_, memory_bytes_ / 2),
+      copied_(folder_, memory_bytes_ / 4),
+      cohesive_(folder_, memory_bytes_ / 4),
       copies_(folder_),
       tet_pieces_(folder_) {}
 
@@ -73,7 +75,7 @@ std::vector<std::uint32_t> PartFinder::pieces_of_chunk() {
   for (std::size_t f = 1; f < faces.size(); ++f) {
     const ChunkFace &one = faces[f - 1], &other = faces[f];
     if (!std::equal(one.begin(), one.begin() + 3, other.begin())) continue;
-    if (!options_.split.cuts(labels_[one[3]], labels_[other[3]])) sets.unite(one[3], other[3]);
+    if (!split_.cuts(labels_[one[3]], labels_[other[3]])) sets.unite(one[3], other[3]);
   }
   const std::vector<std::size_t> numbers = sets.numbers();
   return {numbers.begin(), numbers.end()};
@@ -119,6 +121,7 @@ void PartFinder::find() {
   choose_parts();
   each_star(pinched_,
             [&](std::uint64_t row, std::vector<StarTet>& star) { look_at_pinched(row, star); });
+  count_wedges();
   count_parts();
 }
 
@@ -144,7 +147,7 @@ void PartFinder::unite_star(std::uint64_t row, std::vector<StarTet>& star) {
   each_star_face(star, [&](const StarPair& pair) {
     ++inner_faces;
     sets.unite(pair[0], pair[1]);
-    const bool cuts = are_cut(options_.split, star, pair);
+    const bool cuts = are_cut(split_, star, pair);
     is_cut = is_cut || cuts;
     const std::uint32_t one = piece_at(star[pair[0]].tet), other = piece_at(star[pair[1]].tet);
     unite(&Piece::parent, one, other);
@@ -213,7 +216,7 @@ void PartFinder::look_at_pinched(std::uint64_t row, std::vector<StarTet>& star) 
   StarSets joined(star.size()), split(star.size());
   bool is_cut = false;
   each_star_face(star, [&](const StarPair& pair) {
-    const bool cuts = are_cut(options_.split, star, pair);
+    const bool cuts = are_cut(split_, star, pair);
     is_cut = is_cut || cuts;
     joined.unite(pair[0], pair[1]);
     if (!cuts) split.unite(pair[0], pair[1]);
@@ -222,6 +225,7 @@ void PartFinder::look_at_pinched(std::uint64_t row, std::vector<StarTet>& star) 
     unite(&Piece::body_parent, piece_at(star[0].tet), piece_at(tet.tet));
   }
   if ((is_cut || options_.open_hinges) && split.count() > 1) double_vertex(row, star, split);
+  if (is_cut && options_.cohesive.any()) find_cohesive_facets(row, star, split);
   count_hinges(row, star, std::move(joined));
 }
 
@@ -241,6 +245,36 @@ void PartFinder::count_hinges(std::uint64_t row, std::span<const StarTet> star, 
   ++facts_.hinge_vertices;
   add_hinge({.labels = {star[0].label, star[static_cast<std::size_t>(second)].label},
              .rows = {row, row}});
+}
+
+/// A facet comes once from each of its vertices.
+void PartFinder::find_cohesive_facets(std::uint64_t row, std::span<const StarTet> star,
+                                      const StarSets& sets) {
+  const std::vector<std::size_t> numbers = sets.numbers();
+  each_star_face(star, [&](const StarPair& pair) {
+    const StarTet &one = star[pair[0]], &other = star[pair[1]];
+    if (!options_.cohesive.has(one.label, other.label)) return;
+    std::array<std::uint64_t, 4> facet{row};
+    std::set_intersection(one.others.begin(), one.others.end(), other.others.begin(),
+                          other.others.end(), facet.begin() + 1);
+    std::sort(facet.begin(), facet.begin() + 3);
+    facet[3] = numbers[pair[0]] != numbers[pair[1]] ? 1 : 0;
+    cohesive_.add(facet);
+  });
+}
+
+/// A facet has a wedge unless both tets keep all three vertices.
+void PartFinder::count_wedges() {
+  std::array<std::uint64_t, 4> last{};
+  const auto close = [&] { ++(last[3] != 0 ? facts_.wedges : facts_.closed); };
+  bool is_first = true;
+  cohesive_.each([&](const std::array<std::uint64_t, 4>& facet) {
+    const bool is_new = is_first || !std::equal(facet.begin(), facet.begin() + 3, last.begin());
+    if (is_new && !is_first) close();
+    is_first = false;
+    last = facet;  // that of an open vertex comes behind the others
+  });
+  if (!is_first) close();
 }
 
 void PartFinder::add_hinge(const HingePlace& hinge) {

@@ -25,6 +25,7 @@ struct CopiedCorner {
   std::uint64_t copy = 0;  ///< number of the copy
 };
 
+/// Wedges are counted where the options ask for some.
 /// Memory: `memory_bytes` twice, 0.3 MiB, and 40 bytes a piece.  Disk: 192 bytes a tet in `folder`,
 /// for the time of find().  ENSURES: what is found depends on the mesh alone, not on how it was
 /// divided among calls of add().  Cost: 3 us a tet.
@@ -74,6 +75,8 @@ class PartFinder {
   void count_parts();
   void look_at_pinched(std::uint64_t row, std::vector<StarTet>& star);
   void count_hinges(std::uint64_t row, std::span<const StarTet> star, StarSets joined);
+  void find_cohesive_facets(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
+  void count_wedges();
   void add_hinge(const HingePlace& hinge);
   void double_vertex(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
 
@@ -82,6 +85,7 @@ class PartFinder {
   [[nodiscard]] std::uint32_t piece_at(std::uint64_t place) const;
 
   ConnectOptions options_;
+  SplitRule split_;  ///< all interfaces that come apart
   std::filesystem::path folder_;
   std::size_t memory_bytes_;
   std::vector<io::TetRows> tets_;  ///< of the chunk
@@ -90,7 +94,8 @@ class PartFinder {
   std::vector<Piece> pieces_;
   io::ExternalSort<6> stars_;
   io::ExternalSort<6> pinched_;
-  io::ExternalSort<3> copied_;  ///< tet, row, copy
+  io::ExternalSort<3> copied_;    ///< tet, row, copy
+  io::ExternalSort<4> cohesive_;  ///< rows of a facet, ascending; 1 if a vertex of it is doubled
   io::ScratchFile copies_;
   io::ScratchFile tet_pieces_;  ///< the piece of each tet; only where parts are left out
   std::uint64_t loaded_chunk_ = ~std::uint64_t{0};

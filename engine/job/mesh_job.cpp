@@ -283,7 +283,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     if (sizes) sizes.emplace(sizes->scaled(run.count->scale));
     check(opened.info(), job.settings);
   }
-  check_split(job.connect.split, run.labels);
+  check_interfaces(job.connect, run.labels);
   std::optional<ConnectedSink> connected;
   if (job.finds_parts || job.connect.change_mesh()) connected.emplace(sink, connect_task(job));
   io::MeshSink& target = connected ? static_cast<io::MeshSink&>(*connected) : sink;

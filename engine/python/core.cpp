@@ -202,6 +202,7 @@ void add_options(py::module_& module) {
       .def_readwrite("background", &Options::background)
       .def_readwrite("parts", &Options::parts)
       .def_readwrite("split", &Options::split)
+      .def_readwrite("cohesive", &Options::cohesive)
       .def_readwrite("open_hinges", &Options::open_hinges)
       .def_readwrite("threads", &Options::threads)
       .def_readwrite("memory", &Options::memory)
@@ -290,6 +291,19 @@ void add_mesh(py::module_& module) {
       });
   module.def("find_label",
              [](const Mesh& mesh, const std::string& text) { return find_label(mesh, text); });
+  module.def("wedges", [](const Mesh& mesh) {
+    const Wedges found = [&] {
+      const py::gil_scoped_release no_gil;
+      return wedges(mesh);
+    }();
+    const auto count = static_cast<py::ssize_t>(found.rows.size());
+    py::array_t<std::int64_t> rows({count, py::ssize_t{6}});
+    py::array_t<std::uint64_t> labels({count, py::ssize_t{2}});
+    std::memcpy(rows.mutable_data(), found.rows.data(), found.rows.size() * sizeof found.rows[0]);
+    std::memcpy(labels.mutable_data(), found.labels.data(),
+                found.labels.size() * sizeof found.labels[0]);
+    return py::make_tuple(rows, labels);
+  });
   module.def("picture", [](const Mesh& mesh, int width, int height) {
     return py::bytes([&] {
       const py::gil_scoped_release no_gil;

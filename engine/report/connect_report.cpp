@@ -50,7 +50,9 @@ Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
           {"doubled",
            {{"vertices", facts.doubled},
             {"copies", facts.copies},
-            {"parts_after", facts.parts_after}}}};
+            {"parts_after", facts.parts_after},
+            {"wedges", facts.wedges},
+            {"facets_without_wedge", facts.closed}}}};
 }
 
 std::string connect_text(const engine::ConnectFacts& facts) {
@@ -72,6 +74,10 @@ std::string connect_text(const engine::ConnectFacts& facts) {
   if (facts.copies > 0) {
     add(io::text(facts.doubled, " vertices doubled by ", facts.copies,
                  " copies, parts after that: ", facts.parts_after));
+  }
+  if (facts.wedges + facts.closed > 0) {
+    add(io::text(facts.wedges, " cohesive wedges"));
+    if (facts.closed > 0) add(io::text("none on ", facts.closed, " facets that cannot open"));
   }
   return out;
 }

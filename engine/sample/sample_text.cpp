@@ -66,7 +66,7 @@ SampleImage parse_sample(std::string_view text) {
 
 std::vector<SampleImage> parse_samples(std::string_view text) {
   std::vector<SampleImage> out;
-  std::vector<std::string> taken{"label"};
+  std::vector<std::string> taken{"label", "cohesive"};
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(';', begin), text.size());
     out.push_back(parse_sample(text.substr(begin, end - begin)));

@@ -7,7 +7,8 @@
 
 namespace mw::io {
 
-MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element)
+MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element,
+                         bool has_wedges)
     : element_(element),
       connectivity_(output, places.connectivity),
       offsets_(output, places.offsets),
@@ -15,6 +16,7 @@ MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Eleme
       labels_(output, places.labels),
       points_(output, places.points) {
   for (const std::uint64_t place : places.values) values_.emplace_back(output, place);
+  if (has_wedges) cohesive_.emplace(output, places.cohesive);
 }
 
 void MeshColumns::go_to(const RowPlace& place) {
@@ -37,10 +39,23 @@ void MeshColumns::write_vertices(std::span<const Position> positions) {
 
 void MeshColumns::write_cell(std::span<const std::uint64_t> rows, RawLabel label) {
   for (const std::uint64_t row : rows) connectivity_.add(row);
-  types_.add(vtk_type(element_));
-  labels_.add(label);
   ++place_.tet;
-  offsets_.add(node_count(element_) * place_.tet);
+  end_cell(vtk_type(element_), label);
+  if (cohesive_) cohesive_->add(0);
+}
+
+void MeshColumns::write_wedge(std::span<const std::uint64_t> rows, RawLabel label,
+                              std::uint64_t interface) {
+  for (std::size_t i = 0; i < rows.size(); ++i) connectivity_.add(rows[kVtkWedgeOrder[i]]);
+  ++wedges_;
+  end_cell(vtk_wedge_type(element_), label);
+  cohesive_->add(interface);
+}
+
+void MeshColumns::end_cell(std::uint8_t type, RawLabel label) {
+  types_.add(type);
+  labels_.add(label);
+  offsets_.add(node_count(element_) * place_.tet + wedge_node_count(element_) * wedges_);
 }
 
 void MeshColumns::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
@@ -54,6 +69,7 @@ void MeshColumns::write_values(std::span<const double> rows) {
 
 void MeshColumns::flush() {
   for (auto& column : values_) column.flush();
+  if (cohesive_) cohesive_->flush();
   connectivity_.flush();
   offsets_.flush();
   types_.flush();
@@ -64,7 +80,7 @@ void MeshColumns::flush() {
 void ColumnSink::place_columns(const MeshHeader& header, PlacedOutput& output,
                                const ColumnPlaces& places) {
   header_ = header;
-  columns_ = MeshColumns(output, places, element_);
+  columns_ = MeshColumns(output, places, element_, header.wedges.count > 0);
   columns_.go_to({0, 0});
 }
 
@@ -87,8 +103,16 @@ void ColumnSink::write_cell(std::span<const std::uint64_t> rows, RawLabel label)
   columns_.write_cell(rows, label);
 }
 
+void ColumnSink::write_wedge(std::span<const std::uint64_t> rows, RawLabel bottom,
+                             std::uint64_t interface) {
+  MW_ASSERT(rows.size() == wedge_node_count(element_) && columns_.wedges() < header_.wedges.count &&
+            columns_.place().tet == header_.tets);
+  columns_.write_wedge(rows, bottom, interface);
+}
+
 RowPlace ColumnSink::finish_columns(std::string_view file) {
   check_sink_counts(file, header_, columns_.place().tet);
+  MW_ASSERT(columns_.wedges() == header_.wedges.count);
   columns_.flush();
   return columns_.place();
 }

@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -63,6 +64,7 @@ struct ColumnPlaces {
   std::uint64_t labels = 0;
   std::uint64_t points = 0;             ///< behind all others: how many there are is known last
   std::vector<std::uint64_t> values{};  ///< of each of MeshHeader::values
+  std::uint64_t cohesive = 0;           ///< only with wedges: their interface; 0 of a tet
 };
 
 /// Writes rows, from any on.  Cost: 3 MiB of buffers, half a MiB more for each column of values.
@@ -71,7 +73,8 @@ class MeshColumns {
  public:
   MeshColumns() = default;
   /// output outlives it.
-  MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element);
+  MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element,
+              bool has_wedges = false);
 
   /// Before the first rows, too.  With tet 0 goes the first of the offsets, which there is even
   /// without tets.
@@ -79,6 +82,9 @@ class MeshColumns {
   void write_vertices(std::span<const Position> positions);
   /// rows: of node_count(element).
   void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
+  /// Behind all tets.  rows: of wedge_node_count(element), as NodeRows has them; label: that under
+  /// the wedge.  REQUIRES: made for wedges.
+  void write_wedge(std::span<const std::uint64_t> rows, RawLabel label, std::uint64_t interface);
   /// REQUIRES: tets.size() == labels.size(); made for kTet4.
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
   /// rows: a number for each column of values, tet by tet.
@@ -87,26 +93,33 @@ class MeshColumns {
 
   /// The next rows.
   [[nodiscard]] const RowPlace& place() const { return place_; }
+  [[nodiscard]] std::uint64_t wedges() const { return wedges_; }
 
  private:
   using Column = FileColumn<std::uint64_t>;
 
+  void end_cell(std::uint8_t type, RawLabel label);
+
   Element element_ = Element::kTet4;
   RowPlace place_;
+  std::uint64_t wedges_ = 0;
   Column connectivity_;
   Column offsets_;
   FileColumn<std::uint8_t> types_;
   Column labels_;
   FileColumn<double> points_;
   std::vector<FileColumn<double>> values_;
+  std::optional<Column> cohesive_;
 };
 
 /// What the sinks of such formats have in common: rows go into columns as they come.
-class ColumnSink : public TenNodeSink {
+class ColumnSink : public CellSink {
  public:
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void write_cell(std::span<const std::uint64_t> rows, RawLabel label) override;
+  void write_wedge(std::span<const std::uint64_t> rows, RawLabel bottom,
+                   std::uint64_t interface) override;
   void write_values(std::span<const double> rows) override { columns_.write_values(rows); }
 
  protected:

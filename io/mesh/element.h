@@ -3,6 +3,8 @@
 // Nodes of a tet in a file.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -35,5 +37,35 @@ inline constexpr std::uint8_t kVtkQuadraticTetra = 24;
 [[nodiscard]] constexpr std::uint8_t vtk_type(Element element) {
   return element == Element::kTet10 ? kVtkQuadraticTetra : kVtkTetra;
 }
+
+/// Nodes of a wedge between tets of that kind.
+[[nodiscard]] constexpr std::uint64_t wedge_node_count(Element element) {
+  return element == Element::kTet10 ? 12 : 6;
+}
+
+/// VTK's cell types for wedges: the second has nodes in the middles of the edges of its two
+/// triangles, and none between these.
+inline constexpr std::uint8_t kVtkWedge = 13;
+inline constexpr std::uint8_t kVtkQuadraticLinearWedge = 31;
+
+[[nodiscard]] constexpr std::uint8_t vtk_wedge_type(Element element) {
+  return element == Element::kTet10 ? kVtkQuadraticLinearWedge : kVtkWedge;
+}
+
+[[nodiscard]] constexpr bool is_vtk_wedge(std::uint64_t type) {
+  return type == kVtkWedge || type == kVtkQuadraticLinearWedge;
+}
+
+/// Nodes of a cell, which may be a wedge where there are some; 0 of any other type.
+[[nodiscard]] constexpr std::uint64_t vtk_nodes_of(std::uint64_t type, bool has_wedges) {
+  if (type == kVtkTetra) return node_count(Element::kTet4);
+  if (type == kVtkQuadraticTetra) return node_count(Element::kTet10);
+  if (!has_wedges || !is_vtk_wedge(type)) return 0;
+  return wedge_node_count(type == kVtkWedge ? Element::kTet4 : Element::kTet10);
+}
+
+/// Where VTK has the nodes of a wedge (NodeRows of grouped/grouped_mesh.h): the normal of its first
+/// triangle points away from the second one, other than in all other formats.
+inline constexpr std::array<std::size_t, 12> kVtkWedgeOrder{0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9};
 
 }  // namespace mw::io

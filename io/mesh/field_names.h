@@ -20,6 +20,11 @@ inline constexpr const char* kLabelName =
     "label_name";  ///< strings, or bytes with a NUL behind each
 inline constexpr const char* kLabelColour = "label_colour";  ///< 4 x u8
 
+/// Cells between the two sides of an interface: the number of the interface, 0 of tets; and by
+/// interface the labels on its two sides.
+inline constexpr const char* kCohesive = "cohesive";
+inline constexpr const char* kCohesiveLabels = "cohesive_labels";
+
 /// The arrays of a file, one row a label.
 struct FieldNames {
   std::vector<std::uint64_t> ids;

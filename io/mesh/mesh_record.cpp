@@ -3,6 +3,8 @@
 // What a mesh file tells of the run that made it, as a line of JSON.
 #include "io/mesh/mesh_record.h"
 
+#include <algorithm>
+
 #include "io/file/errors.h"
 #include "io/json/json.h"
 #include "io/json/json_fields.h"
@@ -20,6 +22,7 @@ constexpr const char* kOnly = "only_labels";
 constexpr const char* kWithout = "without_labels";
 constexpr const char* kPartial = "partial_labels";
 constexpr const char* kDoubled = "doubled_vertices";
+constexpr const char* kCohesive = "cohesive";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 Json box_json(const MeshBox& box) {
@@ -85,7 +88,40 @@ std::vector<RawLabel> labels_in(const JsonFields& fields, const char* key) {
   return {numbers.begin(), numbers.end()};
 }
 
+Json cohesive_json(const CohesiveRule& rule) {
+  if (rule.all) return true;
+  Json out = Json::array();
+  for (const auto& pair : rule.pairs) {
+    for (const RawLabel label : pair) out.push_back(static_cast<std::int64_t>(label));
+  }
+  return out;
+}
+
+CohesiveRule cohesive_in(const JsonFields& fields) {
+  CohesiveRule out;
+  if (!fields.has(kCohesive)) return out;
+  if (!fields.is_array(kCohesive)) {
+    out.all = fields.flag(kCohesive);
+    return out;
+  }
+  const std::vector<RawLabel> labels = labels_in(fields, kCohesive);
+  if (labels.size() % 2 != 0) fields.fail(kCohesive, "has a label without another one");
+  for (std::size_t i = 0; i < labels.size(); i += 2) {
+    if (out.has(labels[i], labels[i + 1])) fields.fail(kCohesive, "has a pair twice");
+    out.pairs.push_back({labels[i], labels[i + 1]});
+  }
+  return out;
+}
+
 }  // namespace
+
+bool CohesiveRule::has(RawLabel one, RawLabel other) const {
+  return one != other && (all || names(one, other) || names(other, one));
+}
+
+bool CohesiveRule::names(RawLabel one, RawLabel other) const {
+  return std::find(pairs.begin(), pairs.end(), std::array<RawLabel, 2>{one, other}) != pairs.end();
+}
 
 std::string record_text(const MeshRecord& record) {
   Json out = Json::object();
@@ -96,6 +132,7 @@ std::string record_text(const MeshRecord& record) {
   add_labels(record.without_labels, kWithout, out);
   add_labels(record.partial_labels, kPartial, out);
   if (record.has_doubles) out[kDoubled] = true;
+  if (record.cohesive.any()) out[kCohesive] = cohesive_json(record.cohesive);
   return out.empty() ? std::string() : out.dump();
 }
 
@@ -115,6 +152,7 @@ MeshRecord parse_record(std::string_view text, std::string_view file) {
   record.without_labels = labels_in(fields, kWithout);
   record.partial_labels = labels_in(fields, kPartial);
   record.has_doubles = fields.has(kDoubled) && fields.flag(kDoubled);
+  record.cohesive = cohesive_in(fields);
   if (!record.only_labels.empty() && !record.without_labels.empty()) {
     fields.fail(kWithout, "contradicts only_labels");
   }

@@ -36,6 +36,20 @@ struct MeshPromises {
   friend bool operator==(const MeshPromises&, const MeshPromises&) = default;
 };
 
+/// Interfaces between whose two sides there are wedges of no thickness (--cohesive).
+struct CohesiveRule {
+  bool all = false;  ///< those of all labels, each from its lower label to its higher one
+  /// The label that is under the wedges, and the one that is on top of them; no pair twice.
+  std::vector<std::array<RawLabel, 2>> pairs;
+
+  [[nodiscard]] bool any() const { return all || !pairs.empty(); }
+  /// True if the interface of these two labels, in any order, has wedges.
+  [[nodiscard]] bool has(RawLabel one, RawLabel other) const;
+  /// True if a pair of the rule has `one` under its wedges and `other` on top of them.
+  [[nodiscard]] bool names(RawLabel one, RawLabel other) const;
+  friend bool operator==(const CohesiveRule&, const CohesiveRule&) = default;
+};
+
 /// Where formats that have names for arrays and groups keep it.
 inline constexpr const char* kRecordName = "mwmesh";
 
@@ -48,8 +62,10 @@ struct MeshRecord {
   std::vector<RawLabel> without_labels;
   /// Labels of which parts were left out (--parts), ascending.
   std::vector<RawLabel> partial_labels;
-  /// Whether there are vertices that were doubled (--split, --open-hinges).
+  /// Whether there are vertices that were doubled (--split, --cohesive, --open-hinges).
   bool has_doubles = false;
+  /// The wedges are no content of their own: they follow from the tets and the doubled vertices.
+  CohesiveRule cohesive{};
 
   friend bool operator==(const MeshRecord&, const MeshRecord&) = default;
 };
@@ -57,8 +73,9 @@ struct MeshRecord {
 /// {"box": {"origin": [...], "x": [...], "y": [...], "z": [...]}, "promises": {"max_distance": 1.5,
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none"},
 /// "frame": "ras", "only_labels": [...], "without_labels": [...], "partial_labels": [...],
-/// "doubled_vertices": true}, without what is not known; empty when nothing is.  Labels are numbers
-/// of 64 bits with a sign.  ASCII, no line end; numbers come back to the bit.
+/// "doubled_vertices": true, "cohesive": [1, 2, 1, 3]}, without what is not known; empty when
+/// nothing is.  "cohesive" has the labels under and on top of wedges by turns, or is true: all.
+/// Labels are numbers of 64 bits with a sign.  ASCII, no line end; numbers come back to the bit.
 [[nodiscard]] std::string record_text(const MeshRecord& record);
 
 /// Nothing of an empty text.  ERRORS: mw::Error(kInput) naming file and field.  Whether a run can

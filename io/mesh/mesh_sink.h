@@ -19,6 +19,13 @@ namespace mw::io {
 
 using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive orientation
 
+/// The wedges of a mesh, for sinks that write some.
+struct WedgeHeader {
+  std::uint64_t count = 0;
+  /// By interface: the label under its wedges, and the one on top of them.
+  std::vector<std::array<RawLabel, 2>> interfaces{};
+};
+
 /// What is known before the first row.  The number of vertices is not: a writer that merges blocks
 /// learns it with the last of them.
 struct MeshHeader {
@@ -27,6 +34,7 @@ struct MeshHeader {
   LabelNames names;                   ///< of labels that are written
   MeshRecord record;                  ///< of the run that made it
   std::vector<std::string> values{};  ///< names of numbers that each tet has: letters, digits, '_'
+  WedgeHeader wedges{};               ///< set by CellWriter alone (grouped/grouped_mesh.h)
 };
 
 /// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink

@@ -41,6 +41,8 @@ struct MeshFormat {
   /// Opens a sink that writes materials; null where the format has no sets of elements.
   std::unique_ptr<MeshSink> (*open_materials)(const std::filesystem::path&, Element,
                                               const MaterialRule&) = nullptr;
+  /// Opens a sink for a mesh that is known to have wedges; null where `open` or `open_text` does.
+  std::unique_ptr<MeshSink> (*open_wedges)(const std::filesystem::path&, Element) = nullptr;
 
   [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }
   [[nodiscard]] bool is_written() const { return open != nullptr; }
@@ -49,6 +51,19 @@ struct MeshFormat {
     constexpr std::array<std::string_view, 6> kWithValues{".vtkhdf", ".vtu", ".msh",
                                                           ".msh2",   ".exo", ".xdmf"};
     return std::find(kWithValues.begin(), kWithValues.end(), extension) != kWithValues.end();
+  }
+  /// Wedges of six nodes, and of twelve.
+  [[nodiscard]] bool has_wedges6() const {
+    constexpr std::array<std::string_view, 4> kWithSixAlone{".msh", ".msh2", ".inp", ".exo"};
+    return has_wedges12() ||
+           std::find(kWithSixAlone.begin(), kWithSixAlone.end(), extension) != kWithSixAlone.end();
+  }
+  [[nodiscard]] bool has_wedges12() const {
+    constexpr std::array<std::string_view, 2> kWithTwelve{".vtkhdf", ".vtu"};
+    return std::find(kWithTwelve.begin(), kWithTwelve.end(), extension) != kWithTwelve.end();
+  }
+  [[nodiscard]] bool has_wedges(Element element) const {
+    return element == Element::kTet10 ? has_wedges12() : has_wedges6();
   }
 };
 
@@ -60,12 +75,55 @@ std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Elemen
               text(path.string(), ": ", path.extension().string(), " is written with tet4 only"));
 }
 
+/// Cells of the mesh once it is grouped.
+std::unique_ptr<MeshSink> in_groups(const std::filesystem::path& path,
+                                    std::unique_ptr<CellSink> sink, Element element) {
+  return std::make_unique<GroupedSink>(path.parent_path(),
+                                       std::make_unique<CellWriter>(std::move(sink)), element);
+}
+
+template <class Sink>
+std::unique_ptr<MeshSink> open_cells(const std::filesystem::path& path, Element element) {
+  return in_groups(path, std::make_unique<Sink>(path, element), element);
+}
+
+/// Tets of four nodes as they come, unless the mesh turns out to have wedges.
+class StreamedCells : public MeshSink {
+ public:
+  StreamedCells(std::filesystem::path path, std::unique_ptr<CellSink> cells)
+      : path_(std::move(path)), cells_(std::move(cells)) {}
+
+  void begin(const MeshHeader& header) override {
+    if (header.record.cohesive.any()) {
+      sink_ = in_groups(path_, std::move(cells_), Element::kTet4);
+    } else {
+      sink_ = std::move(cells_);
+    }
+    sink_->begin(header);
+  }
+  void write_vertices(std::span<const Position> positions) override {
+    sink_->write_vertices(positions);
+  }
+  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
+    sink_->write_tets(tets, labels);
+  }
+  void write_values(std::span<const double> rows) override { sink_->write_values(rows); }
+  void finish() override { sink_->finish(); }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override {
+    return sink_ ? sink_->buffer_bytes() : cells_->buffer_bytes();
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<CellSink> cells_;  ///< until the mesh begins
+  std::unique_ptr<MeshSink> sink_;
+};
+
 /// A sink that knows tets of both kinds.
 template <class Sink>
 std::unique_ptr<MeshSink> open_streamed(const std::filesystem::path& path, Element element) {
-  if (element == Element::kTet4) return std::make_unique<Sink>(path);
-  auto writer = std::make_unique<TenNodeWriter>(std::make_unique<Sink>(path, element));
-  return std::make_unique<GroupedSink>(path.parent_path(), std::move(writer), element);
+  if (element == Element::kTet10) return open_cells<Sink>(path, element);
+  return std::make_unique<StreamedCells>(path, std::make_unique<Sink>(path));
 }
 
 /// A format that needs the whole mesh.
@@ -88,9 +146,22 @@ std::unique_ptr<MeshSink> open_msh(const std::filesystem::path& path, Element el
 }
 
 const std::array kFormats{
-    MeshFormat{".vtkhdf", nullptr, &read_vtkhdf, &open_streamed<VtkhdfSink>},
-    MeshFormat{".vtu", [](const auto& path) { return read_vtu(*open_bytes(path)); }, nullptr,
-               &open_streamed<VtuSink>},
+    MeshFormat{".vtkhdf",
+               nullptr,
+               &read_vtkhdf,
+               &open_streamed<VtkhdfSink>,
+               {},
+               nullptr,
+               nullptr,
+               &open_cells<VtkhdfSink>},
+    MeshFormat{".vtu",
+               [](const auto& path) { return read_vtu(*open_bytes(path)); },
+               nullptr,
+               &open_streamed<VtuSink>,
+               {},
+               nullptr,
+               nullptr,
+               &open_cells<VtuSink>},
     MeshFormat{".mesh", [](const auto& path) { return read_medit(*open_bytes(path)); }, nullptr,
                &open_corners<MeditSink>},
     MeshFormat{".msh", &read_msh, nullptr, &open_msh<false>, {".msh.labels.csv"}, &open_msh<true>},
@@ -166,6 +237,40 @@ const MeshFormat& read_format(const std::filesystem::path& path) {
                                       read_mesh_extensions()));
 }
 
+/// A format without a place for wedges refuses a mesh that has some.
+class SinkWithoutWedges : public MeshSink {
+ public:
+  SinkWithoutWedges(std::filesystem::path path, Element element, std::unique_ptr<MeshSink> below)
+      : path_(std::move(path)), element_(element), below_(std::move(below)) {}
+
+  void begin(const MeshHeader& header) override {
+    if (header.record.cohesive.any()) require_place_for_wedges(path_, element_);
+    below_->begin(header);
+  }
+  void write_vertices(std::span<const Position> positions) override {
+    below_->write_vertices(positions);
+  }
+  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
+    below_->write_tets(tets, labels);
+  }
+  void write_values(std::span<const double> rows) override { below_->write_values(rows); }
+  void finish() override { below_->finish(); }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_->buffer_bytes(); }
+
+ private:
+  std::filesystem::path path_;
+  Element element_;
+  std::unique_ptr<MeshSink> below_;
+};
+
+std::unique_ptr<MeshSink> open_encoded(const MeshFormat& format, const std::filesystem::path& path,
+                                       Element element, Encoding encoding) {
+  if (encoding == Encoding::kUsual) return format.open(path, element);
+  if (format.open_text != nullptr) return format.open_text(path, element);
+  throw Error(ErrorKind::kUsage, text(path.string(), ": ", path.extension().string(),
+                                      " is written in one way, so ascii is not for it"));
+}
+
 }  // namespace
 
 std::string mesh_extensions() {
@@ -187,6 +292,20 @@ void require_place_for_values(const std::filesystem::path& path) {
               text(path.string(), ": ", format.extension, " has no place for values of tets; ",
                    extensions_where(&MeshFormat::has_values), " have, and ",
                    extensions_where(&MeshFormat::has_materials), " take sets by --materials"));
+}
+
+void require_place_for_wedges(const std::filesystem::path& path, Element element) {
+  const MeshFormat* const format = find_format(path);
+  const bool is_known = format != nullptr;
+  if (is_known && format->is_written() && format->has_wedges(element)) return;
+  const bool quadratic = element == Element::kTet10;
+  const bool would_take_six = is_known && quadratic && format->has_wedges6();
+  throw Error(
+      ErrorKind::kUsage,
+      text(path.string(), ": ", path.extension().string(), " has no place for cohesive wedges",
+           would_take_six ? " between tets of ten nodes; " : "; ",
+           extensions_where(quadratic ? &MeshFormat::has_wedges12 : &MeshFormat::has_wedges6),
+           " have", would_take_six ? ", or write tets of four" : ""));
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
@@ -217,18 +336,24 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
-                                         Encoding encoding) {
+                                         Encoding encoding, Wedges wedges) {
   const MeshFormat& format = written_format(path);
-  if (encoding == Encoding::kUsual) return format.open(path, element);
-  if (format.open_text != nullptr) return format.open_text(path, element);
-  throw Error(ErrorKind::kUsage, text(path.string(), ": ", path.extension().string(),
-                                      " is written in one way, so ascii is not for it"));
+  if (wedges == Wedges::kSome && format.open_wedges != nullptr && encoding == Encoding::kUsual) {
+    return format.open_wedges(path, element);
+  }
+  auto sink = open_encoded(format, path, element, encoding);
+  if (format.has_wedges(element)) return sink;
+  return std::make_unique<SinkWithoutWedges>(path, element, std::move(sink));
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
                                          const MaterialRule& materials) {
   const MeshFormat& format = written_format(path);
-  if (format.has_materials()) return format.open_materials(path, element, materials);
+  if (format.has_materials()) {
+    auto sink = format.open_materials(path, element, materials);
+    if (format.has_wedges(element)) return sink;
+    return std::make_unique<SinkWithoutWedges>(path, element, std::move(sink));
+  }
   throw Error(ErrorKind::kUsage, text(path.string(), ": has no sets of elements for materials; ",
                                       extensions_where(&MeshFormat::has_materials), " have"));
 }
@@ -240,7 +365,8 @@ std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
                                         " and files beside it"));
   }
   if (pieces == 0) throw Error(ErrorKind::kUsage, text(path.string(), ": no pieces are no mesh"));
-  return std::make_unique<PvtuSink>(path, pieces);
+  return std::make_unique<SinkWithoutWedges>(path, Element::kTet4,
+                                             std::make_unique<PvtuSink>(path, pieces));
 }
 
 std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path, Element element) {

@@ -20,6 +20,9 @@ enum class Encoding : std::uint8_t {
   kText,
 };
 
+/// Whether a mesh has wedges between the sides of interfaces (MeshRecord::cohesive).
+enum class Wedges : std::uint8_t { kNone, kSome };
+
 /// Returns the extensions that are written, as ".vtkhdf, .vtu, .mesh".
 [[nodiscard]] std::string mesh_extensions();
 /// Returns the extensions that are read: without those of solvers, with kPiecesExtension.
@@ -30,6 +33,9 @@ enum class Encoding : std::uint8_t {
 /// ERRORS: mw::Error(kUsage) for a format that has no place for numbers of tets
 /// (MeshHeader::values).
 void require_place_for_values(const std::filesystem::path& path);
+
+/// ERRORS: mw::Error(kUsage) for a format that has no place for wedges between tets of that kind.
+void require_place_for_wedges(const std::filesystem::path& path, Element element);
 
 /// Returns the files that are written for a mesh of that name: that file, then those beside it.
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
@@ -43,10 +49,13 @@ void require_place_for_values(const std::filesystem::path& path);
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
 /// ERRORS: mw::Error(kUsage) for an unknown extension, an element or encoding that the format does
-/// not have a choice of, materials that it has no sets for, or a path that cannot be written.
+/// not have a choice of, materials that it has no sets for, or a path that cannot be written;
+/// begin() throws it for a mesh with wedges that the format has no place for.
+/// wedges: what is known before the mesh comes, so that buffer_bytes() counts what they take.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element = Element::kTet4,
-                                                       Encoding encoding = Encoding::kUsual);
+                                                       Encoding encoding = Encoding::kUsual,
+                                                       Wedges wedges = Wedges::kNone);
 /// With element sets, and the table material_table_path() beside the mesh.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element,

@@ -155,6 +155,8 @@ class Case:
         other = self.random.choice(settings_of.FORMATS)
         if self.random.random() < 0.5:
             other = self.random.choice(JUDGED)
+        if "cohesive" in self.settings.flags and other == "mesh":
+            other = "vtu"  # .mesh has no place for wedges
         (self.folder / "c").mkdir()
         path = "c/c." + other
         self.run(["convert", "a/" + self.settings.output, path])
@@ -170,7 +172,7 @@ class Case:
             meshes = [p for p in meshes if not p.endswith(".mesh")]
         flags = self.settings.flags
         if (self.judge is None or not meshes or self.volume.turned
-                or {"element", "split", "open-hinges"} & set(flags)
+                or {"element", "split", "cohesive", "open-hinges"} & set(flags)
                 or self.settings.chosen or "drop-specks" in self.settings.prepare):
             return
         volume = self.prepared(self.settings)

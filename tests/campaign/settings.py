@@ -109,6 +109,8 @@ def draw_connected(random, settings):
         settings.flags["parts"] = random.choice(["largest", "1", "2"])
     if random.random() < 0.15:
         settings.flags["split"] = "*"
+    if random.random() < 0.1 and settings.output != "m.mesh":
+        settings.flags["cohesive"] = "*"
     if random.random() < 0.1:
         settings.flags["open-hinges"] = None
 

@@ -163,12 +163,14 @@ class SharedRuns(unittest.TestCase):
 
     def test_parts_and_splits_are_those_of_one_process(self):
         self.synth("spheres", "24,24,40", 6)
-        options = ["--window", "8", "--background", "0", "--parts", "3", "--split", "*"]
-        expected = self.alone(*options)
-        done = self.run_shared(3, *options)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, "written by  rank 0: it leaves parts out, or doubles vertices")
-        self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
+        options = ["--window", "8", "--background", "0", "--parts", "3"]
+        for interfaces in ("--split", "--cohesive"):
+            expected = self.alone(*options, interfaces, "*")
+            done = self.run_shared(3, *options, interfaces, "*")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout,
+                             "written by  rank 0: it leaves parts out, or doubles vertices")
+            self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
 
     def limit_files(self, run, rank, size):
         """From now on that rank of a run cannot write beyond `size` bytes of any file."""

@@ -64,7 +64,8 @@ MeshInfo look_at_mesh(const InfoJob& job) {
           .mesh = measure_mesh(mesh, job.betti),
           .volume = std::move(volume),
           .shape = shape.shape(),
-          .digest = digest.digest()};
+          .digest = digest.digest(),
+          .cohesive = mesh.header().record.cohesive};
 }
 
 void print_json(const io::Json& facts) {

@@ -46,6 +46,7 @@ struct MeshInfo {
   std::optional<VolumeSide> volume;
   audit::ShapeReport shape;
   std::string digest;
+  io::CohesiveRule cohesive{};  ///< which interfaces have wedges between their sides
 };
 
 /// A contact of the mesh, the volume, or both.

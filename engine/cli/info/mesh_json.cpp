@@ -89,6 +89,17 @@ Json volumes_json(const MeshInfo& facts) {
   return out;
 }
 
+/// Pairs of labels, from which to which wedges go; "*": all.
+Json cohesive_json(const MeshInfo& facts) {
+  if (facts.cohesive.all) return "*";
+  Json out = Json::array();
+  for (const auto& [bottom, top] : facts.cohesive.pairs) {
+    out.push_back({report::label_json(bottom, facts.table.is_signed()),
+                   report::label_json(top, facts.table.is_signed())});
+  }
+  return out;
+}
+
 /// A mesh in a file is not changed any more.
 Json parts_json(const MeshInfo& facts) {
   Json out = report::connect_json(facts.parts, facts.table.is_signed());
@@ -109,6 +120,7 @@ Json mesh_json(const MeshInfo& facts, bool contacts) {
            {"parts", parts_json(facts)},
            {"shape", interfaces_json(facts.shape)},
            {"volume", volumes_json(facts)}};
+  if (facts.cohesive.any()) out["cohesive"] = cohesive_json(facts);
   if (contacts) {
     Json rows = Json::array();
     for (const Contact& c : contacts_of(facts)) rows.push_back(contact_json(facts, c));

@@ -47,8 +47,9 @@ std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const Shared
   if (request.materials) {
     return io::open_mesh_sink(request.output, request.element, *request.materials);
   }
-  return io::open_mesh_sink(request.output, request.element,
-                            request.ascii ? io::Encoding::kText : io::Encoding::kUsual);
+  return io::open_mesh_sink(
+      request.output, request.element, request.ascii ? io::Encoding::kText : io::Encoding::kUsual,
+      request.job.connect.cohesive.any() ? io::Wedges::kSome : io::Wedges::kNone);
 }
 
 /// The files of a run, created before any work so that a bad path fails at once.

@@ -183,6 +183,13 @@ void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
                .listed = Listed::kInHelpAll,
                .has_labels = true,
                .assign = into(connect.split, engine::parse_split)});
+  options.add({.name = "cohesive",
+               .value = "A|B,...",
+               .help = "--split, with wedges of no thickness in between, from A to B",
+               .group = kOutputGroup,
+               .listed = Listed::kInHelpAll,
+               .has_labels = true,
+               .assign = into(connect.cohesive, engine::parse_cohesive)});
   options.add({.name = "open-hinges",
                .help = "doubles the vertices at which parts hang, so that they come apart",
                .group = kOutputGroup,
@@ -272,6 +279,11 @@ void require_room_for_values(const MeshRequest& request) {
   if (!request.job.samples.empty()) io::require_place_for_values(request.output);
 }
 
+void require_room_for_wedges(const MeshRequest& request) {
+  if (!request.job.connect.cohesive.any()) return;
+  io::require_place_for_wedges(request.output, request.element);
+}
+
 /// A folder that an earlier run has used is updated; one that a run was killed over is gone on
 /// with.
 void settle_keep(MeshRequest& request) {
@@ -331,6 +343,7 @@ void check_mesh_request(MeshRequest& request) {
   if (!request.force) require_own_output(request.output);
   require_memory_for_page(request);
   require_room_for_values(request);
+  require_room_for_wedges(request);
   engine::check(request.job.settings);
   if (request.job.settings.optimizer == engine::Optimizer::kTetgen)
     (void)engine::codt::find_worker();

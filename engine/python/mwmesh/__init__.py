@@ -67,7 +67,7 @@ def _size_place(volume, key):
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
              drop_specks=None, workdir=None, resume=False, keep=None, from_kept=False,
              changed=(), sample=None, certify="auto", report=True, parts="all", split=(),
-             open_hinges=False):
+             cohesive=(), open_hinges=False):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:
@@ -85,7 +85,8 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     if options.parts not in ("all", "largest") and not (options.parts.isdecimal()
                                                         and int(options.parts)):
         raise unexpected("parts", "all, largest, or a number of tets", parts)
-    options.split = _split_text(volume, split)
+    options.split = _pairs_text(volume, split, "split")
+    options.cohesive = _pairs_text(volume, cohesive, "cohesive")
     options.open_hinges = switch(open_hinges, "open_hinges")
     options.merge = {label(volume, a, "merge"): label(volume, b, "merge")
                      for a, b in (merge or {}).items()}
@@ -108,18 +109,20 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     return options
 
 
-def _split_text(volume, split):
+def _pairs_text(volume, value, name):
     """"*", or pairs of labels."""
-    if isinstance(split, str) and split == "*":
-        return split
-    if isinstance(split, str) or not isinstance(split, (list, tuple, set)):
-        raise unexpected("split", "pairs of labels, or *", split)
-    for pair in split:
+    if isinstance(value, str) and value == "*":
+        return value
+    if isinstance(value, str) or not isinstance(value, (list, tuple, set)):
+        raise unexpected(name, "pairs of labels, or *", value)
+    for pair in value:
         if not isinstance(pair, tuple) or len(pair) != 2:
-            raise unexpected("split", "pairs of labels such as (1, 2)", pair)
-    pairs = [tuple(label(volume, one, "split") for one in pair) for pair in split]
+            raise unexpected(name, "pairs of labels such as (1, 2)", pair)
+    pairs = [tuple(label(volume, one, name) for one in pair) for pair in value]
     if any(a == b for a, b in pairs):
-        raise UsageError("split: two labels make a pair")
+        raise UsageError(f"{name}: two labels make a pair")
+    if name == "cohesive" and len({frozenset(pair) for pair in pairs}) < len(pairs):
+        raise UsageError(f"{name}: a pair is there twice")
     return ",".join(f"{a}|{b}" for a, b in pairs)
 
 
@@ -169,7 +172,7 @@ def _progress(wanted):
 
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
             "resume", "keep", "from_kept", "changed", "sample", "certify", "report", "parts", "split",
-            "open_hinges")
+            "cohesive", "open_hinges")
 
 
 def _check_known(arguments):
@@ -225,10 +228,11 @@ def mesh(volume, *, progress=None, **arguments):
         label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.
     labels, background
         the labels that the mesh is to have, or the one that is left out; all of them are meshed.
-    parts, split, open_hinges
+    parts, split, cohesive, open_hinges
         "all", "largest" or the least number of tets of a part, which is what faces join; pairs of
         labels, [(1, 2), ("Liver", "Lesion")], whose interfaces open because their points are
-        doubled, or "*" for all; whether points at which parts hang are doubled, too.  The report
+        doubled, or "*" for all; pairs that are split, too, and get wedges of no thickness, from the
+        first label to the second (:attr:`Mesh.wedges`); whether points at which parts hang are doubled, too.  The report
         counts parts and hinges ("parts").
     threads, memory
         number of threads (0: all cores); bytes, or a text like "8GiB", in addition to the arrays of

@@ -158,6 +158,26 @@ class Mesh:
         """The m numbers of each image that was sampled, {name: float64}; NaN outside of it."""
         return self._core.values
 
+    @property
+    def wedges(self):
+        """The (k, 6) rows of points of the wedges that mesh(cohesive=...) asked for: a triangle
+        whose normal points to the other side, and the points above it in the same order, which lie
+        where the triangle lies."""
+        return self._cohesive()[0]
+
+    @property
+    def wedge_labels(self):
+        """The (k, 2) labels under each wedge and on top of it."""
+        return self._cohesive()[1]
+
+    def _cohesive(self):
+        if "wedges" not in self._known:
+            rows, labels = _core.wedges(self._core)
+            labels = labels.view(self.labels.dtype)
+            rows.flags.writeable = labels.flags.writeable = False
+            self._known["wedges"] = rows, labels
+        return self._known["wedges"]
+
     def __repr__(self):
         return (f"<mwmesh.Mesh: {len(self.points)} points, {len(self.tets)} tets, "
                 f"{len(self.label_list())} labels>")

@@ -68,6 +68,7 @@ void InpWriter::write(GroupedMesh& mesh) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_elements(mesh, mesh.label_tets()[rank], names.volume(rank));
   }
+  write_wedges(mesh, names);
   for (const NamedFacets& set : named_facets(mesh, names)) {
     write_node_set(mesh, set.name, set.group.facets, false);
     if (!set.other.empty() && mesh.header().record.has_doubles) {
@@ -82,7 +83,7 @@ void InpWriter::write(GroupedMesh& mesh) {
 }
 
 void InpWriter::check_counts(const GroupedMesh& mesh) const {
-  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count());
+  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count());
   if (max <= kMaxNumber) return;
   throw Error(ErrorKind::kUsage, text(name_, ": Abaqus has numbers up to ", kMaxNumber, ", ", max,
                                       " are needed; write .msh or .vtkhdf"));
@@ -101,6 +102,11 @@ void InpWriter::write_head(const GroupedMesh& mesh, const PlainNames& names) {
   line("** Node sets have the nodes of the surface of the same name (FACE_2_1: see FACE_1_2).");
   if (mesh.header().record.has_doubles) {
     line("** Vertices were doubled: where sides are apart, FACE_2_1 has a node set of its own.");
+  }
+  if (!mesh.wedge_groups().empty()) {
+    line("** Element set COHESIVE_1_2: wedges of no thickness between labels 1 and 2, with nodes");
+    line("** 1 2 3 on the side of label 1 and 4 5 6 on that of label 2.  They want a section such");
+    line("** as *COHESIVE SECTION, ELSET=..., MATERIAL=..., RESPONSE=TRACTION SEPARATION.");
   }
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     const LabelName* const row = mesh.names().find(mesh.table().raw(rank));
@@ -123,6 +129,20 @@ void InpWriter::write_elements(GroupedMesh& mesh, RowRange tets, const std::stri
     std::string numbers = text(t + 1);
     for (const std::uint64_t row : mesh.tet_nodes(t)) numbers += text(", ", row + 1);
     line(numbers);
+  }
+}
+
+void InpWriter::write_wedges(GroupedMesh& mesh, const PlainNames& names) {
+  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
+    line("*ELEMENT, TYPE=COH3D6, ELSET=", names.wedges(g));
+    const RowRange wedges = mesh.wedge_groups()[g].wedges;
+    for (std::uint64_t w = wedges.begin; w < wedges.end; ++w) {
+      std::string numbers = text(mesh.tet_count() + w + 1);
+      for (const std::uint64_t row : mesh.wedge_nodes(mesh.wedge(w))) {
+        numbers += text(", ", row + 1);
+      }
+      line(numbers);
+    }
   }
 }
 

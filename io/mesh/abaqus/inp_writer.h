@@ -19,9 +19,12 @@ namespace mw::io {
 /// them; a side of the box is one surface X_MIN .. Z_MAX (or OUTER) of all labels.  The nodes of
 /// each, of an interface once, are a node set of the same name.  Comments say which set a named
 /// label is, with its name and colour as in MEDIT files.
-/// Materials are element sets beside those of the labels; empty ones are left out.
-/// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
-/// which is all that Abaqus has numbers for.
+/// Wedges between the sides of an interface are elements COH3D6 behind the tets, in a set
+/// COHESIVE_1_2: their nodes 1 2 3 are on the side of label 1, and 4 5 6 on that of label 2.
+/// Between tets of ten nodes they are not written: Abaqus has no such element. Materials are
+/// element sets beside those of the labels; empty ones are left out. Memory: 9 MiB.  ERRORS: see
+/// AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements, which is all that Abaqus has
+/// numbers for.
 class InpWriter : public GroupedWriter {
  public:
   explicit InpWriter(const std::filesystem::path& path,
@@ -40,6 +43,7 @@ class InpWriter : public GroupedWriter {
   void write_head(const GroupedMesh& mesh, const PlainNames& names);
   void write_nodes(GroupedMesh& mesh);
   void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);
+  void write_wedges(GroupedMesh& mesh, const PlainNames& names);
   void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void write_materials(GroupedMesh& mesh);
   /// One of many rows of numbers, 16 to a line.

@@ -50,16 +50,20 @@ void in_steps(RowRange rows, Visit visit) {
 }  // namespace
 
 void ExodusWriter::write(GroupedMesh& mesh) {
-  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count());
+  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count());
   if (max > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
     throw Error(ErrorKind::kUsage, text(name_, ": nodes and tets have numbers up to 2147483647, ",
                                         max, " are needed; write .vtkhdf"));
   }
-  const LabelNumbers numbers(mesh.table());
+  const auto wedge_blocks = static_cast<std::int64_t>(mesh.wedge_groups().size());
+  const LabelNumbers numbers(mesh.table(), {.max = std::numeric_limits<int>::max() - wedge_blocks});
   if (rule_) materials_.emplace(mesh, *rule_);
   Plan plan = plan_of(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     plan.ids.push_back(static_cast<int>(numbers[rank]));
+  }
+  for (std::int64_t g = 1; g <= wedge_blocks; ++g) {
+    plan.ids.push_back(static_cast<int>(numbers.largest() + g));
   }
   define(mesh, plan);
   out_.begin_data();
@@ -72,6 +76,7 @@ void ExodusWriter::write(GroupedMesh& mesh) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_block(mesh, mesh.label_tets()[rank], plan.connectivity[rank]);
   }
+  write_wedges(mesh, plan);
   write_values(mesh, plan);
   for (const SideSet& set : plan.side_sets) write_side_set(mesh, set);
   for (const NodeSet& set : plan.node_sets) write_node_set(mesh, set);
@@ -85,6 +90,9 @@ ExodusWriter::Plan ExodusWriter::plan_of(GroupedMesh& mesh) const {
   const PlainNames names(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     plan.blocks.push_back(names.volume(rank));
+  }
+  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
+    plan.blocks.push_back(names.wedges(g));
   }
   for (const NamedFacets& set : named_facets(mesh, names)) {
     const RowRange facets = set.group.facets;
@@ -115,7 +123,6 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
   constexpr float kVersion = 8.03F;
   constexpr int kLargeModel = 1;
   constexpr int kBytesOfDouble = 8;
-  const bool quadratic = mesh.element() == Element::kTet10;
   out_.add_attribute(NetcdfOutput::kWholeFile, "api_version", kVersion);
   out_.add_attribute(NetcdfOutput::kWholeFile, "version", kVersion);
   out_.add_attribute(NetcdfOutput::kWholeFile, "floating_point_word_size", kBytesOfDouble);
@@ -132,17 +139,10 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
     plan.coordinates = {out_.add_doubles("coordx", {nodes}), out_.add_doubles("coordy", {nodes}),
                         out_.add_doubles("coordz", {nodes})};
   }
-  if (mesh.tet_count() > 0) out_.add_dimension("num_elem", mesh.tet_count());
+  const std::uint64_t elements = mesh.tet_count() + mesh.wedge_count();
+  if (elements > 0) out_.add_dimension("num_elem", elements);
   block_list_ = define_list("num_el_blk", "eb_", plan.blocks.size());
-  std::vector<int> block_tets;
-  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
-    const int tets = out_.add_dimension(text("num_el_in_blk", b + 1), mesh.label_tets()[b].size());
-    const int nodes = out_.add_dimension(text("num_nod_per_el", b + 1), node_count(mesh.element()));
-    plan.connectivity.push_back(out_.add_integers(text("connect", b + 1), {tets, nodes}));
-    out_.add_attribute(plan.connectivity.back(), "elem_type", quadratic ? "TETRA10" : "TETRA");
-    block_tets.push_back(tets);
-  }
-  define_values(mesh, plan, block_tets);
+  define_values(mesh, plan, define_blocks(mesh, plan));
   side_set_list_ = define_list("num_side_sets", "ss_", plan.side_sets.size());
   for (std::size_t s = 0; s < plan.side_sets.size(); ++s) {
     SideSet& set = plan.side_sets[s];
@@ -157,6 +157,24 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
     set.variable = out_.add_integers(text("node_ns", s + 1), {nodes});
   }
   define_element_sets(plan);
+}
+
+std::vector<int> ExodusWriter::define_blocks(const GroupedMesh& mesh, Plan& plan) {
+  const bool quadratic = mesh.element() == Element::kTet10;
+  std::vector<int> out;
+  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+    const bool has_tets = b < mesh.table().size();
+    const RowRange range =
+        has_tets ? mesh.label_tets()[b] : mesh.wedge_groups()[b - mesh.table().size()].wedges;
+    const std::uint64_t nodes =
+        has_tets ? node_count(mesh.element()) : wedge_node_count(Element::kTet4);
+    out.push_back(out_.add_dimension(text("num_el_in_blk", b + 1), range.size()));
+    const int columns = out_.add_dimension(text("num_nod_per_el", b + 1), nodes);
+    plan.connectivity.push_back(out_.add_integers(text("connect", b + 1), {out.back(), columns}));
+    const char* const of_tets = quadratic ? "TETRA10" : "TETRA";
+    out_.add_attribute(plan.connectivity.back(), "elem_type", has_tets ? of_tets : "WEDGE");
+  }
+  return out;
 }
 
 void ExodusWriter::define_element_sets(Plan& plan) {
@@ -194,7 +212,7 @@ void ExodusWriter::write_element_sets(const Plan& plan) {
 
 /// Variables of elements, in one step at time 0.
 void ExodusWriter::define_values(const GroupedMesh& mesh, Plan& plan,
-                                 const std::vector<int>& tets) {
+                                 const std::vector<int>& elements) {
   const std::size_t count = mesh.header().values.size();
   if (count == 0) return;
   plan.time = out_.add_doubles("time_whole", {time_step_});
@@ -202,9 +220,9 @@ void ExodusWriter::define_values(const GroupedMesh& mesh, Plan& plan,
       out_.add_texts("name_elem_var", {out_.add_dimension("num_elem_var", count), name_length_});
   for (std::size_t v = 0; v < count; ++v) {
     plan.values.emplace_back();
-    for (std::size_t b = 0; b < tets.size(); ++b) {
+    for (std::size_t b = 0; b < elements.size(); ++b) {
       plan.values[v].push_back(
-          out_.add_doubles(text("vals_elem_var", v + 1, "eb", b + 1), {time_step_, tets[b]}));
+          out_.add_doubles(text("vals_elem_var", v + 1, "eb", b + 1), {time_step_, elements[b]}));
     }
   }
 }
@@ -253,6 +271,16 @@ void ExodusWriter::write_values(GroupedMesh& mesh, const Plan& plan) {
         out_.put(plan.values[v][rank], first - tets.begin, values);
       });
     }
+    for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
+      const RowRange wedges = mesh.wedge_groups()[g].wedges;
+      in_steps(wedges, [&](std::uint64_t first, std::uint64_t count) {
+        std::vector<double> values(count);
+        for (std::uint64_t i = 0; i < count; ++i) {
+          values[i] = mesh.value(mesh.wedge(first + i).bottom_tet, v);
+        }
+        out_.put(plan.values[v][mesh.table().size() + g], first - wedges.begin, values);
+      });
+    }
   }
 }
 
@@ -266,6 +294,23 @@ void ExodusWriter::write_block(GroupedMesh& mesh, RowRange tets, int variable) {
     }
     out_.put(variable, first - tets.begin, values, columns);
   });
+}
+
+void ExodusWriter::write_wedges(GroupedMesh& mesh, const Plan& plan) {
+  const std::size_t columns = wedge_node_count(Element::kTet4);
+  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
+    const RowRange wedges = mesh.wedge_groups()[g].wedges;
+    in_steps(wedges, [&](std::uint64_t first, std::uint64_t count) {
+      std::vector<int> values;
+      values.reserve(count * columns);
+      for (std::uint64_t w = first; w < first + count; ++w) {
+        for (const std::uint64_t row : mesh.wedge_nodes(mesh.wedge(w))) {
+          values.push_back(number(row));
+        }
+      }
+      out_.put(plan.connectivity[mesh.table().size() + g], first - wedges.begin, values, columns);
+    });
+  }
 }
 
 void ExodusWriter::write_side_set(GroupedMesh& mesh, const SideSet& set) {

@@ -16,8 +16,11 @@ namespace mw::io {
 /// (X_MIN to Z_MAX), and OUTER for what else bounds the mesh.  The nodes of each of these, of an
 /// interface once, are a node set of the same name.  Side and node sets have ids from 1 on.  The
 /// elements of a block have their faces numbered as Exodus II does: side 1 has the nodes 1 2 4,
-/// side 2 has 2 3 4, side 3 has 1 4 3, side 4 has 1 3 2. Memory: 9 MiB.  ERRORS: see NetcdfOutput;
-/// mw::Error(kUsage) above 2,147,483,647 nodes or tets.
+/// side 2 has 2 3 4, side 3 has 1 4 3, side 4 has 1 3 2.
+/// Wedges between the sides of an interface are blocks of WEDGE behind those of labels, with ids
+/// above theirs and names such as COHESIVE_1_2; between tets of ten nodes they are not written,
+/// because VTK's reader and libMesh know no wedge of 12 nodes.
+/// Memory: 9 MiB.  ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or tets.
 class ExodusWriter : public GroupedWriter {
  public:
   explicit ExodusWriter(const std::filesystem::path& path,
@@ -57,16 +60,16 @@ class ExodusWriter : public GroupedWriter {
   };
   /// What is written, with the variables that hold it.
   struct Plan {
-    std::vector<std::string> blocks;  ///< names, by rank of label
+    std::vector<std::string> blocks;  ///< names, by rank of label; then those of wedges
     std::vector<int> ids;
     std::vector<SideSet> side_sets;
     std::vector<NodeSet> node_sets;
     std::vector<ElementSet> element_sets;
     std::array<int, 3> coordinates{};
-    std::vector<int> connectivity;  ///< by rank of label
+    std::vector<int> connectivity;  ///< by block
     int value_names = 0;
     int time = 0;
-    std::vector<std::vector<int>> values;  ///< by name, by rank of label
+    std::vector<std::vector<int>> values;  ///< by name, by block
   };
   /// The variables that hold status, id and name of each member of a list.
   struct ListVariables {
@@ -82,10 +85,13 @@ class ExodusWriter : public GroupedWriter {
                             std::size_t members);
   void write_list(const ListVariables& list, const std::vector<std::string>& names,
                   std::span<const int> ids);
-  void define_values(const GroupedMesh& mesh, Plan& plan, const std::vector<int>& tets);
+  /// elements: dimensions, by block.
+  void define_values(const GroupedMesh& mesh, Plan& plan, const std::vector<int>& elements);
+  [[nodiscard]] std::vector<int> define_blocks(const GroupedMesh& mesh, Plan& plan);
   void write_nodes(GroupedMesh& mesh, const Plan& plan);
   void write_values(GroupedMesh& mesh, const Plan& plan);
   void write_block(GroupedMesh& mesh, RowRange tets, int variable);
+  void write_wedges(GroupedMesh& mesh, const Plan& plan);
   void write_side_set(GroupedMesh& mesh, const SideSet& set);
   void write_node_set(GroupedMesh& mesh, const NodeSet& set);
   void define_element_sets(Plan& plan);

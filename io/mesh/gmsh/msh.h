@@ -18,7 +18,8 @@ namespace mw::io {
 /// order, of which corners alone, and skips other elements.  Rows are nodes by their tags.  The
 /// label is the first physical group of the tet's volume, or the volume's tag where it is in none:
 /// of that number, or what the table beside the file says (append_label_table).  Without a table,
-/// names are those of physical volumes.
+/// names are those of physical volumes.  The record is that of a comment, where MshWriter has left
+/// one; the wedges follow from it.
 /// ERRORS: mw::Error(kInput) with file and place; also for other versions, partitioned meshes, and
 /// elements of which none is a tet.
 [[nodiscard]] MeshData read_msh(const std::filesystem::path& path);
@@ -30,8 +31,11 @@ namespace mw::io {
 /// together; from L + 8 on the
 /// interfaces, in the order of their labels.  Names are GroupNames'; those that are longer than
 /// Gmsh reads are "LABEL_7", "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
-/// The table of labels is written beside it.  Entities may be in several pieces, which Gmsh's
-/// createTopology() parts, forgetting their groups; createTopology(False) keeps them.
+/// Wedges between the sides of an interface are prisms in a volume of their own, above the
+/// surfaces, COHESIVE_1_2 as in .inp; a comment holds the record then.  Those of tets of ten nodes
+/// would need nodes between the two sides, and are not written. The table of labels is written
+/// beside it.  Entities may be in several pieces, which Gmsh's createTopology() parts, forgetting
+/// their groups; createTopology(False) keeps them.
 class MshWriter : public GroupedWriter {
  public:
   MshWriter(const std::filesystem::path& path, bool ascii)
@@ -61,6 +65,7 @@ class MshWriter : public GroupedWriter {
   void write_elements(const Contents& contents);
   void put_facets(GroupedMesh& mesh, RowRange facets);
   void put_tets(GroupedMesh& mesh, RowRange tets);
+  void put_wedges(const Contents& contents, std::size_t entity);
 
   MshEncoder out_;
   AtomicFile labels_;

@@ -14,6 +14,7 @@ void Msh2Writer::write(GroupedMesh& mesh) {
   out_.begin_section("MeshFormat");
   out_.add_line("2.2 0 8");
   out_.end_section("MeshFormat");
+  write_cohesive_record(out_, mesh);
   write_physical_names(out_, mesh, numbers);
   write_nodes(mesh);
   write_elements(mesh, numbers);
@@ -36,7 +37,7 @@ void Msh2Writer::write_nodes(GroupedMesh& mesh) {
 void Msh2Writer::write_elements(GroupedMesh& mesh, const LabelNumbers& numbers) {
   const bool quadratic = mesh.element() == Element::kTet10;
   out_.begin_section("Elements");
-  out_.add_line(text(mesh.facet_count() + mesh.tet_count()));
+  out_.add_line(text(mesh.facet_count() + mesh.tet_count() + mesh.wedge_count()));
   const std::vector<FacetGroup>& groups = mesh.facet_groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (std::uint64_t f = groups[g].facets.begin; f < groups[g].facets.end; ++f) {
@@ -55,6 +56,14 @@ void Msh2Writer::write_elements(GroupedMesh& mesh, const LabelNumbers& numbers) 
       }
       write_element(mesh.facet_count() + t + 1, quadratic ? kMshTet10 : kMshTet4, numbers[rank],
                     numbers[rank], ordered);
+    }
+  }
+  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
+    const RowRange wedges = mesh.wedge_groups()[g].wedges;
+    const std::int32_t volume = wedge_volume(numbers, mesh, g);
+    for (std::uint64_t w = wedges.begin; w < wedges.end; ++w) {
+      write_element(mesh.facet_count() + mesh.tet_count() + w + 1, kMshPrism6, volume, volume,
+                    mesh.wedge_nodes(mesh.wedge(w)));
     }
   }
   out_.end_section("Elements");

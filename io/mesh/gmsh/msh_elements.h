@@ -11,6 +11,7 @@ namespace mw::io {
 
 inline constexpr std::int32_t kMshTriangle3 = 2;
 inline constexpr std::int32_t kMshTet4 = 4;
+inline constexpr std::int32_t kMshPrism6 = 6;
 inline constexpr std::int32_t kMshTriangle6 = 9;
 inline constexpr std::int32_t kMshTet10 = 11;
 

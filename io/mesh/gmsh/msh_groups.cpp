@@ -30,8 +30,9 @@ std::string name_line(std::int32_t dimension, std::int64_t tag, const std::strin
 }  // namespace
 
 LabelNumbers msh_numbers(const GroupedMesh& mesh) {
-  const auto surfaces = static_cast<std::int64_t>(kSides + mesh.facet_groups().size());
-  return LabelNumbers(mesh.table(), {.max = std::numeric_limits<std::int32_t>::max() - surfaces});
+  const auto others =
+      static_cast<std::int64_t>(kSides + mesh.facet_groups().size() + mesh.wedge_groups().size());
+  return LabelNumbers(mesh.table(), {.max = std::numeric_limits<std::int32_t>::max() - others});
 }
 
 std::int32_t surface_tag(const LabelNumbers& labels, std::size_t group) {
@@ -43,6 +44,17 @@ std::int32_t physical_surface(const LabelNumbers& labels, const FacetGroup& grou
                               std::size_t index) {
   const bool interface = group.side == Side::kInterface;
   return above(labels, interface ? kSides + index : static_cast<std::size_t>(group.side));
+}
+
+std::int32_t wedge_volume(const LabelNumbers& labels, const GroupedMesh& mesh, std::size_t group) {
+  return above(labels, kSides + mesh.facet_groups().size() + group);
+}
+
+void write_cohesive_record(MshEncoder& out, const GroupedMesh& mesh) {
+  if (mesh.wedge_groups().empty()) return;
+  out.begin_section("Comments");
+  out.add_line(kMshRecord, record_text(mesh.header().record));
+  out.add_line("$EndComments");
 }
 
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
@@ -61,6 +73,10 @@ void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelN
     const std::string plain = plain_volume_name(mesh.table(), rank);
     lines.push_back(name_line(kMshVolume, labels[rank], gmsh_name(names.volume(rank), plain)));
   }
+  const PlainNames plain_names(mesh);
+  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
+    lines.push_back(name_line(kMshVolume, wedge_volume(labels, mesh, g), plain_names.wedges(g)));
+  }
   out.begin_section("PhysicalNames");
   out.add_line(text(lines.size()));
   for (const std::string& line : lines) out.add_line(line);
@@ -75,7 +91,7 @@ void write_element_data(MshEncoder& out, GroupedMesh& mesh) {
     out.add_line(text("\"", names[column], "\""));
     // A time, and three integers: its number, the components of a value, the values.
     for (const char* const line : {"1", "0", "3", "0", "1"}) out.add_line(line);
-    out.add_line(text(mesh.facet_count() + mesh.tet_count()));
+    out.add_line(text(mesh.facet_count() + mesh.tet_count() + mesh.wedge_count()));
     std::int32_t element = 0;
     const auto put = [&](std::uint64_t tet) {
       out.put(++element);
@@ -84,6 +100,7 @@ void write_element_data(MshEncoder& out, GroupedMesh& mesh) {
     };
     for (std::uint64_t f = 0; f < mesh.facet_count(); ++f) put(mesh.facet(f).tet);
     for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) put(t);
+    for (std::uint64_t w = 0; w < mesh.wedge_count(); ++w) put(mesh.wedge(w).bottom_tet);
     out.end_section("ElementData");
   }
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "io/mesh/gmsh/msh_encoder.h"
 #include "io/mesh/grouped/grouped_mesh.h"
@@ -18,6 +19,9 @@ inline constexpr std::int32_t kMshVolume = 3;
 /// Where the nodes of a tet stand in the file: Gmsh has the middle of edge 2 3 before that of 1 3.
 inline constexpr std::array<std::size_t, 10> kMshTetOrder{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 
+/// The beginning of a comment that holds a MeshRecord.
+inline constexpr std::string_view kMshRecord = "mwmesh ";
+
 /// The numbers of volumes.  Surfaces have numbers above them, because many programs have one space
 /// of numbers for all dimensions.  ERRORS: see LabelNumbers.
 [[nodiscard]] LabelNumbers msh_numbers(const GroupedMesh& mesh);
@@ -29,11 +33,20 @@ inline constexpr std::array<std::size_t, 10> kMshTetOrder{0, 1, 2, 3, 4, 5, 6, 7
 [[nodiscard]] std::int32_t physical_surface(const LabelNumbers& labels, const FacetGroup& group,
                                             std::size_t index);
 
+/// The tag and physical group of the volume that is wedge group number `group`, above all others.
+[[nodiscard]] std::int32_t wedge_volume(const LabelNumbers& labels, const GroupedMesh& mesh,
+                                        std::size_t group);
+
+/// Writes a section of comments with the record of the run, where the mesh has wedges: without it
+/// they could not be found again in what is read.
+void write_cohesive_record(MshEncoder& out, const GroupedMesh& mesh);
+
 /// Writes the section of the names of all physical surfaces and volumes (see MshWriter).
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels);
 
 /// Writes a section ElementData for each of the values of tets, alike in both versions.  A triangle
-/// has the value of the tet behind it: meshio reads no data that only some elements have.
+/// or a wedge has the value of the tet behind it: meshio reads no data that only some elements
+/// have.
 void write_element_data(MshEncoder& out, GroupedMesh& mesh);
 
 }  // namespace mw::io

@@ -6,7 +6,9 @@
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
 #include "io/file/text_numbers.h"
+#include "io/mesh/gmsh/msh_groups.h"
 #include "io/mesh/gmsh/msh_sections.h"
+#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/label_numbers.h"
 
 namespace mw::io {
@@ -55,10 +57,22 @@ void read_names(MshInput& in, MshContent& out) {
   in.end_section("PhysicalNames");
 }
 
+/// Comments begin with the record, where they are of this program.
+void read_comments(MshInput& in, MshContent& out) {
+  const std::string line(in.next_line("a comment"));
+  if (line == "$EndComments") return;
+  if (line.starts_with(kMshRecord)) {
+    out.record = parse_record(std::string_view(line).substr(kMshRecord.size()), in.name());
+  }
+  in.skip_section("Comments");
+}
+
 /// One section; whatever is not needed is skipped.
 void read_section(const std::string& section, bool is_4, MshInput& in, MshContent& out) {
   if (section == "PhysicalNames") {
     read_names(in, out);
+  } else if (section == "Comments") {
+    read_comments(in, out);
   } else if (section == "Entities" && is_4) {
     read_msh4_entities(in, out);
   } else if (section == "PartitionedEntities") {
@@ -111,6 +125,7 @@ LabelNames names_of(const MshContent& content) {
   std::vector<LabelName> rows;
   for (const auto& [number, name] : content.names) {
     if (name == text("label_", number) || name == text("LABEL_", number)) continue;
+    if (content.record.cohesive.any() && name.starts_with(kWedgeNames)) continue;
     rows.push_back({.label = static_cast<RawLabel>(number), .name = name, .colour = {}});
   }
   return LabelNames(std::move(rows));
@@ -124,6 +139,7 @@ MeshData read_msh(const std::filesystem::path& path) {
   name_labels(content, labels);
   MeshData mesh = content.mesh.finish();
   mesh.labels_signed = labels.labels_signed();
+  mesh.record = std::move(content.record);
   mesh.names = labels.has_table() ? labels.names() : names_of(content);
   return mesh;
 }

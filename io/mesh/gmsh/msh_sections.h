@@ -18,6 +18,7 @@ struct MshContent {
   std::map<std::int64_t, std::int64_t> physical_of;  ///< volumes in a physical group
   std::map<std::int64_t, std::string> names;         ///< of physical volumes
   std::uint64_t elements = 0;                        ///< of all types
+  MeshRecord record;                                 ///< what a comment tells, or nothing
 };
 
 // ERRORS of all: see MshInput.

@@ -30,6 +30,7 @@ std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh,
 void MshWriter::write(GroupedMesh& mesh) {
   Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh, folder_)};
   write_format();
+  write_cohesive_record(out_, mesh);
   write_physical_names(out_, mesh, contents.numbers);
   write_entities(contents);
   write_nodes(contents);
@@ -41,8 +42,12 @@ void MshWriter::write(GroupedMesh& mesh) {
 
 MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {
   const std::size_t groups = contents.mesh.facet_groups().size();
+  const std::size_t labels = contents.mesh.table().size();
   if (entity < groups) return {kMshSurface, surface_tag(contents.numbers, entity)};
-  if (contents.mesh.table().size() == 0) return {kMshVolume, 1};
+  if (labels == 0) return {kMshVolume, 1};
+  if (entity >= groups + labels) {
+    return {kMshVolume, wedge_volume(contents.numbers, contents.mesh, entity - groups - labels)};
+  }
   const auto rank = static_cast<Label>(entity - groups);
   return {kMshVolume, static_cast<std::int32_t>(contents.numbers[rank])};
 }
@@ -63,8 +68,8 @@ void MshWriter::write_entities(const Contents& contents) {
   GroupedMesh& mesh = contents.mesh;
   const std::vector<FacetGroup>& groups = mesh.facet_groups();
   out_.begin_section("Entities");
-  for (const std::uint64_t count :
-       {std::uint64_t{0}, std::uint64_t{0}, groups.size(), mesh.table().size()}) {
+  for (const std::uint64_t count : {std::uint64_t{0}, std::uint64_t{0}, groups.size(),
+                                    mesh.table().size() + mesh.wedge_groups().size()}) {
     out_.put(count);
   }
   out_.end_row();
@@ -79,6 +84,12 @@ void MshWriter::write_entities(const Contents& contents) {
     put_entity(contents, entity, tag_of(contents, entity).tag);
     out_.put(std::uint64_t{surfaces[rank].size()});
     for (const std::int32_t tag : surfaces[rank]) out_.put(tag);
+    out_.end_row();
+  }
+  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
+    const std::size_t entity = groups.size() + mesh.table().size() + g;
+    put_entity(contents, entity, tag_of(contents, entity).tag);
+    out_.put(std::uint64_t{0});  // no surfaces
     out_.end_row();
   }
   out_.end_section("Entities");
@@ -131,15 +142,16 @@ void MshWriter::write_elements(const Contents& contents) {
   GroupedMesh& mesh = contents.mesh;
   const bool quadratic = mesh.element() == Element::kTet10;
   const std::size_t groups = mesh.facet_groups().size();
-  const std::size_t blocks = groups + mesh.table().size();
-  const std::uint64_t elements = mesh.facet_count() + mesh.tet_count();
+  const std::size_t behind_tets = groups + mesh.table().size();
+  const std::size_t blocks = behind_tets + mesh.wedge_groups().size();
+  const std::uint64_t elements = mesh.facet_count() + mesh.tet_count() + mesh.wedge_count();
   out_.begin_section("Elements");
   for (const std::uint64_t count :
        {std::uint64_t{blocks}, elements, std::min<std::uint64_t>(elements, 1), elements}) {
     out_.put(count);
   }
   out_.end_row();
-  for (std::size_t e = 0; e < blocks; ++e) {
+  for (std::size_t e = 0; e < behind_tets; ++e) {
     const auto [dimension, tag] = tag_of(contents, e);
     const bool is_surface = e < groups;
     const RowRange range =
@@ -155,6 +167,7 @@ void MshWriter::write_elements(const Contents& contents) {
     out_.end_row();
     is_surface ? put_facets(mesh, range) : put_tets(mesh, range);
   }
+  for (std::size_t e = behind_tets; e < blocks; ++e) put_wedges(contents, e);
   out_.end_section("Elements");
 }
 
@@ -162,6 +175,21 @@ void MshWriter::put_facets(GroupedMesh& mesh, RowRange facets) {
   for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
     out_.put(f + 1);
     for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) out_.put(row + 1);
+    out_.end_row();
+  }
+}
+
+void MshWriter::put_wedges(const Contents& contents, std::size_t entity) {
+  GroupedMesh& mesh = contents.mesh;
+  const std::size_t behind_tets = mesh.facet_groups().size() + mesh.table().size();
+  const RowRange wedges = mesh.wedge_groups()[entity - behind_tets].wedges;
+  const auto [dimension, tag] = tag_of(contents, entity);
+  for (const std::int32_t number : {dimension, tag, kMshPrism6}) out_.put(number);
+  out_.put(wedges.size());
+  out_.end_row();
+  for (std::uint64_t w = wedges.begin; w < wedges.end; ++w) {
+    out_.put(mesh.facet_count() + mesh.tet_count() + w + 1);
+    for (const std::uint64_t row : mesh.wedge_nodes(mesh.wedge(w))) out_.put(row + 1);
     out_.end_row();
   }
 }

@@ -35,6 +35,17 @@ void add_tet_uses(GroupedMesh& mesh, Pairs& uses) {
   }
 }
 
+/// They have no nodes of their own, and a box.
+void add_wedge_uses(GroupedMesh& mesh, Pairs& uses) {
+  std::uint64_t entity = mesh.facet_groups().size() + mesh.table().size();
+  for (const WedgeGroup& group : mesh.wedge_groups()) {
+    for (std::uint64_t w = group.wedges.begin; w < group.wedges.end; ++w) {
+      add_uses(mesh.wedge_nodes(mesh.wedge(w)), entity, uses);
+    }
+    ++entity;
+  }
+}
+
 /// A box that has no point yet when `first`.
 void extend(EntityBox& box, const Position& p, bool first) {
   if (first) box = {p, p};
@@ -47,13 +58,15 @@ void extend(EntityBox& box, const Position& p, bool first) {
 }  // namespace
 
 NodeClasses::NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder) : rows_(folder) {
-  boxes_.resize(mesh.facet_groups().size() + std::max<std::size_t>(mesh.table().size(), 1));
+  boxes_.resize(mesh.facet_groups().size() + std::max<std::size_t>(mesh.table().size(), 1) +
+                mesh.wedge_groups().size());
   nodes_.resize(boxes_.size());
   Pairs indices(folder, kSortBytes);  // entity, row
   {
     Pairs uses(folder, kSortBytes);
     add_facet_uses(mesh, uses);
     add_tet_uses(mesh, uses);
+    add_wedge_uses(mesh, uses);
     place_rows(mesh, uses, indices);
   }
   indices.each([&](const std::array<std::uint64_t, 2>& index) {

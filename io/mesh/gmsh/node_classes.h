@@ -14,7 +14,8 @@ struct EntityBox {
   Position hi{};
 };
 
-/// Entities are the groups of facets, by their number, and behind them the labels, by rank.  Each
+/// Entities are the groups of facets, by their number, behind them the labels, by rank, and the
+/// groups of wedges.  Each
 /// node is on the first entity that has it; one in no tet is on the first label's, and where there
 /// is no label, on an entity of its own behind the groups (there are none then).
 /// Memory: 24 MiB and 64 bytes an entity; the rest waits in temporary files in `folder`, some

@@ -101,6 +101,11 @@ PlainNames::PlainNames(const GroupedMesh& mesh) {
     name_interface(mesh, group.first, group.second);
     name_interface(mesh, group.second, group.first);
   }
+  for (const WedgeGroup& group : mesh.wedge_groups()) {
+    wedges_.push_back(take(text(kWedgeNames, pair_text(mesh, group.bottom, group.top)),
+                           text(plain_digits(mesh.table(), group.bottom), "_",
+                                plain_digits(mesh.table(), group.top))));
+  }
 }
 
 void PlainNames::name_volumes(const GroupedMesh& mesh) {
@@ -120,13 +125,18 @@ void PlainNames::name_volumes(const GroupedMesh& mesh) {
 }
 
 void PlainNames::name_interface(const GroupedMesh& mesh, Label from, Label to) {
+  interfaces_[{from, to}] =
+      take("FACE_" + pair_text(mesh, from, to),
+           text(plain_digits(mesh.table(), from), "_", plain_digits(mesh.table(), to)));
+}
+
+std::string PlainNames::pair_text(const GroupedMesh& mesh, Label one, Label other) const {
   const LabelTable& table = mesh.table();
   const auto part = [&](Label rank) {
     const bool named = !plain_text(mesh.names().name(table.raw(rank))).empty();
     return named ? volumes_[rank] : plain_digits(table, rank);
   };
-  interfaces_[{from, to}] = take(text("FACE_", part(from), "_", part(to)),
-                                 text(plain_digits(table, from), "_", plain_digits(table, to)));
+  return text(part(one), "_", part(other));
 }
 
 std::string PlainNames::take(const std::string& wanted, const std::string& number) {

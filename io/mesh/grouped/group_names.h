@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,12 +41,15 @@ class GroupNames {
 [[nodiscard]] std::string plain_volume_name(const LabelTable& table, Label rank);
 [[nodiscard]] std::string plain_facet_name(const LabelTable& table, const FacetGroup& group);
 
+/// How names of wedges begin.
+inline constexpr std::string_view kWedgeNames = "COHESIVE_";
+
 /// Names for programs (Abaqus, CalculiX) that allow letters, digits, '_' and '-' alone, a letter
 /// first, and 80 of them, and take small and capital letters for the same.
 /// A label is called by its name with '_' for what is not allowed ("Matrix (epoxy)" is
 /// "Matrix_epoxy") and "L_" in front of what begins with no letter; without a name as
 /// plain_volume_name().  An interface is "FACE_a_b" on the side of a, with names or numbers of its
-/// labels; a side of the box as plain_facet_name().
+/// labels; a side of the box as plain_facet_name(); wedges from a to b are "COHESIVE_a_b".
 /// ENSURES: no two are the same.  Where they would be, or are longer, numbers of labels go behind.
 class PlainNames {
  public:
@@ -54,16 +58,21 @@ class PlainNames {
   [[nodiscard]] const std::string& volume(Label rank) const { return volumes_[rank]; }
   /// On the side of the group's first label, or of its second, which interfaces alone have.
   [[nodiscard]] std::string facets(const FacetGroup& group, bool of_second = false) const;
+  /// By number in GroupedMesh::wedge_groups().
+  [[nodiscard]] const std::string& wedges(std::size_t group) const { return wedges_[group]; }
 
  private:
   void name_volumes(const GroupedMesh& mesh);
   void name_interface(const GroupedMesh& mesh, Label from, Label to);
+  /// "a_b", with names or numbers of these labels.
+  [[nodiscard]] std::string pair_text(const GroupedMesh& mesh, Label one, Label other) const;
   /// The name, or where it is too long or taken as much of it as leaves room for the number.
   [[nodiscard]] std::string take(const std::string& wanted, const std::string& number);
 
   std::vector<std::string> volumes_;
   std::map<std::pair<Label, Label>, std::string> interfaces_;  ///< by the label that is inside
-  std::set<std::string> taken_;                                ///< in capitals
+  std::vector<std::string> wedges_;
+  std::set<std::string> taken_;  ///< in capitals
 };
 
 /// A run of facets under one number.

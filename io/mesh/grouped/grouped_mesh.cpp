@@ -15,6 +15,7 @@ GroupedMesh::GroupedMesh(const std::filesystem::path& folder)
       tets_(folder),
       values_(folder),
       facets_(folder),
+      wedges_(folder),
       edges_(folder),
       middles_(folder) {}
 
@@ -75,13 +76,29 @@ void write_nodes(GroupedMesh& mesh, MeshSink& sink) {
   }
 }
 
-void write_cells(GroupedMesh& mesh, Label rank, TenNodeSink& sink) {
-  const RowRange range = mesh.label_tets()[rank];
+void write_values_of(GroupedMesh& mesh, std::uint64_t tet, MeshSink& sink) {
   std::vector<double> row(mesh.header().values.size());
+  for (std::size_t i = 0; i < row.size(); ++i) row[i] = mesh.value(tet, i);
+  sink.write_values(row);
+}
+
+void write_cells(GroupedMesh& mesh, Label rank, CellSink& sink) {
+  const RowRange range = mesh.label_tets()[rank];
   for (std::uint64_t tet = range.begin; tet < range.end; ++tet) {
     sink.write_cell(mesh.tet_nodes(tet), mesh.table().raw(rank));
-    for (std::size_t i = 0; i < row.size(); ++i) row[i] = mesh.value(tet, i);
-    sink.write_values(row);
+    write_values_of(mesh, tet, sink);
+  }
+}
+
+void write_wedges(GroupedMesh& mesh, CellSink& sink) {
+  std::uint64_t interface = 0;
+  for (const WedgeGroup& group : mesh.wedge_groups()) {
+    ++interface;
+    for (std::uint64_t w = group.wedges.begin; w < group.wedges.end; ++w) {
+      const Wedge wedge = mesh.wedge(w);
+      sink.write_wedge(mesh.wedge_nodes(wedge), mesh.table().raw(group.bottom), interface);
+      write_values_of(mesh, wedge.bottom_tet, sink);
+    }
   }
 }
 
@@ -122,10 +139,27 @@ NodeRows GroupedMesh::facet_nodes(const Facet& facet) {
   return out;
 }
 
-void TenNodeWriter::write(GroupedMesh& mesh) {
-  sink_->begin(mesh.header());
+NodeRows GroupedMesh::wedge_nodes(const Wedge& wedge) {
+  NodeRows out;
+  out.add(wedge.bottom);
+  out.add(wedge.top);
+  if (element_ == Element::kTet4) return out;
+  out.add(facet_middles({.rows = wedge.bottom, .tet = wedge.bottom_tet}));
+  out.add(facet_middles({.rows = wedge.top, .tet = wedge.top_tet}));
+  return out;
+}
+
+void CellWriter::write(GroupedMesh& mesh) {
+  MeshHeader header = mesh.header();
+  header.wedges.count = mesh.wedge_count();
+  for (const WedgeGroup& group : mesh.wedge_groups()) {
+    header.wedges.interfaces.push_back(
+        {mesh.table().raw(group.bottom), mesh.table().raw(group.top)});
+  }
+  sink_->begin(header);
   write_nodes(mesh, *sink_);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) write_cells(mesh, rank, *sink_);
+  write_wedges(mesh, *sink_);
   sink_->finish();
 }
 

@@ -45,12 +45,30 @@ struct Facet {
   std::uint64_t second_opposite = 0;
 };
 
+/// Wedges of one interface.
+struct WedgeGroup {
+  Label bottom = 0;  ///< the label under them, by rank
+  Label top = 0;     ///< the label on top of them
+  RowRange wedges;
+};
+
+/// A wedge of no thickness between the two sides of a facet of a split interface.  Corner i of the
+/// bottom lies where corner i of the top lies; it is the same row where the vertex was not doubled,
+/// which at most two of them are.
+struct Wedge {
+  std::array<std::uint64_t, 3> bottom{};  ///< its normal points to the top
+  std::array<std::uint64_t, 3> top{};
+  std::uint64_t bottom_tet = 0;  ///< the tet that has the bottom for a facet
+  std::uint64_t top_tet = 0;
+};
+
 /// The six edges of a tet by its corners, in the order of VTK's, Abaqus' and FEBio's ten nodes.
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
-/// Nodes of a tet or of a facet: its corners, and with kTet10 behind them the middles of its edges,
-/// those of a tet in the order of kTetEdges, those of a facet as edges 0 1, 1 2 and 2 0.
+/// Nodes of a tet, a facet or a wedge: its corners, and with kTet10 behind them the middles of its
+/// edges, those of a tet in the order of kTetEdges, those of a facet as edges 0 1, 1 2 and 2 0.  A
+/// wedge has the corners of bottom and top, then the middles of the bottom's and the top's edges.
 class NodeRows {
  public:
   [[nodiscard]] const std::uint64_t* begin() const { return rows_.data(); }
@@ -62,7 +80,7 @@ class NodeRows {
   }
 
  private:
-  std::array<std::uint64_t, 10> rows_{};
+  std::array<std::uint64_t, 12> rows_{};
   std::size_t size_ = 0;
 };
 
@@ -113,6 +131,16 @@ class GroupedMesh {
   [[nodiscard]] std::array<std::uint64_t, 3> facet_middles(const Facet& facet);
   [[nodiscard]] NodeRows facet_nodes(const Facet& facet);
 
+  /// Returns the groups that have wedges, in the order of their facets: those of the interfaces
+  /// that header().record.cohesive names.
+  [[nodiscard]] const std::vector<WedgeGroup>& wedge_groups() const { return wedge_groups_; }
+  /// Wedges are numbered by group, in a group by facet.  Facets of which no vertex was doubled have
+  /// none.
+  [[nodiscard]] std::uint64_t wedge_count() const { return wedges_.size(); }
+  [[nodiscard]] Wedge wedge(std::uint64_t number) { return wedges_[number]; }
+  /// 6 nodes; with kTet10 12.
+  [[nodiscard]] NodeRows wedge_nodes(const Wedge& wedge);
+
  private:
   friend class MeshGrouping;
 
@@ -128,6 +156,8 @@ class GroupedMesh {
   std::vector<RowRange> label_tets_;
   PagedFile<Facet> facets_;
   std::vector<FacetGroup> facet_groups_;
+  PagedFile<Wedge> wedges_;
+  std::vector<WedgeGroup> wedge_groups_;
   PagedFile<std::array<std::uint64_t, 2>> edges_;    ///< corners of each edge; kTet10 only
   PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet; kTet10 only
 };
@@ -154,21 +184,26 @@ class GroupedWriter {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/// A sink that writes tets of one kind or the other.
-class TenNodeSink : public MeshSink {
+/// A sink that writes tets of one kind or the other, and wedges.
+class CellSink : public MeshSink {
  public:
-  /// A tet of ten nodes, in the place of write_tets().  REQUIRES: the sink was made for kTet10.
+  /// Takes the nodes of a tet, in the place of write_tets().
   virtual void write_cell(std::span<const std::uint64_t> rows, RawLabel label) = 0;
+  /// Takes the nodes of a wedge (NodeRows), the label under it, and the number of its interface
+  /// from 1 on.  REQUIRES: all tets were written; header.wedges tells of it.
+  virtual void write_wedge(std::span<const std::uint64_t> rows, RawLabel bottom,
+                           std::uint64_t interface) = 0;
 };
 
-/// Streams a grouped mesh of kTet10 into such a sink.
-class TenNodeWriter : public GroupedWriter {
+/// Streams a grouped mesh into such a sink, wedges behind the tets.  A wedge has the values of the
+/// tet under it.
+class CellWriter : public GroupedWriter {
  public:
-  explicit TenNodeWriter(std::unique_ptr<TenNodeSink> sink) : sink_(std::move(sink)) {}
+  explicit CellWriter(std::unique_ptr<CellSink> sink) : sink_(std::move(sink)) {}
   void write(GroupedMesh& mesh) override;
 
  private:
-  std::unique_ptr<TenNodeSink> sink_;
+  std::unique_ptr<CellSink> sink_;
 };
 
 }  // namespace mw::io

@@ -55,6 +55,10 @@ class MeshGrouping {
   /// Side << 32 | first, second, 4 * tet + opposite corner of the first, and of the second.
   using Facets = ExternalSort<4>;
 
+  /// The row of the vertex that `row` doubles, or `row`.
+  [[nodiscard]] std::uint64_t first_of(std::uint64_t row) const {
+    return doubles_ ? doubles_->first(row) : row;
+  }
   void find_box();
   void sort_tets(Faces& faces);
   void place_tet(TetRows tet, Faces& faces);
@@ -62,6 +66,8 @@ class MeshGrouping {
   void pair_faces(Faces& faces, Facets& facets);
   void add_facet(std::span<const FaceRecord> sharing, Facets& facets);
   void number_facets(Facets& facets);
+  void find_wedges();
+  void add_wedges(const FacetGroup& group, bool is_first_bottom);
   void find_middles();
 
   std::filesystem::path folder_;
@@ -113,6 +119,7 @@ void MeshGrouping::group() {
     pair_faces(faces, facets);
   }
   number_facets(facets);
+  find_wedges();
   if (mesh_.element_ == Element::kTet10) find_middles();
 }
 
@@ -167,7 +174,7 @@ void MeshGrouping::place_tet(TetRows tet, Faces& faces) {
   mesh_.tets_.append(tet);
   for (std::uint64_t opposite = 0; opposite < 4; ++opposite) {
     std::array<std::uint64_t, 3> rows = facet_rows(tet, opposite);
-    for (std::uint64_t& row : rows) row = doubles_ ? doubles_->first(row) : row;
+    for (std::uint64_t& row : rows) row = first_of(row);
     std::sort(rows.begin(), rows.end());
     faces.add({rows[0], rows[1], rows[2], number << 2 | opposite});
   }
@@ -230,6 +237,38 @@ void MeshGrouping::number_facets(Facets& facets) {
                           .second_tet = record[3] >> 2,
                           .second_opposite = record[3] & 3});
   });
+}
+
+void MeshGrouping::find_wedges() {
+  const CohesiveRule& rule = mesh_.header_.record.cohesive;
+  if (!rule.any()) return;
+  for (const FacetGroup& group : mesh_.facet_groups_) {
+    if (group.side != Side::kInterface) continue;
+    const RawLabel first = mesh_.table_.raw(group.first), second = mesh_.table_.raw(group.second);
+    if (rule.has(first, second)) add_wedges(group, !rule.names(second, first));
+  }
+}
+
+void MeshGrouping::add_wedges(const FacetGroup& group, bool is_first_bottom) {
+  WedgeGroup wedges{.bottom = is_first_bottom ? group.first : group.second,
+                    .top = is_first_bottom ? group.second : group.first,
+                    .wedges = {mesh_.wedges_.size(), mesh_.wedges_.size()}};
+  for (std::uint64_t f = group.facets.begin; f < group.facets.end; ++f) {
+    const Facet facet = mesh_.facets_[f], other = mesh_.of_second(facet);
+    const Facet& bottom = is_first_bottom ? facet : other;
+    const Facet& top = is_first_bottom ? other : facet;
+    Wedge wedge{.bottom = bottom.rows, .bottom_tet = bottom.tet, .top_tet = top.tet};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto above = std::find_if(top.rows.begin(), top.rows.end(), [&](std::uint64_t row) {
+        return first_of(row) == first_of(bottom.rows[i]);
+      });
+      MW_ASSERT(above != top.rows.end());
+      wedge.top[i] = *above;
+    }
+    if (wedge.bottom != wedge.top) mesh_.wedges_.append(wedge);
+  }
+  wedges.wedges.end = mesh_.wedges_.size();
+  if (wedges.wedges.size() > 0) mesh_.wedge_groups_.push_back(wedges);
 }
 
 /// Edges get numbers in the order of their rows, then each tet those of its six.

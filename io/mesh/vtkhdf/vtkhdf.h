@@ -19,8 +19,8 @@
 namespace mw::io {
 
 /// The first rooms of a file.  values: columns of numbers that tets have.
-[[nodiscard]] ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets,
-                                        std::size_t values = 0);
+[[nodiscard]] ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element,
+                                        const MeshHeader& header);
 
 /// Writes all that tells of the columns, and gives the file its name.
 /// REQUIRES: all rows are in the file, and the points' room is reserved.
@@ -32,10 +32,13 @@ void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element eleme
 ///     NumberOfPoints, NumberOfCells, NumberOfConnectivityIds   Int64, 1 element
 ///     Points             Float64 [vertices][3]
 ///     Connectivity       Int64 [4 tets]; of ten nodes [10 tets], those behind the corners the
-///                        middles of kTetEdges
+///                        middles of kTetEdges; behind them those of wedges (element.h)
 ///     Offsets            Int64 [tets + 1]
-///     Types              UInt8 [tets], all 10; of ten nodes 24
+///     Types              UInt8 [tets], all 10; of ten nodes 24; of wedges, behind the tets, 13,
+///     and
+///                        with ten nodes 31
 ///     CellData/label     UInt64 or Int64 [tets]; beside it Float64 [tets] for each of the values
+///                        with wedges also UInt64 `cohesive`: 0, or the number of their interface
 ///     FieldData          names of labels, where there are any, as in /mwmesh (add_vtkhdf_facts())
 /// No time stamps: equal meshes are equal bytes.
 /// Cost: 4 MiB of buffers.  Thread safety: none.
@@ -101,7 +104,8 @@ void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink);
 /// have a variable length and are declared ASCII, though they are UTF-8: VTK 9.1 reads no others.
 /// What we read: the numbers there, and a second copy of the names in `file`, `mwmesh/label_name`,
 /// bytes with a NUL behind each: the HDF5 library does not survive damaged strings of variable
-/// length.  Without names nothing is written.  The record is `mwmesh/record`, bytes too.
+/// length.  Without names nothing is written.  The record is `mwmesh/record`, bytes too.  Where
+/// there are wedges the labels under and on top of them are FieldData/cohesive_labels.
 /// ENSURES: file and grid have the groups that there are.  ERRORS: as Hdf5Output.
 void add_vtkhdf_facts(Hdf5Output& output, const MeshHeader& header, Hdf5Group& file,
                       Hdf5Group& grid);

@@ -41,6 +41,14 @@ Hdf5DataSet colours_of(Hdf5Output& output, const LabelNames& names) {
                     std::as_bytes(std::span(colours)));
 }
 
+Hdf5DataSet cohesive_labels_of(Hdf5Output& output, const MeshHeader& header) {
+  const auto& interfaces = header.wedges.interfaces;
+  return output.add({.name = kCohesiveLabels,
+                     .kind = header.labels_signed ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64,
+                     .shape = {interfaces.size(), 2}},
+                    std::as_bytes(std::span(interfaces)));
+}
+
 Hdf5DataSet bytes_in(Hdf5Output& output, const char* name, const std::string& bytes) {
   return output.add({.name = name, .shape = {bytes.size()}}, std::as_bytes(std::span(bytes)));
 }
@@ -118,12 +126,13 @@ void add_vtkhdf_facts(Hdf5Output& output, const MeshHeader& header, Hdf5Group& f
   if (names.empty() && record.empty()) return;
   Hdf5Group ours{.name = kOurs};
   if (!record.empty()) ours.sets.push_back(bytes_in(output, kRecord, record));
+  Hdf5Group fields{.name = kFields};
   if (!names.empty()) {
-    grid.groups.push_back(
-        {.name = kFields,
-         .sets = {ids_of(output, header), strings_of(output, names), colours_of(output, names)}});
+    fields.sets = {ids_of(output, header), strings_of(output, names), colours_of(output, names)};
     ours.sets.push_back(bytes_in(output, kLabelName, bytes_of(names)));
   }
+  if (header.wedges.count > 0) fields.sets.push_back(cohesive_labels_of(output, header));
+  if (!fields.sets.empty()) grid.groups.push_back(std::move(fields));
   file.groups.push_back(std::move(ours));
 }
 

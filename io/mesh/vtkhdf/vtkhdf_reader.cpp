@@ -45,14 +45,14 @@ class Reader {
 
   void read() {
     check_arrays();
-    const std::uint64_t tets = sum(cell_counts_);
-    header_.tets = tets;
+    const std::uint64_t cells = sum(cell_counts_);
+    for (std::size_t part = 0; part < cell_counts_.size(); ++part) survey(part);
+    if (labels_ && labels_->rows() != cells) {
+      labels_->fail(text("has ", labels_->rows(), " rows, there are ", cells, " cells"));
+    }
+    header_.tets = cells - wedges_;
     header_.labels_signed = labels_ && labels_->is_signed();
     sink_.begin(header_);
-    for (std::size_t part = 0; part < cell_counts_.size(); ++part) survey(part);
-    if (labels_ && labels_->rows() != tets) {
-      labels_->fail(text("has ", labels_->rows(), " rows, there are ", tets, " cells"));
-    }
     if (ten_nodes_) find_middles();
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {
       read_points(part);
@@ -62,6 +62,8 @@ class Reader {
   }
 
  private:
+  using Numbers = std::vector<std::uint64_t>;
+
   [[nodiscard]] std::vector<std::uint64_t> counts(hid_t group, const char* name) const {
     const Hdf5Array array(group, name, file_);
     std::vector<std::uint64_t> out(array.rows());
@@ -145,6 +147,7 @@ class Reader {
       offsets_.read(next_.cells + part + at + 1, ends.size(), ends.data());
       for (std::size_t i = 0; i < types.size(); ++i) {
         end += nodes_of(types[i], next_.cells + at);
+        wedges_ += is_vtk_wedge(types[i]) ? 1U : 0U;
         if (ends[i] != end) offsets_.fail(text(ends[i], " is not ", end));
       }
     }
@@ -164,16 +167,17 @@ class Reader {
   }
 
   [[nodiscard]] std::uint64_t nodes_of(std::uint64_t type, std::uint64_t row) {
-    if (type == kVtkTetra) return 4;
-    if (type != kVtkQuadraticTetra) {
+    const std::uint64_t nodes = vtk_nodes_of(type, header_.record.cohesive.any());
+    if (nodes == 0) {
       fail_input(file_, text("a cell behind row ", row),
                  text("type ", type, " is no tetrahedron (10 or 24)"), "keep only the tetrahedra");
     }
-    ten_nodes_ = true;
-    return 10;
+    ten_nodes_ = ten_nodes_ || type == kVtkQuadraticTetra;
+    return nodes;
   }
 
-  /// Calls take(corners, middles) on batches of a partition's cells.
+  /// Calls take(corners, middles, types) on batches of a partition's cells; corners and middles are
+  /// those of tets.  Wedges, of which the record tells, follow from the tets.
   template <class Take>
   void each_batch(std::size_t part, Take take) {
     std::vector<std::uint64_t> types, middles;
@@ -192,12 +196,16 @@ class Reader {
       middles.clear();
       const std::int64_t* next = nodes.data();
       for (const std::uint64_t type : types) {
+        if (is_vtk_wedge(type)) {
+          next += nodes_of(type, at);
+          continue;
+        }
         TetRows& tet = tets.emplace_back();
         for (std::uint64_t& row : tet) row = row_of(part, *next++);
         const std::uint64_t behind = nodes_of(type, at) - tet.size();
         for (std::uint64_t i = 0; i < behind; ++i) middles.push_back(row_of(part, *next++));
       }
-      take(tets, middles);
+      take(tets, middles, types);
     }
   }
 
@@ -211,12 +219,12 @@ class Reader {
   void find_middles() {
     rows_.grow(points_.rows());
     for (std::size_t part = 0; part < parts_.size(); ++part) {
-      each_batch(part, [&](const std::vector<TetRows>&, const std::vector<std::uint64_t>& middles) {
+      each_batch(part, [&](const auto&, const Numbers& middles, const auto&) {
         for (const std::uint64_t row : middles) rows_.middle(row);
       });
     }
     for (std::size_t part = 0; part < parts_.size(); ++part) {
-      each_batch(part, [&](const std::vector<TetRows>& tets, const std::vector<std::uint64_t>&) {
+      each_batch(part, [&](const std::vector<TetRows>& tets, const auto&, const auto&) {
         for (const TetRows& tet : tets) {
           for (const std::uint64_t row : tet) rows_.corner(row);
         }
@@ -232,18 +240,22 @@ class Reader {
   }
 
   void read_cells(std::size_t part) {
-    std::vector<RawLabel> labels;
+    std::vector<RawLabel> of_cells, labels;
     std::uint64_t at = parts_[part].cells;
-    each_batch(part, [&](std::vector<TetRows>& tets, const std::vector<std::uint64_t>&) {
+    each_batch(part, [&](std::vector<TetRows>& tets, const auto&, const Numbers& types) {
       if (ten_nodes_) {
         for (TetRows& tet : tets) {
           for (std::uint64_t& row : tet) row = rows_[row];
         }
       }
-      labels.resize(tets.size());
-      read_labels(*labels_, at, labels);
+      of_cells.resize(types.size());
+      read_labels(*labels_, at, of_cells);
+      at += types.size();
+      labels.clear();
+      for (std::size_t i = 0; i < types.size(); ++i) {
+        if (!is_vtk_wedge(types[i])) labels.push_back(of_cells[i]);
+      }
       sink_.write_tets(tets, labels);
-      at += tets.size();
     });
   }
 
@@ -259,6 +271,7 @@ class Reader {
   MeshHeader header_;
   std::vector<Part> parts_;
   Part next_;
+  std::uint64_t wedges_ = 0;
   bool ten_nodes_ = false;  ///< some cell has ten nodes
   KeptRows rows_;           ///< what stays of points then
 };

@@ -9,6 +9,14 @@
 namespace mw::io {
 namespace {
 
+std::uint64_t cells_of(const MeshHeader& header) {
+  return header.tets + header.wedges.count;
+}
+
+std::uint64_t nodes_of_cells(const MeshHeader& header, Element element) {
+  return node_count(element) * header.tets + wedge_node_count(element) * header.wedges.count;
+}
+
 /// A data set of one number.
 Hdf5DataSet one(Hdf5Output& output, const char* name, std::uint64_t count) {
   return output.add({.name = name, .kind = Hdf5Kind::kInt64, .shape = {1}},
@@ -17,37 +25,42 @@ Hdf5DataSet one(Hdf5Output& output, const char* name, std::uint64_t count) {
 
 }  // namespace
 
-ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, std::uint64_t tets,
-                          std::size_t values) {
+ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, const MeshHeader& header) {
   ColumnPlaces out;
-  out.connectivity = rooms.reserve(node_count(element) * tets * sizeof(std::uint64_t));
-  out.offsets = rooms.reserve((tets + 1) * sizeof(std::uint64_t));
-  out.types = rooms.reserve(tets);
-  out.labels = rooms.reserve(tets * sizeof(RawLabel));
-  for (std::size_t i = 0; i < values; ++i) {
-    out.values.push_back(rooms.reserve(tets * sizeof(double)));
+  const std::uint64_t cells = cells_of(header);
+  out.connectivity = rooms.reserve(nodes_of_cells(header, element) * sizeof(std::uint64_t));
+  out.offsets = rooms.reserve((cells + 1) * sizeof(std::uint64_t));
+  out.types = rooms.reserve(cells);
+  out.labels = rooms.reserve(cells * sizeof(RawLabel));
+  for (std::size_t i = 0; i < header.values.size(); ++i) {
+    out.values.push_back(rooms.reserve(cells * sizeof(double)));
   }
+  if (header.wedges.count > 0) out.cohesive = rooms.reserve(cells * sizeof(std::uint64_t));
   out.points = rooms.next();
   return out;
 }
 
 void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element element,
                    const MeshHeader& header, std::uint64_t vertices) {
-  const std::uint64_t tets = header.tets, corners = node_count(element) * tets;
+  const std::uint64_t cells = cells_of(header), corners = nodes_of_cells(header, element);
   Hdf5Group grid{.name = "VTKHDF",
                  .attributes = {{"Version", std::vector<std::int64_t>{1, 0}},
                                 {"Type", std::string("UnstructuredGrid")}}};
   grid.sets = {{"Points", Hdf5Kind::kFloat64, {vertices, 3}, places.points},
                {"Connectivity", Hdf5Kind::kInt64, {corners}, places.connectivity},
-               {"Offsets", Hdf5Kind::kInt64, {tets + 1}, places.offsets},
-               {"Types", Hdf5Kind::kUint8, {tets}, places.types},
+               {"Offsets", Hdf5Kind::kInt64, {cells + 1}, places.offsets},
+               {"Types", Hdf5Kind::kUint8, {cells}, places.types},
                one(output, "NumberOfPoints", vertices),
-               one(output, "NumberOfCells", tets),
+               one(output, "NumberOfCells", cells),
                one(output, "NumberOfConnectivityIds", corners)};
   const Hdf5Kind label = header.labels_signed ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64;
-  grid.groups = {{.name = "CellData", .sets = {{"label", label, {tets}, places.labels}}}};
+  grid.groups = {{.name = "CellData", .sets = {{"label", label, {cells}, places.labels}}}};
   for (std::size_t i = 0; i < header.values.size(); ++i) {
-    grid.groups[0].sets.push_back({header.values[i], Hdf5Kind::kFloat64, {tets}, places.values[i]});
+    grid.groups[0].sets.push_back(
+        {header.values[i], Hdf5Kind::kFloat64, {cells}, places.values[i]});
+  }
+  if (header.wedges.count > 0) {
+    grid.groups[0].sets.push_back({kCohesive, Hdf5Kind::kUint64, {cells}, places.cohesive});
   }
   Hdf5Group root;
   add_vtkhdf_facts(output, header, root, grid);
@@ -56,7 +69,7 @@ void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element eleme
 }
 
 void VtkhdfSink::begin(const MeshHeader& header) {
-  places_ = place_vtkhdf(output_.rooms(), element(), header.tets, header.values.size());
+  places_ = place_vtkhdf(output_.rooms(), element(), header);
   place_columns(header, output_.file(), places_);
 }
 
@@ -83,7 +96,7 @@ void VtkhdfShared::join(const std::string& place) {
 void VtkhdfShared::lay_out(const MeshHeader& header, std::uint64_t vertices) {
   header_ = header;
   vertices_ = vertices;
-  static_cast<void>(place_vtkhdf(made_->rooms(), Element::kTet4, header.tets));
+  static_cast<void>(place_vtkhdf(made_->rooms(), Element::kTet4, header));
   static_cast<void>(made_->reserve(vertices * sizeof(Position)));
   made_->extend();
 }
@@ -91,7 +104,8 @@ void VtkhdfShared::lay_out(const MeshHeader& header, std::uint64_t vertices) {
 void VtkhdfShared::begin(std::uint64_t tets) {
   Hdf5Rooms rooms;
   part_.emplace(partial_);
-  columns_ = MeshColumns(*part_, place_vtkhdf(rooms, Element::kTet4, tets), Element::kTet4);
+  columns_ =
+      MeshColumns(*part_, place_vtkhdf(rooms, Element::kTet4, {.tets = tets}), Element::kTet4);
 }
 
 void VtkhdfShared::sync() {
@@ -102,7 +116,7 @@ void VtkhdfShared::sync() {
 
 void VtkhdfShared::finish() {
   Hdf5Rooms rooms;
-  commit_vtkhdf(*made_, place_vtkhdf(rooms, Element::kTet4, header_.tets), Element::kTet4, header_,
+  commit_vtkhdf(*made_, place_vtkhdf(rooms, Element::kTet4, header_), Element::kTet4, header_,
                 vertices_);
 }
 

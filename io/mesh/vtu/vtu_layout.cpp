@@ -71,6 +71,18 @@ std::string record_array(const MeshRecord& record) {
               "\n      </DataArray>\n");
 }
 
+std::string cohesive_labels(const MeshHeader& header) {
+  if (header.wedges.count == 0) return {};
+  std::string labels;
+  for (const auto& [bottom, top] : header.wedges.interfaces) {
+    labels +=
+        id_text(bottom, header.labels_signed) + " " + id_text(top, header.labels_signed) + "\n";
+  }
+  return text(open_tag("DataArray", header.labels_signed ? "Int64" : "UInt64", kCohesiveLabels, 2,
+                       header.wedges.interfaces.size()),
+              labels, "      </DataArray>\n");
+}
+
 /// Longer than any head without its fields and ids.
 constexpr std::size_t kHeadBytes = 1536;
 constexpr std::string_view kAppended = "  <AppendedData encoding=\"raw\">\n_";
@@ -87,13 +99,19 @@ std::string ids_element(std::uint64_t offset) {
               array_tag("Int64", kNodeIds, 1, offset), "      </PointData>\n");
 }
 
-/// The arrays of values come first.
+std::uint64_t cells_of(const MeshHeader& header) {
+  return header.tets + header.wedges.count;
+}
+
+/// The arrays of values come first, then that of cohesive cells.
 std::string value_tags(const MeshHeader& header) {
   std::string out;
+  const std::uint64_t bytes = 8 + 8 * cells_of(header);
   for (std::size_t i = 0; i < header.values.size(); ++i) {
-    out += array_tag("Float64", header.values[i].c_str(), 1, i * (8 + 8 * header.tets));
+    out += array_tag("Float64", header.values[i].c_str(), 1, i * bytes);
   }
-  return out;
+  if (header.wedges.count == 0) return out;
+  return out + array_tag("UInt64", kCohesive, 1, header.values.size() * bytes);
 }
 
 /// `offset` of each array is relative to the '_'.
@@ -104,8 +122,9 @@ std::string make_head(const MeshHeader& header, std::uint64_t vertices, const st
   std::string head = text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n",
-      fields, "    <Piece NumberOfPoints=\"", vertices, "\" NumberOfCells=\"", header.tets, "\">\n",
-      ids, "      <Points>\n", array_tag("Float64", "Points", 3, offset[VtuLayout::kPoints]),
+      fields, "    <Piece NumberOfPoints=\"", vertices, "\" NumberOfCells=\"", cells_of(header),
+      "\">\n", ids, "      <Points>\n",
+      array_tag("Float64", "Points", 3, offset[VtuLayout::kPoints]),
       "      </Points>\n      <Cells>\n",
       array_tag("Int64", "connectivity", 1, offset[VtuLayout::kConnectivity]),
       array_tag("Int64", "offsets", 1, offset[VtuLayout::kOffsets]),
@@ -123,8 +142,8 @@ std::string make_head(const MeshHeader& header, std::uint64_t vertices, const st
 }  // namespace
 
 std::string vtu_fields(const MeshHeader& header) {
-  const std::string arrays =
-      name_arrays(header.names, header.labels_signed) + record_array(header.record);
+  const std::string arrays = name_arrays(header.names, header.labels_signed) +
+                             record_array(header.record) + cohesive_labels(header);
   return arrays.empty() ? arrays : text("    <FieldData>\n", arrays, "    </FieldData>\n");
 }
 
@@ -159,16 +178,19 @@ VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Elem
                           VtuIds with_ids) {
   const std::string fields = vtu_fields(header);
   VtuLayout layout;
-  layout.length = {header.tets * 8 * node_count(element),
-                   header.tets * 8,
-                   header.tets,
-                   header.tets * 8,
-                   vertices * 24,
-                   vertices * 8};
+  const std::uint64_t cells = cells_of(header);
+  layout.length = {
+      8 * (header.tets * node_count(element) + header.wedges.count * wedge_node_count(element)),
+      cells * 8,
+      cells,
+      cells * 8,
+      vertices * 24,
+      vertices * 8};
   if (with_ids == VtuIds::kOfNodes) layout.arrays = VtuLayout::kArrays;
   std::array<std::uint64_t, VtuLayout::kArrays> offset{};
-  layout.value_length = header.tets * 8;
-  std::uint64_t next = header.values.size() * (8 + layout.value_length);
+  layout.value_length = cells * 8;
+  const std::size_t first_arrays = header.values.size() + (header.wedges.count > 0 ? 1 : 0);
+  std::uint64_t next = first_arrays * (8 + layout.value_length);
   for (std::size_t i = 0; i < layout.arrays; ++i) {
     offset[i] = next;
     next += 8 + layout.length[i];
@@ -176,8 +198,12 @@ VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Elem
   const std::string ids = with_ids == VtuIds::kNone ? "" : ids_element(offset[VtuLayout::kIds]);
   layout.head = make_head(header, vertices, fields, ids, offset);
   for (std::size_t i = 0; i < layout.arrays; ++i) layout.start[i] = layout.head.size() + offset[i];
-  for (std::size_t i = 0; i < header.values.size(); ++i) {
+  for (std::size_t i = 0; i < first_arrays; ++i) {
     layout.values.push_back(layout.head.size() + i * (8 + layout.value_length));
+  }
+  if (header.wedges.count > 0) {
+    layout.cohesive = layout.values.back();
+    layout.values.pop_back();
   }
   layout.tail = "\n  </AppendedData>\n</VTKFile>\n";
   layout.tail_start = layout.head.size() + next;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "io/mesh/element.h"
@@ -15,7 +16,9 @@
 namespace mw::io {
 
 /// The element FieldData with the arrays of field_names.h, where there are names, and an array
-/// `mwmesh`, the bytes of the record, where there is one; else empty.  Everything is written as
+/// `mwmesh`, the bytes of the record, where there is one, and where there are wedges
+/// `cohesive_labels`: by interface the labels under and on top of its wedges.  Else empty.
+/// Everything is written as
 /// numbers, so nothing needs escaping.
 [[nodiscard]] std::string vtu_fields(const MeshHeader& header);
 
@@ -26,9 +29,10 @@ namespace mw::io {
 
 /// The file: XML head whose length depends on its fields alone (vtu_fields()), '_', then
 /// for each array a UInt64 byte count and the numbers, little-endian (Float64 for each of the
-/// values, connectivity Int64 x 4 or 10, offsets Int64, types UInt8, label UInt64 or Int64, points
-/// Float64 x 3), then the closing tags. The points are last, so that every place but the end is
-/// known before their number is; behind them may be ids of nodes, Int64.
+/// values, UInt64 `cohesive` where there are wedges, connectivity Int64 x 4 or 10, offsets Int64,
+/// types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags. The points are
+/// last, so that every place but the end is known before their number is; behind them may be ids of
+/// nodes, Int64.
 struct VtuLayout {
   enum Array { kConnectivity, kOffsets, kTypes, kLabel, kPoints, kIds, kArrays };
   std::size_t arrays = kIds;                    ///< how many of them there are
@@ -37,7 +41,8 @@ struct VtuLayout {
   std::array<std::uint64_t, kArrays> start{};   ///< file offset of the byte count
   std::array<std::uint64_t, kArrays> length{};  ///< bytes of the numbers
   std::vector<std::uint64_t> values;            ///< start of each of MeshHeader::values
-  std::uint64_t value_length = 0;               ///< of each of them
+  std::uint64_t value_length = 0;               ///< of each of them, and of `cohesive`
+  std::optional<std::uint64_t> cohesive;        ///< start of that array
   std::uint64_t tail_start = 0;
 };
 

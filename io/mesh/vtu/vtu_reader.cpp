@@ -69,35 +69,46 @@ void read_points(pugi::xml_node piece, VtkDocument& document, MeshData& mesh) {
   }
 }
 
-/// Where the nodes of each cell end; 4 of each, or 10.
-std::vector<std::uint64_t> read_offsets(pugi::xml_node cells, std::uint64_t count,
-                                        VtkDocument& document) {
-  const auto types = document.integers(named_array(cells, "types", document), count);
-  auto offsets = document.integers(named_array(cells, "offsets", document), count);
+/// Cells of a piece.
+struct VtuCells {
+  std::vector<std::uint64_t> types;
+  std::vector<std::uint64_t> ends;  ///< of the nodes of each
+};
+
+/// Wedges are left out where the mesh's record tells of them, and follow from the tets.
+VtuCells read_kinds(pugi::xml_node cells, std::uint64_t count, VtkDocument& document,
+                    const MeshRecord& record) {
+  VtuCells out{.types = document.integers(named_array(cells, "types", document), count),
+               .ends = document.integers(named_array(cells, "offsets", document), count)};
   std::uint64_t last = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (types[i] != kVtkTetra && types[i] != kVtkQuadraticTetra) {
+    const std::uint64_t nodes = vtk_nodes_of(out.types[i], record.cohesive.any());
+    if (nodes == 0) {
       fail_input(document.file(), text("cell ", i),
-                 text("type ", types[i], " is no tetrahedron (10 or 24)"),
+                 text("type ", out.types[i], " is no tetrahedron (10 or 24)"),
                  "keep only the tetrahedra");
     }
-    last += types[i] == kVtkTetra ? 4U : 10U;
-    if (offsets[i] == last) continue;
-    fail_input(document.file(), text("offset of cell ", i), text(offsets[i], " is not ", last));
+    last += nodes;
+    if (out.ends[i] == last) continue;
+    fail_input(document.file(), text("offset of cell ", i), text(out.ends[i], " is not ", last));
   }
-  return offsets;
+  return out;
 }
 
-/// Corners of cells, and which nodes are middles.
-void read_corners(pugi::xml_node cells, std::uint64_t count, VtkDocument& document, MeshData& mesh,
-                  KeptRows& middles) {
-  const std::vector<std::uint64_t> ends = read_offsets(cells, count, document);
+/// Corners of tets, and which nodes are middles.
+void read_corners(pugi::xml_node cells, const VtuCells& kinds, VtkDocument& document,
+                  MeshData& mesh, KeptRows& middles) {
+  const std::vector<std::uint64_t>& ends = kinds.ends;
   const pugi::xml_node array = named_array(cells, "connectivity", document);
   const auto nodes = document.integers(array, ends.back());
   const std::uint64_t rows = count_of(cells.parent(), "NumberOfPoints", document);
   const std::uint64_t first_row = mesh.vertices.size() - rows;
   std::size_t at = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (is_vtk_wedge(kinds.types[i])) {
+      at = ends[i];
+      continue;
+    }
     mesh.tets.emplace_back();
     for (std::size_t n = 0; at < ends[i]; ++n, ++at) {
       if (nodes[at] >= rows) {
@@ -117,10 +128,13 @@ void read_cells(pugi::xml_node piece, VtkDocument& document, MeshData& mesh, Kep
   const std::uint64_t count = count_of(piece, "NumberOfCells", document);
   if (count == 0) return;
   middles.grow(mesh.vertices.size());
-  read_corners(piece.child("Cells"), count, document, mesh, middles);
+  const VtuCells kinds = read_kinds(piece.child("Cells"), count, document, mesh.record);
+  read_corners(piece.child("Cells"), kinds, document, mesh, middles);
   const pugi::xml_node array = label_array(piece.child("CellData"), document);
   const auto labels = document.integers(array, count);
-  mesh.labels.insert(mesh.labels.end(), labels.begin(), labels.end());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_vtk_wedge(kinds.types[i])) mesh.labels.push_back(labels[i]);
+  }
   const auto type = parse_number_type(array.attribute("type").as_string());
   mesh.labels_signed = mesh.labels_signed || type->is_signed;
 }
@@ -156,10 +170,10 @@ MeshData read_vtu(const ByteSource& source) {
   VtkDocument document(source, kVtu);
   MeshData mesh;
   KeptRows middles;
+  mesh.record = read_vtu_record(document);
   read_grid(document, mesh, middles);
   drop_middles(mesh, middles);
   mesh.names = read_vtu_names(document);
-  mesh.record = read_vtu_record(document);
   return mesh;
 }
 

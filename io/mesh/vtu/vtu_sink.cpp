@@ -23,7 +23,8 @@ void VtuSink::begin(const MeshHeader& header) {
                  .types = numbers(VtuLayout::kTypes),
                  .labels = numbers(VtuLayout::kLabel),
                  .points = numbers(VtuLayout::kPoints),
-                 .values = std::move(values)});
+                 .values = std::move(values),
+                 .cohesive = layout.cohesive.value_or(0) + sizeof(std::uint64_t)});
 }
 
 void VtuSink::finish() {
@@ -37,6 +38,7 @@ void VtuSink::finish() {
   };
   for (std::size_t i = 0; i < layout.arrays; ++i) put_length(layout.start[i], layout.length[i]);
   for (const std::uint64_t start : layout.values) put_length(start, layout.value_length);
+  if (layout.cohesive) put_length(*layout.cohesive, layout.value_length);
   file_.write_at(layout.tail_start, std::as_bytes(std::span(layout.tail)));
   file_.commit();
 }

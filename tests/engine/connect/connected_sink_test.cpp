@@ -6,6 +6,7 @@
 #include "io/mesh/digest.h"
 #include "io/mesh/merged_vertices.h"
 #include "kernels/core/error.h"
+#include "tests/engine/connect/random_mesh.h"
 #include "tests/engine/memory_run.h"
 #include "tests/oracle/hanging_parts.h"
 #include "tests/temp_folder.h"
@@ -15,50 +16,6 @@ namespace {
 
 using namespace audit::test;
 using namespace test;
-
-/// Five tets a voxel, without those of some labels, and without vertices that no tet has.
-io::MeshData random_mesh(unsigned seed) {
-  std::mt19937 random(seed);
-  const auto kind = static_cast<VolumeKind>(seed % kVolumeKinds);
-  const Index3 shape{2 + below(random, 5), 2 + below(random, 5), 2 + below(random, 6)};
-  const std::uint32_t left_out = below(random, 3);
-  const SmallMesh all = five_tet_mesh(random_volume_of(random, kind, shape, 4));
-  io::MeshData out;
-  std::map<std::uint64_t, std::uint64_t> rows;
-  for (std::size_t t = 0; t < all.tets.size(); ++t) {
-    if (all.labels[t] < left_out) continue;
-    io::TetRows& tet = out.tets.emplace_back();
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto [at, is_new] = rows.try_emplace(all.tets[t][i], out.vertices.size());
-      if (is_new) out.vertices.push_back(all.vertices[all.tets[t][i]]);
-      tet[i] = at->second;
-    }
-    out.labels.push_back(all.labels[t]);
-  }
-  return out;
-}
-
-struct Connected {
-  io::MeshData mesh;
-  ConnectFacts facts;
-};
-
-/// piece: tets that are written at once.
-Connected connect(const io::MeshData& mesh, const ConnectOptions& options,
-                  std::size_t memory = 1 << 16, std::size_t piece = 4096) {
-  const ::mw::test::TempFolder folder;
-  io::MeshDataSink below;
-  ConnectedSink sink(below, {options, folder.path(), memory});
-  sink.begin({.tets = mesh.tets.size(), .record = mesh.record});
-  sink.write_vertices(mesh.vertices);
-  for (std::size_t t = 0; t < mesh.tets.size(); t += piece) {
-    const std::size_t count = std::min(piece, mesh.tets.size() - t);
-    sink.write_tets(std::span(mesh.tets).subspan(t, count),
-                    std::span(mesh.labels).subspan(t, count));
-  }
-  sink.finish();
-  return {std::move(below.mesh()), sink.facts().value()};
-}
 
 /// Tets by the number of their part.
 std::map<std::size_t, std::set<std::size_t>> parts_of(const io::MeshData& mesh) {
@@ -362,8 +319,8 @@ TEST(ConnectOptions, OfText) {
   for (const char* text : {"", "1", "1|", "1|1", "1|2,", "*|1"}) {
     EXPECT_THROW(static_cast<void>(parse_split(text)), Error) << text;
   }
-  EXPECT_THROW(check_split(some, io::LabelTable({1, 2}, false)), Error);
-  check_split(some, io::LabelTable({1, 2, 3}, false));
+  EXPECT_THROW(check_interfaces({.split = some}, io::LabelTable({1, 2}, false)), Error);
+  check_interfaces({.split = some}, io::LabelTable({1, 2, 3}, false));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ import copy
 import doctest
 import json
 import os
+import pathlib
 import pickle
 import signal
 import subprocess
@@ -362,6 +363,36 @@ class Figures(unittest.TestCase):
         with self.assertRaises(mwmesh.UsageError):
             mwmesh.mesh(labels, parts=10**9, **place)
 
+    def test_wedges(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        labels = np.ones((8, 8, 12), np.int8)
+        labels[:, :, 6:] = -2
+        split = mwmesh.mesh(labels, split=[(1, -2)])
+        self.assertEqual((split.wedges.shape, split.wedge_labels.shape), ((0, 6), (0, 2)))
+        for first, second in ((1, -2), (-2, 1)):
+            mesh = mwmesh.mesh(labels, cohesive=[(first, second)])
+            self.assertEqual(mesh.digest, split.digest)
+            self.assertEqual(mesh.report["parts"]["doubled"]["wedges"], len(mesh.wedges))
+            np.testing.assert_array_equal(mesh.wedge_labels, [[first, second]] * len(mesh.wedges))
+            self.assertEqual(mesh.wedge_labels.dtype, np.int64)
+            for label, side in ((first, mesh.wedges[:, :3]), (second, mesh.wedges[:, 3:])):
+                tets = mesh.tets[mesh.labels == label]
+                facets = {frozenset(np.delete(t, i)) for t in tets for i in range(4)}
+                self.assertTrue(all(frozenset(t) in facets for t in side))
+            a, b, c, above = (mesh.points[mesh.wedges[:, i]] for i in (0, 1, 2, 3))
+            np.testing.assert_array_equal(a, above)
+            normals = np.cross(b - a, c - a) / 2
+            np.testing.assert_allclose(normals.sum(axis=0), [64 if first == 1 else -64, 0, 0], atol=1e-9)
+            mesh.save(folder / "w.vtu")
+            for other in (pickle.loads(pickle.dumps(mesh)), mwmesh.read(folder / "w.vtu")):
+                np.testing.assert_array_equal(other.points[other.wedges], mesh.points[mesh.wedges])
+            with self.assertRaises(mwmesh.UsageError):
+                mesh.save(folder / "w.mesh")
+            with self.assertRaises(mwmesh.UsageError):
+                mwmesh.mesh_to_file(labels, folder / "w.bdf", cohesive="*")
+            with self.assertRaises(ValueError):
+                mesh.wedges[0] = 0
+
     def test_choices(self):
         mesh = mwmesh.mesh(self.volume, labels=[-1, 2], merge={1: 2}, names={2: "ball"})
         self.assertEqual(list(mesh.label_list()), [-1, 2])
@@ -659,7 +690,9 @@ class Errors(InFolder):
             "sample": (3, "x", {"hu": 3}, {"2": "a"}, {"hu": "a\0b"}),
             "workdir": (3, "a\0b"), "resume": ("yes", 2), "certify": (True, "maybe", []),
             "report": ("no",), "parts": (0, -1, "most", 1.5, None, True), "open_hinges": ("yes", 2),
-            "split": ("1|2", 3, [1], [(1, 1)], [(1, 2, 0)], [(1, "x")], [(1, 77)]), "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
+            "split": ("1|2", 3, [1], [(1, 1)], [(1, 2, 0)], [(1, "x")], [(1, 77)]),
+            "cohesive": ("1|2", 3, [(1, 1)], [(1, 77)], [(0, 1), (1, 0)]),
+            "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
             "window": (5, 1e3, 2**40, True, nan, "x", [32]), "max_distance": (nan, inf, -1, "x"),
             "surface": ("smoth", 1), "preset": ("quick",), "gradation": (0.2, -1),
         }

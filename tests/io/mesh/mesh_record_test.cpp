@@ -31,6 +31,8 @@ MeshRecord random_record(unsigned seed) {
   if (seed % 5 == 2) record.without_labels = labels;
   if (seed % 7 == 1) record.partial_labels = labels;
   record.has_doubles = seed % 7 == 2;
+  if (seed % 11 == 6) record.cohesive.pairs = {{labels[0], labels[1]}, {labels[2], labels[0]}};
+  if (seed % 11 == 7) record.cohesive.all = true;
   if (seed % 3 == 0) return record;
   record.promises = MeshPromises{.quality_floor = std::abs(number()),
                                  .interfaces = random() % 2 == 0,
