@@ -266,7 +266,7 @@ struct Mesh {
   std::vector<std::uint64_t> labels;               ///< by tet
   bool labels_are_signed = false;
   std::vector<LabelName> names;  ///< of labels that are in the mesh
-  /// By name, numbers by tet (Options::sample); NaN: unknown.
+  /// By name, numbers by tet (Options::sample, or what a file has); NaN: unknown.
   std::map<std::string, std::vector<double>> values{};
   std::string report;  ///< JSON, the keys of `mwmesh mesh --report`; empty when there is none
   std::string record;  ///< one line of JSON about the run that made it, which files keep
@@ -305,9 +305,10 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
 
 /// ERRORS: kInput naming file and place; kUsage for an unknown extension.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+/// values: whether the values of tets are written.
 /// ERRORS: also kUsage for values in a format that has no place for them.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
-                std::string_view element = "tet4");
+                std::string_view element = "tet4", bool values = true);
 /// Returns the label of a mesh that has this number or name.  ERRORS: those of find_label(Volume).
 [[nodiscard]] std::uint64_t find_label(const Mesh& mesh, std::string_view text);
 /// Returns a PNG of all labels except the one around them, as `mwmesh picture` draws it.

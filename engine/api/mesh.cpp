@@ -39,23 +39,6 @@ class WriterSink : public io::MeshSink {
   MeshWriter& writer_;
 };
 
-/// Collects values, too.
-class ValuesSink : public io::MeshDataSink {
- public:
-  void begin(const io::MeshHeader& header) override {
-    MeshDataSink::begin(header);
-    for (const std::string& name : header.values) columns_.push_back(&values_[name]);
-  }
-  void write_values(std::span<const double> rows) override {
-    for (std::size_t i = 0; i < rows.size(); ++i) columns_[i % columns_.size()]->push_back(rows[i]);
-  }
-  [[nodiscard]] std::map<std::string, std::vector<double>>& values() { return values_; }
-
- private:
-  std::map<std::string, std::vector<double>> values_;
-  std::vector<std::vector<double>*> columns_;
-};
-
 /// A job with its images opened.
 engine::MeshJob job_of(const Settings& settings, const Options& options, const Hooks& hooks) {
   engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
@@ -107,10 +90,9 @@ const char* version() {
 Mesh mesh(const Volume& volume, const Settings& settings, const Options& options,
           const Hooks& hooks) {
   return mw::api::guarded([&] {
-    ValuesSink sink;
+    io::MeshDataSink sink;
     std::string report = run_into(sink, {}, volume, job_of(settings, options, hooks));
     Mesh mesh = mw::api::library_mesh(std::move(sink.mesh()));
-    mesh.values = std::move(sink.values());
     mesh.report = std::move(report);
     return mesh;
   });

@@ -17,12 +17,13 @@ Mesh read_mesh(const std::filesystem::path& path) {
       [&] { return mw::api::library_mesh(mw::io::read_mesh(mw::api::checked_path(path))); });
 }
 
-void write_mesh(const Mesh& mesh, const std::filesystem::path& path, std::string_view element) {
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path, std::string_view element,
+                bool values) {
   mw::api::guarded([&] {
-    if (!mesh.values.empty()) mw::io::require_place_for_values(path);
+    if (values && !mesh.values.empty()) mw::io::require_place_for_values(path);
     const auto sink =
         mw::io::open_mesh_sink(mw::api::checked_path(path), mw::io::parse_element(element));
-    mw::api::deliver(mesh, *sink);
+    mw::api::deliver(mesh, *sink, values);
   });
 }
 

@@ -22,7 +22,8 @@ inline constexpr const char* kArray = "array";
 
 /// Without a report.
 [[nodiscard]] mwmesh::Mesh library_mesh(io::MeshData&& mesh);
-/// Begin to finish.  ERRORS: mw::Error(kUsage) for lists that do not fit together.
-void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink);
+/// Begin to finish.  values: whether those of tets go along.  ERRORS: mw::Error(kUsage) for lists
+/// that do not fit together.
+void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values = true);
 
 }  // namespace mw::api

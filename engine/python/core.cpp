@@ -298,11 +298,11 @@ void add_mesh(py::module_& module) {
     const py::gil_scoped_release no_gil;
     return read_mesh(path);
   });
-  module.def("write_mesh",
-             [](const Mesh& mesh, const std::string& path, const std::string& element) {
-               const py::gil_scoped_release no_gil;
-               write_mesh(mesh, path, element);
-             });
+  module.def("write_mesh", [](const Mesh& mesh, const std::string& path, const std::string& element,
+                              bool values) {
+    const py::gil_scoped_release no_gil;
+    write_mesh(mesh, path, element, values);
+  });
 }
 
 void add_verdict(py::module_& module) {

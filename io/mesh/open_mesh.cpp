@@ -181,12 +181,18 @@ bool is_mesh_path(const std::filesystem::path& path) {
 }
 
 void require_place_for_values(const std::filesystem::path& path) {
-  const MeshFormat& format = written_format(path);
-  if (format.has_values()) return;
-  throw Error(ErrorKind::kUsage,
-              text(path.string(), ": ", format.extension, " has no place for values of tets; ",
-                   extensions_where(&MeshFormat::has_values), " have, and ",
-                   extensions_where(&MeshFormat::has_materials), " take sets by --materials"));
+  static_cast<void>(written_format(path));
+  if (const std::string why = why_no_values(path); !why.empty()) {
+    throw Error(ErrorKind::kUsage, why);
+  }
+}
+
+std::string why_no_values(const std::filesystem::path& path) {
+  const MeshFormat* const format = find_format(path);
+  if (format == nullptr || format->has_values() || !format->is_written()) return {};
+  return text(path.string(), ": ", format->extension, " has no place for values of tets; ",
+              extensions_where(&MeshFormat::has_values), " have, and ",
+              extensions_where(&MeshFormat::has_materials), " take sets by --materials");
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {

@@ -30,6 +30,8 @@ enum class Encoding : std::uint8_t {
 /// ERRORS: mw::Error(kUsage) for a format that has no place for numbers of tets
 /// (MeshHeader::values).
 void require_place_for_values(const std::filesystem::path& path);
+/// What that error says; empty where there is a place, which meshes in pieces have, too.
+[[nodiscard]] std::string why_no_values(const std::filesystem::path& path);
 
 /// Returns the files that are written for a mesh of that name: that file, then those beside it.
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);

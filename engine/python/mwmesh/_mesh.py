@@ -155,7 +155,8 @@ class Mesh:
 
     @property
     def values(self):
-        """The m numbers of each image that was sampled, {name: float64}; NaN outside of it."""
+        """The m numbers of each image that was sampled, {name: float64}; NaN outside of it.  A mesh
+        that was read has those of its file."""
         return self._core.values
 
     def __repr__(self):
@@ -265,10 +266,12 @@ class Mesh:
         return {(int(labels[p // len(labels)]), int(labels[p % len(labels)])): float(s)
                 for p, s in zip(known, sums)}
 
-    def save(self, path, element="tet4"):
+    def save(self, path, element="tet4", values=True):
         """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
-        it is whole.  element: "tet4" or "tet10"."""
-        _core.write_mesh(self._core, path_bytes(path, "path"), text(element, "element"))
+        it is whole.  element: "tet4" or "tet10".  values: False leaves out the values of tets, for
+        which some formats have no place."""
+        _core.write_mesh(self._core, path_bytes(path, "path"), text(element, "element"),
+                         bool(values))
 
     def verify(self, volume, *, threads=0, memory=None, labels=None, background=None, merge=None,
                drop_specks=None, **place):

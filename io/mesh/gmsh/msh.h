@@ -18,9 +18,9 @@ namespace mw::io {
 /// order, of which corners alone, and skips other elements.  Rows are nodes by their tags.  The
 /// label is the first physical group of the tet's volume, or the volume's tag where it is in none:
 /// of that number, or what the table beside the file says (append_label_table).  Without a table,
-/// names are those of physical volumes.
-/// ERRORS: mw::Error(kInput) with file and place; also for other versions, partitioned meshes, and
-/// elements of which none is a tet.
+/// names are those of physical volumes.  Values are those of sections ElementData with one
+/// component, under the names of their views (value_names()). ERRORS: mw::Error(kInput) with file
+/// and place; also for other versions, partitioned meshes, and elements of which none is a tet.
 [[nodiscard]] MeshData read_msh(const std::filesystem::path& path);
 
 /// A volume a label, whose tag and physical group are the label's number (LabelNumbers: from 1 to

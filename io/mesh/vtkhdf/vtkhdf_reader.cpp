@@ -41,7 +41,9 @@ class Reader {
         point_counts_(counts(group.get(), "NumberOfPoints")),
         cell_counts_(counts(group.get(), "NumberOfCells")),
         labels_(label_array(group.get())),
-        header_(std::move(facts)) {}
+        header_(std::move(facts)) {
+    find_values(group.get());
+  }
 
   void read() {
     check_arrays();
@@ -50,9 +52,8 @@ class Reader {
     header_.labels_signed = labels_ && labels_->is_signed();
     sink_.begin(header_);
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) survey(part);
-    if (labels_ && labels_->rows() != tets) {
-      labels_->fail(text("has ", labels_->rows(), " rows, there are ", tets, " cells"));
-    }
+    if (labels_) check_rows(*labels_, tets);
+    for (const Hdf5Array& array : values_) check_rows(array, tets);
     if (ten_nodes_) find_middles();
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {
       read_points(part);
@@ -98,6 +99,24 @@ class Reader {
                  "store the labels as an integer cell array 'label'");
     }
     return Hdf5Array(group, "CellData/" + *name, file_);
+  }
+
+  /// Floats of one component are values.
+  void find_values(hid_t group) {
+    if (!labels_) return;
+    std::vector<std::string> names;
+    for (const std::string& name : cell_arrays(group)) {
+      Hdf5Array array(group, "CellData/" + name, file_);
+      if (array.is_integer() || array.components() != 1 || names.size() == kMostValues) continue;
+      names.push_back(name);
+      values_.push_back(std::move(array));
+    }
+    header_.values = value_names(names);
+  }
+
+  void check_rows(const Hdf5Array& array, std::uint64_t tets) const {
+    if (array.rows() == tets) return;
+    array.fail(text("has ", array.rows(), " rows, there are ", tets, " cells"));
   }
 
   [[nodiscard]] static std::vector<std::string> cell_arrays(hid_t group) {
@@ -243,8 +262,19 @@ class Reader {
       labels.resize(tets.size());
       read_labels(*labels_, at, labels);
       sink_.write_tets(tets, labels);
+      pass_values(at, tets.size());
       at += tets.size();
     });
+  }
+
+  void pass_values(std::uint64_t first, std::size_t count) {
+    if (values_.empty()) return;
+    std::vector<double> rows(count * values_.size()), column(count);
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      values_[i].read(first, count, column.data());
+      for (std::size_t t = 0; t < count; ++t) rows[t * values_.size() + i] = column[t];
+    }
+    sink_.write_values(rows);
   }
 
   std::string file_;
@@ -256,6 +286,7 @@ class Reader {
   std::vector<std::uint64_t> point_counts_;  ///< by partition
   std::vector<std::uint64_t> cell_counts_;
   std::optional<Hdf5Array> labels_;  ///< unless there are no cells
+  std::vector<Hdf5Array> values_;
   MeshHeader header_;
   std::vector<Part> parts_;
   Part next_;

@@ -96,6 +96,17 @@ class Materials(unittest.TestCase):
                             for i, name in enumerate(names, 1)}
                 self.check(table("m.exo.materials.csv"), sets, lo, hi, count)
 
+    def test_convert_makes_the_same_sets(self):
+        run("mesh", "v.npy", "-o", "a.inp", "--sample", "hu=image.npy", "--materials", "hu=9")
+        for ending in ("vtkhdf", "msh"):
+            run("mesh", "v.npy", "-o", f"a.{ending}", "--sample", "hu=image.npy")
+            self.assertEqual(run("convert", f"a.{ending}", "b.inp", "--materials", "hu=9"), "")
+            self.assertEqual(table("b.inp.materials.csv"), table("a.inp.materials.csv"))
+            self.assertEqual(element_sets("b.inp"), element_sets("a.inp"))
+        done = start("convert", "a.msh", "b.inp", "--materials", "density=9")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no values of that name", done.stderr)
+
     def test_what_cannot_be_is_said(self):
         sample = ("--sample", "hu=image.npy")
         for output, arguments, word in (

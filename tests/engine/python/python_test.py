@@ -461,6 +461,10 @@ class Values(InFolder):
         self.assertAlmostEqual(part.values["hu"] @ part.tet_volumes(), image[3:10, 1:8, 2:9].sum(), 6)
         with self.assertRaisesRegex(mwmesh.UsageError, "no place for values"):
             mesh.save(self.path("m.bdf"))
+        mesh.save(self.path("m.bdf"), values=False)
+        back = mwmesh.read(self.path("m.vtu"))
+        self.assertEqual(list(back.values), ["hu", "most"])
+        np.testing.assert_array_equal(back.values["hu"], mesh.values["hu"])
 
 
 class Seen(InFolder):
