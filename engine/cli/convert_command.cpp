@@ -19,10 +19,9 @@ namespace {
 struct ConvertJob {
   std::filesystem::path from;
   std::filesystem::path to;
-  bool ascii = false;
   io::Element element = io::Element::kTet4;
   std::uint64_t pieces = 0;  ///< 0: not asked for
-  std::optional<io::MaterialRule> materials;
+  io::MeshExtras extras;
 };
 
 /// Remembers which values a mesh has.
@@ -38,7 +37,7 @@ class ValueNames : public io::NoSink {
 /// The mesh is read while the other is written; what is beside that is not to be the mesh.
 void require_other_files(const ConvertJob& job) {
   std::vector<std::filesystem::path> files = io::mesh_files(job.to);
-  if (job.materials) files.push_back(io::material_table_path(job.to));
+  if (job.extras.materials) files.push_back(io::material_table_path(job.to));
   for (std::size_t i = 1; i < files.size(); ++i) {
     std::error_code ignored;
     if (!std::filesystem::equivalent(job.from, files[i], ignored)) continue;
@@ -48,18 +47,13 @@ void require_other_files(const ConvertJob& job) {
 
 std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
   const bool in_pieces = job.to.extension() == io::kPiecesExtension;
-  if (job.materials && !in_pieces && job.pieces == 0) {
-    return io::open_mesh_sink(job.to, job.element, *job.materials);
-  }
-  if (!in_pieces && job.pieces == 0) {
-    const io::Encoding encoding = job.ascii ? io::Encoding::kText : io::Encoding::kUsual;
-    return io::open_mesh_sink(job.to, job.element, encoding);
-  }
+  if (!in_pieces && job.pieces == 0) return io::open_mesh_sink(job.to, job.element, job.extras);
   if (in_pieces && job.pieces == 0) {
     throw Error(ErrorKind::kUsage,
                 job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
-  if (job.ascii || job.materials || job.element != io::Element::kTet4) {
+  if (job.extras.encoding == io::Encoding::kText || job.extras.materials ||
+      job.element != io::Element::kTet4) {
     throw Error(
         ErrorKind::kUsage,
         job.to.string() + ": pieces are written with tet4 only, in one way, without materials");
@@ -70,7 +64,7 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
 /// Says which values the new file does not have.
 void tell_values(const ConvertJob& job, const std::vector<std::string>& names) {
   const std::string why = io::why_no_values(job.to);
-  if (names.empty() || why.empty() || job.materials) return;
+  if (names.empty() || why.empty() || job.extras.materials) return;
   std::cout << "left out: values " << joined(names, ", ") << "; " << why << std::endl;
 }
 
@@ -109,12 +103,12 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .help = "a .msh as text instead of binary",
                .group = kOutputGroup,
                .kind = ValueKind::kSwitch,
-               .assign = into(job.ascii)});
+               .assign = into(job.extras.encoding, parse_ascii)});
   options.add({.name = "materials",
                .value = "NAME=N[:LO:HI]",
                .help = "N sets of elements by equal ranges of the values NAME, with a table",
                .group = kOutputGroup,
-               .assign = into(job.materials, engine::parse_materials)});
+               .assign = into(job.extras.materials, engine::parse_materials)});
   options.add({.name = "pieces",
                .value = "N",
                .help = "a .pvtu and N .vtu beside it; vertices have GlobalNodeIds",

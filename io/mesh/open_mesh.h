@@ -8,17 +8,11 @@
 #include <string>
 
 #include "io/mesh/element.h"
-#include "io/mesh/grouped/material_sets.h"
 #include "io/mesh/mesh_data.h"
+#include "io/mesh/mesh_extras.h"
 #include "io/mesh/shared_mesh.h"
 
 namespace mw::io {
-
-/// How numbers are written in a format that has both.
-enum class Encoding : std::uint8_t {
-  kUsual,  ///< binary
-  kText,
-};
 
 /// Returns the extensions that are written, as ".vtkhdf, .vtu, .mesh".
 [[nodiscard]] std::string mesh_extensions();
@@ -44,15 +38,14 @@ void require_place_for_values(const std::filesystem::path& path);
 /// of MeshData.
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
-/// ERRORS: mw::Error(kUsage) for an unknown extension, an element or encoding that the format does
-/// not have a choice of, materials that it has no sets for, or a path that cannot be written.
+/// ERRORS: mw::Error(kUsage) for an unknown extension, an element that the format does not have, an
+/// extra that it has no room for, or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element = Element::kTet4,
                                                        Encoding encoding = Encoding::kUsual);
-/// With element sets, and the table material_table_path() beside the mesh.
+/// With materials there is the table material_table_path() beside the mesh.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
-                                                       Element element,
-                                                       const MaterialRule& materials);
+                                                       Element element, const MeshExtras& extras);
 
 /// The ending of meshes in pieces.
 inline constexpr const char* kPiecesExtension = ".pvtu";

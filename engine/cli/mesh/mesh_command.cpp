@@ -44,11 +44,7 @@ bool has_no_sink(const SharedOutput& shared) {
 
 std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const SharedOutput& shared) {
   if (has_no_sink(shared)) return std::make_unique<io::NoSink>();
-  if (request.materials) {
-    return io::open_mesh_sink(request.output, request.element, *request.materials);
-  }
-  return io::open_mesh_sink(request.output, request.element,
-                            request.ascii ? io::Encoding::kText : io::Encoding::kUsual);
+  return io::open_mesh_sink(request.output, request.element, request.extras);
 }
 
 /// The files of a run, created before any work so that a bad path fails at once.

@@ -210,7 +210,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .kind = ValueKind::kSwitch,
                .fallback = "false",
                .listed = Listed::kInHelpAll,
-               .assign = into(request.ascii)});
+               .assign = into(request.extras.encoding, parse_ascii)});
   options.add({.name = "sample",
                .value = "NAME=FILE[:mean]",
                .help = "an image's mean, min, max or mode in each tet, repeatable",
@@ -223,7 +223,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .help = "N sets of elements by equal ranges of a --sample, with a table",
                .group = kOutputGroup,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.materials, engine::parse_materials)});
+               .assign = into(request.extras.materials, engine::parse_materials)});
   options.add({.name = "force",
                .help = "replaces an OUTPUT that is no mesh of this program",
                .group = kOutputGroup,
@@ -241,13 +241,13 @@ void require_memory_for_page(const MeshRequest& request) {
 }
 
 void require_room_for_values(const MeshRequest& request) {
-  if (request.materials) {
+  if (request.extras.materials) {
     const auto is_it = [&](const engine::SampleImage& sample) {
-      return sample.name == request.materials->values;
+      return sample.name == request.extras.materials->values;
     };
     if (std::any_of(request.job.samples.begin(), request.job.samples.end(), is_it)) return;
     throw Error(ErrorKind::kUsage,
-                "--materials: no --sample is called '" + request.materials->values + "'");
+                "--materials: no --sample is called '" + request.extras.materials->values + "'");
   }
   if (!request.job.samples.empty()) io::require_place_for_values(request.output);
 }

@@ -21,7 +21,7 @@ import numpy as np
 from . import _core
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
                       MissingPackageError, ResourceError, UsageError)
-from ._mesh import Mesh, Surface, Verdict
+from ._mesh import Materials, Mesh, Surface, Verdict
 from ._values import (count, label, naming, numbers, path_bytes, switch, text, unexpected,
                       whole)
 from ._session import Session
@@ -29,8 +29,8 @@ from ._volume import PLACE, as_volume
 
 __version__ = _core.__version__
 __all__ = [
-    "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Mesh",
-    "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
+    "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Materials",
+    "Mesh", "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
     "Session", "read", "settings", "synth",
 ]
 

@@ -24,6 +24,17 @@ class Surface(NamedTuple):
     triangles: np.ndarray
 
 
+class Materials(NamedTuple):
+    """Tets by equal ranges of a value; row i of all but `numbers` is of material i + 1."""
+
+    numbers: np.ndarray  #: the material of each tet, from 1 on; 0 where it has no value
+    begins: np.ndarray  #: the least value of each material
+    ends: np.ndarray  #: where the next one begins; the last material has its end
+    means: np.ndarray  #: of the values by volume; NaN without tets
+    tets: np.ndarray  #: how many
+    volumes: np.ndarray
+
+
 class _Facets(NamedTuple):
     """Triangles between two labels, or between one and the outside of the box."""
 
@@ -195,6 +206,38 @@ class Mesh:
         labels, ranks = self._ranks()
         sums = np.bincount(ranks, weights=self.tet_volumes(), minlength=len(labels))
         return {int(label): float(v) for label, v in zip(labels, sums)}
+
+    def materials(self, name, count, bounds=None):
+        """Returns the :class:`Materials` of ``mwmesh mesh --materials``: `count` equal ranges of the
+        values `name`, from the least to the largest or over bounds = (low, high), beyond which
+        values are in the first or the last.
+
+        >>> import mwmesh
+        >>> mesh = mwmesh.mesh("labels.npy", sample={"hu": "ct.npy"})    # doctest: +SKIP
+        >>> mesh.materials("hu", 50).means                               # doctest: +SKIP
+        """
+        if name not in self.values:
+            raise UsageError(f"materials: tets have no values '{name}'")
+        most = 10_000
+        if not 1 <= count <= most:
+            raise UsageError(f"materials: expected a count from 1 to {most}")
+        values, volumes = self.values[name], self.tet_volumes()
+        known = ~np.isnan(values)
+        if bounds is None:
+            bounds = (values[known].min(), values[known].max()) if known.any() else (0, 0)
+        elif not bounds[0] < bounds[1]:
+            raise UsageError("materials: the first of the bounds is below the second")
+        low, high = map(float, bounds)
+        begins = low + (high - low) * (np.arange(count) / count)
+        last = np.searchsorted(begins, values[known], side="right")
+        numbers = np.zeros(len(values), np.int32)
+        numbers[known] = np.clip(last, 1, count)
+        tets = np.bincount(numbers, minlength=count + 1)[1:]
+        sums = np.bincount(numbers, volumes, count + 1)[1:]
+        weighted = np.bincount(numbers, np.where(known, values, 0) * volumes, count + 1)[1:]
+        means = np.full(count, np.nan)
+        np.divide(weighted, sums, out=means, where=tets > 0)
+        return Materials(numbers, begins, np.append(begins[1:], high), means, tets, sums)
 
     def _facets(self):
         if "facets" in self._known:

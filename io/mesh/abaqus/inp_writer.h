@@ -10,6 +10,7 @@
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/material_sets.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
 
@@ -24,12 +25,8 @@ namespace mw::io {
 /// which is all that Abaqus has numbers for.
 class InpWriter : public GroupedWriter {
  public:
-  explicit InpWriter(const std::filesystem::path& path,
-                     std::optional<MaterialRule> materials = std::nullopt)
-      : folder_(path.parent_path()),
-        name_(path.string()),
-        file_(path),
-        rule_(std::move(materials)) {
+  explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
+      : folder_(path.parent_path()), name_(path.string()), file_(path), rule_(extras.materials) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 

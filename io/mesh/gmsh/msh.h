@@ -7,10 +7,12 @@
 
 #include "io/file/sink/partial_file.h"
 #include "io/mesh/gmsh/msh_encoder.h"
+#include "io/mesh/gmsh/msh_groups.h"
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/mesh/mesh_data.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
 
@@ -30,12 +32,15 @@ namespace mw::io {
 /// together; from L + 8 on the
 /// interfaces, in the order of their labels.  Names are GroupNames'; those that are longer than
 /// Gmsh reads are "LABEL_7", "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
-/// The table of labels is written beside it.  Entities may be in several pieces, which Gmsh's
-/// createTopology() parts, forgetting their groups; createTopology(False) keeps them.
+/// Materials are one more ElementData, "hu_material" of values "hu", 0 where there is no value. The
+/// table of labels is written beside it, and that of materials.  Entities may be in several pieces,
+/// which Gmsh's createTopology() parts, forgetting their groups; createTopology(False) keeps them.
 class MshWriter : public GroupedWriter {
  public:
-  MshWriter(const std::filesystem::path& path, bool ascii)
-      : out_(path, ascii), labels_(label_table_path(path)), folder_(folder_of(path)) {}
+  explicit MshWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
+      : out_(path, extras.encoding == Encoding::kText),
+        tables_(path, extras.materials),
+        folder_(folder_of(path)) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -63,7 +68,7 @@ class MshWriter : public GroupedWriter {
   void put_tets(GroupedMesh& mesh, RowRange tets);
 
   MshEncoder out_;
-  AtomicFile labels_;
+  MshTables tables_;
   std::filesystem::path folder_;  ///< of temporary files
 };
 
@@ -72,8 +77,8 @@ class MshWriter : public GroupedWriter {
 /// then tets.
 class Msh2Writer : public GroupedWriter {
  public:
-  explicit Msh2Writer(const std::filesystem::path& path)
-      : out_(path, true), labels_(label_table_path(path)) {}
+  explicit Msh2Writer(const std::filesystem::path& path, const MeshExtras& extras = {})
+      : out_(path, true), tables_(path, extras.materials) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -85,7 +90,7 @@ class Msh2Writer : public GroupedWriter {
                      std::int64_t entity, const NodeRows& nodes);
 
   MshEncoder out_;
-  AtomicFile labels_;
+  MshTables tables_;
 };
 
 }  // namespace mw::io

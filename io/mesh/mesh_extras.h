@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a file can have beside the mesh, if its format has room for it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "io/mesh/grouped/material_sets.h"
+
+namespace mw::io {
+
+/// How numbers are written in a format that has both.
+enum class Encoding : std::uint8_t {
+  kUsual,  ///< binary
+  kText,
+};
+
+struct MeshExtras {
+  Encoding encoding = Encoding::kUsual;
+  std::optional<MaterialRule> materials{};
+};
+
+}  // namespace mw::io
