@@ -108,14 +108,22 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
 
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings, const Options& options, const Hooks& hooks,
-                         std::string_view element) {
+                         const FileOptions& file) {
   return mw::api::guarded([&] {
-    if (!options.sample.empty()) io::require_place_for_values(path);
+    // What the format cannot have is said before images are opened.
+    if (!options.sample.empty() && file.materials.empty()) io::require_place_for_values(path);
     engine::MeshJob job = job_of(settings, options, hooks);
     job.folder = mw::api::checked_path(path).parent_path();
-    const auto sink = io::open_mesh_sink(path, io::parse_element(element));
+    const auto sink = mw::api::open_file(path, file, !options.sample.empty());
     return run_into(*sink, path, volume, job);
   });
+}
+
+std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
+                         const Settings& settings, const Options& options, const Hooks& hooks,
+                         std::string_view element) {
+  return mesh_to_file(path, volume, settings, options, hooks,
+                      FileOptions{.element = std::string(element)});
 }
 
 Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, const Hooks& hooks) {

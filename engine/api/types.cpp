@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "engine/api/guarded.h"
+#include "engine/settings/material_text.h"
 #include "io/file/errors.h"
+#include "io/mesh/open_mesh.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
 
@@ -84,6 +86,17 @@ mwmesh::Mesh library_mesh(io::MeshData&& mesh) {
           .values = std::move(values),
           .report = {},
           .record = io::record_text(mesh.record)};
+}
+
+std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
+                                        const mwmesh::FileOptions& file, bool has_values) {
+  io::MeshExtras extras{.deck = file.deck};
+  if (!file.materials.empty()) {
+    extras.materials = engine::parse_materials(file.materials);
+  } else if (has_values) {
+    io::require_place_for_values(path);
+  }
+  return io::open_mesh_sink(checked_path(path), io::parse_element(file.element), extras);
 }
 
 void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {

@@ -22,6 +22,11 @@ inline constexpr const char* kArray = "array";
 
 /// Without a report.
 [[nodiscard]] mwmesh::Mesh library_mesh(io::MeshData&& mesh);
+/// Opens a file.  has_values: whether it gets values of tets.
+/// ERRORS: mw::Error(kUsage) for what its format has no place for.
+[[nodiscard]] std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
+                                                      const mwmesh::FileOptions& file,
+                                                      bool has_values);
 /// Begin to finish.  values: whether those of tets go along.  ERRORS: mw::Error(kUsage) for lists
 /// that do not fit together.
 void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values = true);

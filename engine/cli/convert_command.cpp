@@ -52,11 +52,11 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
     throw Error(ErrorKind::kUsage,
                 job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
-  if (job.extras.encoding == io::Encoding::kText || job.extras.materials ||
+  if (job.extras.encoding == io::Encoding::kText || job.extras.materials || job.extras.deck ||
       job.element != io::Element::kTet4) {
-    throw Error(
-        ErrorKind::kUsage,
-        job.to.string() + ": pieces are written with tet4 only, in one way, without materials");
+    throw Error(ErrorKind::kUsage,
+                job.to.string() +
+                    ": pieces are written with tet4 only, in one way, without materials and deck");
   }
   return io::open_mesh_pieces(job.to, job.pieces);
 }
@@ -109,6 +109,12 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .help = "N sets of elements by equal ranges of the values NAME, with a table",
                .group = kOutputGroup,
                .assign = into(job.extras.materials, engine::parse_materials)});
+  options.add({.name = "deck",
+               .help = "static: a job for CalculiX (.inp) or FEBio (.feb) that pulls the mesh",
+               .group = kOutputGroup,
+               .fallback = "none",
+               .choices = {"none", "static"},
+               .assign = into(job.extras.deck, parse_deck)});
   options.add({.name = "pieces",
                .value = "N",
                .help = "a .pvtu and N .vtu beside it; vertices have GlobalNodeIds",

@@ -19,6 +19,9 @@ enum class Encoding : std::uint8_t {
 struct MeshExtras {
   Encoding encoding = Encoding::kUsual;
   std::optional<MaterialRule> materials{};
+  /// A job that the solver runs as it is: placeholders for materials, and one static step that
+  /// holds one end of the mesh and pulls the other (grouped/deck_ends.h).
+  bool deck = false;
 };
 
 }  // namespace mw::io

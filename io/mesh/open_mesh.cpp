@@ -43,10 +43,12 @@ struct MeshFormat {
                                          const MeshExtras&) = nullptr;
   bool has_text = false;  ///< numbers are written in two ways
   bool takes_materials = false;
+  bool takes_deck = false;
 
   [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }
   [[nodiscard]] bool is_written() const { return open != nullptr; }
   [[nodiscard]] bool has_materials() const { return takes_materials; }
+  [[nodiscard]] bool has_deck() const { return takes_deck; }
   [[nodiscard]] bool has_values() const {
     constexpr std::array<std::string_view, 6> kWithValues{".vtkhdf", ".vtu", ".msh",
                                                           ".msh2",   ".exo", ".xdmf"};
@@ -117,7 +119,8 @@ const std::array kFormats{
                .stream = nullptr,
                .open = &open_grouped<InpWriter>,
                .open_with = &open_extras<InpWriter>,
-               .takes_materials = true},
+               .takes_materials = true,
+               .takes_deck = true},
     MeshFormat{".xdmf",
                nullptr,
                nullptr,
@@ -125,7 +128,13 @@ const std::array kFormats{
                {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"}},
     MeshFormat{".k", nullptr, nullptr, &open_grouped<LsdynaWriter>, {".k.labels.csv"}},
     MeshFormat{".cdb", nullptr, nullptr, &open_grouped<CdbWriter>, {".cdb.labels.csv"}},
-    MeshFormat{".feb", nullptr, nullptr, &open_grouped<FebioWriter>, {".feb.labels.csv"}},
+    MeshFormat{.extension = ".feb",
+               .read = nullptr,
+               .stream = nullptr,
+               .open = &open_grouped<FebioWriter>,
+               .beside = {".feb.labels.csv"},
+               .open_with = &open_extras<FebioWriter>,
+               .takes_deck = true},
     MeshFormat{kPiecesExtension, &read_pvtu, nullptr, nullptr},
 };
 
@@ -247,6 +256,11 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
   if (extras.materials && !format.has_materials()) {
     throw Error(ErrorKind::kUsage, text(path.string(), ": has no place for materials; ",
                                         extensions_where(&MeshFormat::has_materials), " have"));
+  }
+  if (extras.deck && !format.has_deck()) {
+    throw Error(ErrorKind::kUsage,
+                text(path.string(), ": no job is written in ", format.extension, "; --deck is for ",
+                     extensions_where(&MeshFormat::has_deck)));
   }
   return format.open_with != nullptr ? format.open_with(path, element, extras)
                                      : format.open(path, element);

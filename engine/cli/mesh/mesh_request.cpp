@@ -224,6 +224,13 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .group = kOutputGroup,
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.materials, engine::parse_materials)});
+  options.add({.name = "deck",
+               .help = "static: a job for CalculiX (.inp) or FEBio (.feb) that pulls the mesh",
+               .group = kOutputGroup,
+               .fallback = "none",
+               .choices = {"none", "static"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.extras.deck, parse_deck)});
   options.add({.name = "force",
                .help = "replaces an OUTPUT that is no mesh of this program",
                .group = kOutputGroup,

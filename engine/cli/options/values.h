@@ -43,6 +43,11 @@ using report::format_volume;
   return parse_switch(text) ? io::Encoding::kText : io::Encoding::kUsual;
 }
 
+/// Of --deck none|static.
+[[nodiscard]] inline bool parse_deck(std::string_view text) {
+  return text == "static";
+}
+
 /// Returns an Option::assign for a value that lives elsewhere and outlives the options.
 template <class T, class Parse>
 [[nodiscard]] auto into(T& target, Parse parse) {

@@ -22,8 +22,8 @@ from . import _core
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
                       MissingPackageError, ResourceError, UsageError)
 from ._mesh import Materials, Mesh, Surface, Verdict
-from ._values import (count, label, naming, numbers, path_bytes, switch, text, unexpected,
-                      whole)
+from ._values import (count, file_options, label, naming, numbers, path_bytes, switch, text,
+                      unexpected, whole)
 from ._session import Session
 from ._volume import PLACE, as_volume
 
@@ -259,14 +259,15 @@ def mesh(volume, *, progress=None, **arguments):
     return Mesh._of(_run(_core.mesh, volume, arguments, progress))
 
 
-def mesh_to_file(volume, path, *, element="tet4", progress=None, **arguments):
+def mesh_to_file(volume, path, *, element="tet4", materials=None, deck=False, progress=None,
+                 **arguments):
     """Meshes as :func:`mesh` does, into a file, so that the mesh is never whole in memory.  Returns
-    the report.  element: "tet4" or "tet10"."""
+    the report.  element, materials, deck: those of :meth:`Mesh.save`."""
 
     file = path_bytes(path, "path")
 
     def call(*run):
-        return _core.mesh_to_file(file, *run, text(element, "element"))
+        return _core.mesh_to_file(file, *run, file_options(element, True, materials, deck))
 
     report = _run(call, volume, arguments, progress)
     return json.loads(report) if report else None

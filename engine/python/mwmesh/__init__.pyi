@@ -116,7 +116,14 @@ class Mesh:
     def facets(self, a: _Label, b: _Label) -> npt.NDArray[np.int64]: ...
     def surface(self, label: _Label, closed: bool = True) -> Surface: ...
     def contacts(self) -> dict[tuple[int, int], float]: ...
-    def save(self, path: _Path, element: _Element = "tet4", values: bool = True) -> None: ...
+    def save(
+        self,
+        path: _Path,
+        element: _Element = "tet4",
+        values: bool = True,
+        materials: str | None = None,
+        deck: bool = False,
+    ) -> None: ...
     def verify(
         self,
         volume: _Source,
@@ -199,6 +206,8 @@ def mesh_to_file(
     path: _Path,
     *,
     element: _Element = "tet4",
+    materials: str | None = None,
+    deck: bool = False,
     progress: _Progress | None = None,
     **arguments: Any,
 ) -> dict[str, Any] | None: ...

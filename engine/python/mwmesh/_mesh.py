@@ -11,7 +11,7 @@ import numpy as np
 from . import _core
 from ._errors import MissingPackageError, UsageError
 from ._values import label as label_bits
-from ._values import name_rows, numbers, path_bytes, text, whole_numbers
+from ._values import file_options, name_rows, numbers, path_bytes, whole_numbers
 
 #: The corners of a tet's faces, seen counterclockwise from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -309,12 +309,13 @@ class Mesh:
         return {(int(labels[p // len(labels)]), int(labels[p % len(labels)])): float(s)
                 for p, s in zip(known, sums)}
 
-    def save(self, path, element="tet4", values=True):
+    def save(self, path, element="tet4", values=True, materials=None, deck=False):
         """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
         it is whole.  element: "tet4" or "tet10".  values: False leaves out the values of tets, for
-        which some formats have no place."""
-        _core.write_mesh(self._core, path_bytes(path, "path"), text(element, "element"),
-                         bool(values))
+        which some formats have no place.  materials: "NAME=N" or "NAME=N:LO:HI" makes N sets of
+        elements by ranges of a value.  deck: with a job for CalculiX (.inp) or FEBio (.feb)."""
+        _core.write_mesh(self._core, path_bytes(path, "path"),
+                         file_options(element, values, materials, deck))
 
     def verify(self, volume, *, threads=0, memory=None, labels=None, background=None, merge=None,
                drop_specks=None, **place):

@@ -20,13 +20,19 @@ namespace mw::io {
 /// them; a side of the box is one surface X_MIN .. Z_MAX (or OUTER) of all labels.  The nodes of
 /// each, of an interface once, are a node set of the same name.  Comments say which set a named
 /// label is, with its name and colour as in MEDIT files.
-/// Materials are element sets beside those of the labels; empty ones are left out.
-/// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
-/// which is all that Abaqus has numbers for.
+/// Materials are element sets beside those of the labels; empty ones are left out.  A deck is a job
+/// for CalculiX: a material with placeholders and a section for each label, or for each material
+/// and the elements in none, and one static step (MeshExtras::deck). Memory: 9 MiB.  ERRORS: see
+/// AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements, which is all that Abaqus has
+/// numbers for.
 class InpWriter : public GroupedWriter {
  public:
   explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
-      : folder_(path.parent_path()), name_(path.string()), file_(path), rule_(extras.materials) {
+      : folder_(path.parent_path()),
+        name_(path.string()),
+        file_(path),
+        rule_(extras.materials),
+        has_deck_(extras.deck) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 
@@ -38,7 +44,12 @@ class InpWriter : public GroupedWriter {
   void write_nodes(GroupedMesh& mesh);
   void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);
   void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
-  void write_materials(GroupedMesh& mesh);
+  void write_materials();
+  void write_deck(GroupedMesh& mesh, PlainNames& names);
+  void write_section(const std::string& set);
+  void write_material_sections(GroupedMesh& mesh, PlainNames& names);
+  template <class Where>
+  void write_nodes_where(GroupedMesh& mesh, const std::string& name, Where where);
   /// One of many rows of numbers, 16 to a line.
   class NumberRows;
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
@@ -48,7 +59,9 @@ class InpWriter : public GroupedWriter {
   std::string name_;
   AtomicFile file_;
   std::optional<MaterialRule> rule_;
+  std::optional<MaterialSets> materials_;
   std::optional<AtomicFile> table_;  ///< of the materials
+  bool has_deck_ = false;
 };
 
 }  // namespace mw::io

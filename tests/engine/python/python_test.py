@@ -468,6 +468,18 @@ class Values(InFolder):
         with self.assertRaisesRegex(mwmesh.UsageError, "no place for values"):
             mesh.save(self.path("m.bdf"))
         mesh.save(self.path("m.bdf"), values=False)
+        mesh.save(self.path("m.inp"), materials="hu=4", deck=True)
+        with open(self.path("m.inp"), encoding="ascii") as file:
+            text = file.read()
+        self.assertIn("*ELSET, ELSET=hu_4\n", text)
+        self.assertIn("*STEP\n*STATIC\n", text)
+        np.save(self.path("v.npy"), labels)
+        mwmesh.mesh_to_file(self.path("v.npy"), self.path("f.inp"), spacing=2, materials="hu=4",
+                            deck=True, sample={"hu": self.path("image.npy")})
+        with open(self.path("f.inp"), encoding="ascii") as file:
+            self.assertEqual(file.read().count("*SOLID SECTION"), text.count("*SOLID SECTION"))
+        with self.assertRaisesRegex(mwmesh.UsageError, "--deck is for .inp, .feb"):
+            mesh.save(self.path("n.vtu"), deck=True)
         back = mwmesh.read(self.path("m.vtu"))
         self.assertEqual(list(back.values), ["hu", "most"])
         np.testing.assert_array_equal(back.values["hu"], mesh.values["hu"])
