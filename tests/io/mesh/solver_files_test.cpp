@@ -173,7 +173,7 @@ TEST_P(CardFiles, OutOfRoomIsAResourceErrorAndLeavesNothing) {
 INSTANTIATE_TEST_SUITE_P(All, CardFiles,
                          testing::Values(CardFormat{".bdf", 9, 80}, CardFormat{".k", 9, 80},
                                          CardFormat{".cdb", 13, 171}),
-                         [](const auto& info) { return info.param.extension.substr(1); });
+                         [](const auto& test) { return test.param.extension.substr(1); });
 
 /// Lines of Abaqus hold 256 characters and 16 items.
 TEST(InpWriter, LinesAreWithinTheLimitsOfAbaqus) {
