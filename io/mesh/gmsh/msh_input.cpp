@@ -52,6 +52,10 @@ void MshInput::end_section(std::string_view section) {
 }
 
 void MshInput::skip_section(std::string_view section) {
+  if (!find_end(section)) fail(text("truncated: no $End", section));
+}
+
+bool MshInput::find_end(std::string_view section) {
   // By bytes, since a binary section has lines of any length.
   const std::string end = text("\n$End", section);
   std::size_t matched = 1;  // a line begins here
@@ -62,9 +66,9 @@ void MshInput::skip_section(std::string_view section) {
     } else {
       matched = c == '\n' ? 1 : 0;
     }
-    if (matched == end.size()) return;
+    if (matched == end.size()) return true;
   }
-  fail(text("truncated: no ", end.substr(1)));
+  return false;
 }
 
 std::string_view MshInput::word() {

@@ -26,6 +26,8 @@ class MshInput {
   void end_section(std::string_view section);
   /// Skips all up to that line, and what it says.
   void skip_section(std::string_view section);
+  /// Skips as much; whether that line came before the end of the file.
+  [[nodiscard]] bool find_end(std::string_view section);
 
   /// Reads an integer, of 32 bits in binary.
   [[nodiscard]] std::int64_t integer(std::string_view expected);

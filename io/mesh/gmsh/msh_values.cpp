@@ -93,7 +93,8 @@ void read_msh_values(MshInput& in, MshContent& out) {
   std::optional<TetsByNumber> tets;
   for (std::string section = in.next_section(); !section.empty(); section = in.next_section()) {
     if (section != "ElementData") {
-      in.skip_section(section);
+      // Nothing of the mesh is lost where a section is cut that is not read.
+      if (!in.find_end(section)) return;
       continue;
     }
     const DataHead head = read_head(in);

@@ -478,7 +478,7 @@ class Values(InFolder):
                             deck=True, sample={"hu": self.path("image.npy")})
         with open(self.path("f.inp"), encoding="ascii") as file:
             self.assertEqual(file.read().count("*SOLID SECTION"), text.count("*SOLID SECTION"))
-        with self.assertRaisesRegex(mwmesh.UsageError, "--deck is for .inp, .feb"):
+        with self.assertRaisesRegex(mwmesh.UsageError, "deck is for .inp, .feb"):
             mesh.save(self.path("n.vtu"), deck=True)
         back = mwmesh.read(self.path("m.vtu"))
         self.assertEqual(list(back.values), ["hu", "most"])
