@@ -177,7 +177,7 @@ class Receiver {
     return columns_ == 0 || values(count);
   }
 
-  /// Of the tets that came last.
+  /// Takes the values of the tets that came last.
   [[nodiscard]] bool values(std::size_t count) {
     Head head;
     if (!next(head) || head.message != Message::kValues || head.count != count) return false;

@@ -38,12 +38,12 @@ using report::format_volume;
 [[nodiscard]] Box3 parse_box(std::string_view text);  ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
 
-/// Of the switch --ascii.
+/// Reads the switch --ascii.
 [[nodiscard]] inline io::Encoding parse_ascii(std::string_view text) {
   return parse_switch(text) ? io::Encoding::kText : io::Encoding::kUsual;
 }
 
-/// Of --deck none|static.
+/// Reads --deck: "none" or "static".
 [[nodiscard]] inline bool parse_deck(std::string_view text) {
   return text == "static";
 }

@@ -78,7 +78,7 @@ TEST(Values, OfFormatsWithoutAPlaceForThemAreLeftOut) {
   }
 }
 
-/// As Gmsh and other programs write them: times, several integers to skip, other sections, elements
+/// Gmsh and other programs write times, several integers to skip, other sections, and elements
 /// that have none.
 TEST(Values, OfGmshAreThoseOfTetsByTheNumbersOfElements) {
   const TempDir dir;
