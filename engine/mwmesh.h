@@ -272,7 +272,7 @@ struct Mesh {
   std::vector<std::uint64_t> labels;               ///< by tet
   bool labels_are_signed = false;
   std::vector<LabelName> names;  ///< of labels that are in the mesh
-  /// By name, numbers by tet (Options::sample); NaN: unknown.
+  /// By name, numbers by tet (Options::sample, or what a file has); NaN: unknown.
   std::map<std::string, std::vector<double>> values{};
   std::string report;  ///< JSON, the keys of `mwmesh mesh --report`; empty when there is none
   std::string record;  ///< one line of JSON about the run that made it, which files keep
@@ -302,16 +302,32 @@ class MeshWriter {
 std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& settings = {},
                     const Options& options = {}, const Hooks& hooks = {});
 
+/// How a mesh is written into a file.
+struct FileOptions {
+  std::string element = "tet4";  ///< or "tet10"
+  bool values = true;            ///< whether the values of tets are written
+  /// Materials by equal ranges of a value, as `mwmesh mesh --materials` has them: "NAME=N" or
+  /// "NAME=N:LO:HI"; empty: none.
+  std::string materials{};
+  bool deck = false;  ///< a job for CalculiX (.inp) or FEBio (.feb), as --deck static
+};
+
 /// Meshes the volume into a file of any format of `mwmesh convert`, which appears under its name
-/// only once the mesh is whole.  element: "tet4" or "tet10".  Returns the report.
-/// ERRORS: also kUsage for values or wedges in a format that has no place for them.
+/// only once the mesh is whole.  Returns the report.
+/// ERRORS: also kUsage for what the format has no place for.
+std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
+                         const Settings& settings, const Options& options, const Hooks& hooks,
+                         const FileOptions& file);
+/// element: FileOptions::element.
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings = {}, const Options& options = {},
                          const Hooks& hooks = {}, std::string_view element = "tet4");
 
 /// ERRORS: kInput naming file and place; kUsage for an unknown extension.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
-/// ERRORS: also kUsage for values or wedges in a format that has no place for them.
+/// ERRORS: also kUsage for what the format has no place for.
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const FileOptions& file);
+/// element: FileOptions::element.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                 std::string_view element = "tet4");
 /// Returns the label of a mesh that has this number or name.  ERRORS: those of find_label(Volume).

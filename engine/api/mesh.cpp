@@ -39,23 +39,6 @@ class WriterSink : public io::MeshSink {
   MeshWriter& writer_;
 };
 
-/// Collects values, too.
-class ValuesSink : public io::MeshDataSink {
- public:
-  void begin(const io::MeshHeader& header) override {
-    MeshDataSink::begin(header);
-    for (const std::string& name : header.values) columns_.push_back(&values_[name]);
-  }
-  void write_values(std::span<const double> rows) override {
-    for (std::size_t i = 0; i < rows.size(); ++i) columns_[i % columns_.size()]->push_back(rows[i]);
-  }
-  [[nodiscard]] std::map<std::string, std::vector<double>>& values() { return values_; }
-
- private:
-  std::map<std::string, std::vector<double>> values_;
-  std::vector<std::vector<double>*> columns_;
-};
-
 /// A job with its images opened.
 engine::MeshJob job_of(const Settings& settings, const Options& options, const Hooks& hooks) {
   engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
@@ -107,10 +90,9 @@ const char* version() {
 Mesh mesh(const Volume& volume, const Settings& settings, const Options& options,
           const Hooks& hooks) {
   return mw::api::guarded([&] {
-    ValuesSink sink;
+    io::MeshDataSink sink;
     std::string report = run_into(sink, {}, volume, job_of(settings, options, hooks));
     Mesh mesh = mw::api::library_mesh(std::move(sink.mesh()));
-    mesh.values = std::move(sink.values());
     mesh.report = std::move(report);
     return mesh;
   });
@@ -126,18 +108,24 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
 
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings, const Options& options, const Hooks& hooks,
-                         std::string_view element) {
+                         const FileOptions& file) {
   return mw::api::guarded([&] {
-    if (!options.sample.empty()) io::require_place_for_values(path);
-    const io::Element kind = io::parse_element(element);
-    if (!options.cohesive.empty()) io::require_place_for_wedges(path, kind);
+    // What the format cannot have is said before images are opened.
+    if (!options.sample.empty() && file.materials.empty()) io::require_place_for_values(path);
+    const bool has_wedges = !options.cohesive.empty();
+    if (has_wedges) io::require_place_for_wedges(path, io::parse_element(file.element));
     engine::MeshJob job = job_of(settings, options, hooks);
     job.folder = mw::api::checked_path(path).parent_path();
-    const auto sink =
-        io::open_mesh_sink(path, kind, io::Encoding::kUsual,
-                           options.cohesive.empty() ? io::Wedges::kNone : io::Wedges::kSome);
+    const auto sink = mw::api::open_file(path, file, !options.sample.empty(), has_wedges);
     return run_into(*sink, path, volume, job);
   });
+}
+
+std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
+                         const Settings& settings, const Options& options, const Hooks& hooks,
+                         std::string_view element) {
+  return mesh_to_file(path, volume, settings, options, hooks,
+                      FileOptions{.element = std::string(element)});
 }
 
 Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, const Hooks& hooks) {

@@ -17,13 +17,15 @@ Mesh read_mesh(const std::filesystem::path& path) {
       [&] { return mw::api::library_mesh(mw::io::read_mesh(mw::api::checked_path(path))); });
 }
 
-void write_mesh(const Mesh& mesh, const std::filesystem::path& path, std::string_view element) {
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const FileOptions& file) {
   mw::api::guarded([&] {
-    if (!mesh.values.empty()) mw::io::require_place_for_values(path);
-    const auto sink =
-        mw::io::open_mesh_sink(mw::api::checked_path(path), mw::io::parse_element(element));
-    mw::api::deliver(mesh, *sink);
+    const bool has_values = file.values && !mesh.values.empty();
+    mw::api::deliver(mesh, *mw::api::open_file(path, file, has_values), file.values);
   });
+}
+
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path, std::string_view element) {
+  write_mesh(mesh, path, FileOptions{.element = std::string(element)});
 }
 
 std::uint64_t find_label(const Mesh& mesh, std::string_view text) {

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "engine/api/guarded.h"
+#include "engine/settings/material_text.h"
 #include "io/file/errors.h"
+#include "io/mesh/open_mesh.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
 
@@ -74,16 +76,31 @@ std::vector<mwmesh::LabelName> library_names(const io::LabelNames& names) {
 }
 
 mwmesh::Mesh library_mesh(io::MeshData&& mesh) {
+  std::map<std::string, std::vector<double>> values;
+  for (io::TetValues& column : mesh.values) values[column.name] = std::move(column.numbers);
   return {.points = std::move(mesh.vertices),
           .tets = std::move(mesh.tets),
           .labels = std::move(mesh.labels),
           .labels_are_signed = mesh.labels_signed,
           .names = library_names(mesh.names),
+          .values = std::move(values),
           .report = {},
           .record = io::record_text(mesh.record)};
 }
 
-void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink) {
+std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
+                                        const mwmesh::FileOptions& file, bool has_values,
+                                        bool has_wedges) {
+  io::MeshExtras extras{.deck = file.deck, .wedges = has_wedges};
+  if (!file.materials.empty()) {
+    extras.materials = engine::parse_materials(file.materials);
+  } else if (has_values) {
+    io::require_place_for_values(path);
+  }
+  return io::open_mesh_sink(checked_path(path), io::parse_element(file.element), extras);
+}
+
+void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
   if (mesh.labels.size() != mesh.tets.size()) {
     throw Error(ErrorKind::kUsage, "mesh: there must be one label a tet");
   }
@@ -102,12 +119,14 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink) {
                         .labels_signed = mesh.labels_are_signed,
                         .names = io_names(mesh.names),
                         .record = io::parse_record(mesh.record, "mesh")};
-  for (const auto& [name, column] : mesh.values) header.values.push_back(name);
+  if (values) {
+    for (const auto& [name, column] : mesh.values) header.values.push_back(name);
+  }
   sink.begin(header);
   sink.write_vertices(mesh.points);
   sink.write_tets(mesh.tets, mesh.labels);
   std::vector<double> row;
-  for (std::size_t t = 0; t < mesh.tets.size() && !mesh.values.empty(); ++t) {
+  for (std::size_t t = 0; t < mesh.tets.size() && !header.values.empty(); ++t) {
     row.clear();
     for (const auto& [name, column] : mesh.values) row.push_back(column[t]);
     sink.write_values(row);

@@ -22,7 +22,14 @@ inline constexpr const char* kArray = "array";
 
 /// Without a report.
 [[nodiscard]] mwmesh::Mesh library_mesh(io::MeshData&& mesh);
-/// Begin to finish.  ERRORS: mw::Error(kUsage) for lists that do not fit together.
-void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink);
+/// Opens a file.  has_values: whether it gets values of tets.  has_wedges: whether it is known to
+/// get wedges.
+/// ERRORS: mw::Error(kUsage) for what its format has no place for.
+[[nodiscard]] std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
+                                                      const mwmesh::FileOptions& file,
+                                                      bool has_values, bool has_wedges = false);
+/// Begin to finish.  values: whether those of tets go along.  ERRORS: mw::Error(kUsage) for lists
+/// that do not fit together.
+void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values = true);
 
 }  // namespace mw::api

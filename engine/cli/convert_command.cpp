@@ -1,11 +1,16 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh convert: a mesh from one format to another.
+#include <iostream>
+
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "engine/settings/material_text.h"
+#include "io/mesh/no_sink.h"
 #include "io/mesh/open_mesh.h"
+#include "io/mesh/tee_sink.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -14,14 +19,25 @@ namespace {
 struct ConvertJob {
   std::filesystem::path from;
   std::filesystem::path to;
-  bool ascii = false;
   io::Element element = io::Element::kTet4;
   std::uint64_t pieces = 0;  ///< 0: not asked for
+  io::MeshExtras extras;
+};
+
+/// Remembers which values a mesh has.
+class ValueNames : public io::NoSink {
+ public:
+  void begin(const io::MeshHeader& header) override { names_ = header.values; }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
 };
 
 /// The mesh is read while the other is written; what is beside that is not to be the mesh.
 void require_other_files(const ConvertJob& job) {
-  const std::vector<std::filesystem::path> files = io::mesh_files(job.to);
+  std::vector<std::filesystem::path> files = io::mesh_files(job.to);
+  if (job.extras.materials) files.push_back(io::material_table_path(job.to));
   for (std::size_t i = 1; i < files.size(); ++i) {
     std::error_code ignored;
     if (!std::filesystem::equivalent(job.from, files[i], ignored)) continue;
@@ -31,25 +47,34 @@ void require_other_files(const ConvertJob& job) {
 
 std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
   const bool in_pieces = job.to.extension() == io::kPiecesExtension;
-  if (!in_pieces && job.pieces == 0) {
-    const io::Encoding encoding = job.ascii ? io::Encoding::kText : io::Encoding::kUsual;
-    return io::open_mesh_sink(job.to, job.element, encoding);
-  }
+  if (!in_pieces && job.pieces == 0) return io::open_mesh_sink(job.to, job.element, job.extras);
   if (in_pieces && job.pieces == 0) {
     throw Error(ErrorKind::kUsage,
                 job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
-  if (job.ascii || job.element != io::Element::kTet4) {
+  if (job.extras.encoding == io::Encoding::kText || job.extras.materials || job.extras.deck ||
+      job.element != io::Element::kTet4) {
     throw Error(ErrorKind::kUsage,
-                job.to.string() + ": pieces are written with tet4 only, and in one way");
+                job.to.string() +
+                    ": pieces are written with tet4 only, in one way, without materials and deck");
   }
   return io::open_mesh_pieces(job.to, job.pieces);
+}
+
+/// Says which values the new file does not have.
+void tell_values(const ConvertJob& job, const std::vector<std::string>& names) {
+  const std::string why = io::why_no_values(job.to);
+  if (names.empty() || why.empty() || job.extras.materials) return;
+  std::cout << "left out: values " << joined(names, ", ") << "; " << why << std::endl;
 }
 
 int run_convert(const ConvertJob& job) {
   require_other_files(job);
   const std::unique_ptr<io::MeshSink> sink = open_output(job);
-  io::copy_mesh(job.from, *sink);
+  ValueNames values;
+  io::TeeSink both(*sink, values);
+  io::copy_mesh(job.from, both);
+  tell_values(job, values.names());
   return kExitDone;
 }
 
@@ -78,7 +103,18 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .help = "a .msh as text instead of binary",
                .group = kOutputGroup,
                .kind = ValueKind::kSwitch,
-               .assign = into(job.ascii)});
+               .assign = into(job.extras.encoding, parse_ascii)});
+  options.add({.name = "materials",
+               .value = "NAME=N[:LO:HI]",
+               .help = "N sets of elements by equal ranges of the values NAME, with a table",
+               .group = kOutputGroup,
+               .assign = into(job.extras.materials, engine::parse_materials)});
+  options.add({.name = "deck",
+               .help = "static: a job for CalculiX (.inp) or FEBio (.feb) that pulls the mesh",
+               .group = kOutputGroup,
+               .fallback = "none",
+               .choices = {"none", "static"},
+               .assign = into(job.extras.deck, parse_deck)});
   options.add({.name = "pieces",
                .value = "N",
                .help = "a .pvtu and N .vtu beside it; vertices have GlobalNodeIds",

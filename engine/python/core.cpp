@@ -219,6 +219,13 @@ void add_options(py::module_& module) {
       .def_readwrite("sample", &Options::sample)
       .def_readwrite("certify", &Options::certify)
       .def_readwrite("report", &Options::report);
+  py::class_<FileOptions>(module, "FileOptions")
+      .def(py::init([](std::string element, bool values, std::string materials, bool deck) {
+        return FileOptions{.element = std::move(element),
+                           .values = values,
+                           .materials = std::move(materials),
+                           .deck = deck};
+      }));
   module.def("bytes_of_text", &bytes_of_text);
 }
 
@@ -239,9 +246,9 @@ void add_runs(py::module_& module) {
   });
   module.def("mesh_to_file", [](const std::string& path, const HeldVolume& volume,
                                 const Values& settings, const Options& options,
-                                const py::object& progress, const std::string& element) {
+                                const py::object& progress, const FileOptions& file) {
     return watched_run(progress, [&, chosen = settings_of(settings)](const Hooks& hooks) {
-      return mwmesh::mesh_to_file(path, volume.volume, chosen, options, hooks, element);
+      return mwmesh::mesh_to_file(path, volume.volume, chosen, options, hooks, file);
     });
   });
   module.def("verify", [](const Mesh& mesh, const HeldVolume& volume, const Options& options) {
@@ -314,11 +321,10 @@ void add_mesh(py::module_& module) {
     const py::gil_scoped_release no_gil;
     return read_mesh(path);
   });
-  module.def("write_mesh",
-             [](const Mesh& mesh, const std::string& path, const std::string& element) {
-               const py::gil_scoped_release no_gil;
-               write_mesh(mesh, path, element);
-             });
+  module.def("write_mesh", [](const Mesh& mesh, const std::string& path, const FileOptions& file) {
+    const py::gil_scoped_release no_gil;
+    write_mesh(mesh, path, file);
+  });
 }
 
 void add_verdict(py::module_& module) {

@@ -7,14 +7,17 @@
 #include <array>
 #include <vector>
 
+#include "io/mesh/field_names.h"
+
 namespace mw::io {
 namespace {
 
 constexpr std::uint64_t kMaxNameBytes = 1 << 16;  ///< of one
 constexpr std::uint64_t kMaxNames = 1 << 24;
 constexpr std::uint64_t kMaxRecordBytes = 1 << 16;
+constexpr std::uint64_t kMaxValueBytes = 1 << 12;  ///< of the names of values
 
-enum class Message : std::uint64_t { kBegin, kVertices, kTets, kFinish };
+enum class Message : std::uint64_t { kBegin, kVertices, kTets, kValues, kFinish };
 
 /// Goes ahead of each batch.
 struct Head {
@@ -23,6 +26,7 @@ struct Head {
   std::uint64_t labels_signed = 0;
   std::uint64_t names = 0;         ///< with kBegin: how many follow
   std::uint64_t record_bytes = 0;  ///< with kBegin: of the record as text, ahead of the names
+  std::uint64_t value_bytes = 0;   ///< with kBegin: of names of values, each with ';' behind it
 };
 
 /// Goes ahead of the letters of a name.
@@ -46,9 +50,13 @@ class SendingSink : public MeshSink {
   void begin(const MeshHeader& header) override {
     const std::span<const LabelName> names = header.names.rows();
     const std::string record = record_text(header.record);
+    std::string values;
+    for (const std::string& name : header.values) values += name + ";";
+    columns_ = header.values.size();
     send_(bytes_of(Head{Message::kBegin, header.tets, header.labels_signed ? 1U : 0U, names.size(),
-                        record.size()}));
+                        record.size(), values.size()}));
     send_(std::as_bytes(std::span(record)));
+    send_(std::as_bytes(std::span(values)));
     for (const LabelName& row : names) {
       NameHead head{.label = row.label, .bytes = row.name.size(), .has_colour = 0};
       if (row.colour) {
@@ -68,10 +76,15 @@ class SendingSink : public MeshSink {
     send_(std::as_bytes(tets));
     send_(std::as_bytes(labels));
   }
+  void write_values(std::span<const double> rows) override {
+    send_(bytes_of(Head{Message::kValues, rows.size() / columns_}));
+    send_(std::as_bytes(rows));
+  }
   void finish() override { send_(bytes_of(Head{})); }
 
  private:
   const SendBytes& send_;
+  std::size_t columns_ = 0;  ///< of values
 };
 
 /// In the parent.  The child may be out of its mind: no row that it sends is taken on trust.
@@ -83,9 +96,15 @@ class Receiver {
   [[nodiscard]] bool receive() {
     Head head;
     if (!next(head) || head.message != Message::kBegin) return false;
-    if (head.names > kMaxNames || head.record_bytes > kMaxRecordBytes) return false;
+    if (head.names > kMaxNames || head.record_bytes > kMaxRecordBytes ||
+        head.value_bytes > kMaxValueBytes) {
+      return false;
+    }
     std::string record(head.record_bytes, '\0');
     if (!stream_.read(std::as_writable_bytes(std::span(record)))) return false;
+    std::vector<std::string> values;
+    if (!value_list(head.value_bytes, values)) return false;
+    columns_ = values.size();
     std::vector<LabelName> rows;
     for (std::uint64_t i = 0; i < head.names; ++i) {
       if (!name(rows.emplace_back())) return false;
@@ -93,7 +112,8 @@ class Receiver {
     sink_.begin({.tets = head.count,
                  .labels_signed = head.labels_signed != 0,
                  .names = LabelNames(std::move(rows)),
-                 .record = parse_record(record, "the mesh's record")});
+                 .record = parse_record(record, "the mesh's record"),
+                 .values = std::move(values)});
     while (next(head)) {
       if (head.message == Message::kFinish) return true;
       if (head.count > kMaxApartRows) return false;
@@ -108,6 +128,18 @@ class Receiver {
  private:
   [[nodiscard]] bool next(Head& head) {
     return stream_.read(std::as_writable_bytes(std::span(&head, 1)));
+  }
+
+  [[nodiscard]] bool value_list(std::uint64_t bytes, std::vector<std::string>& out) {
+    std::string joined(bytes, '\0');
+    if (!stream_.read(std::as_writable_bytes(std::span(joined)))) return false;
+    for (std::size_t at = 0; at < joined.size();) {
+      const std::size_t end = joined.find(';', at);
+      if (end == joined.npos) return false;
+      out.push_back(joined.substr(at, end - at));
+      at = end + 1;
+    }
+    return out.size() <= kMostValues && value_names(out) == out;
   }
 
   [[nodiscard]] bool name(LabelName& row) {
@@ -142,15 +174,27 @@ class Receiver {
       if (*std::max_element(tet.begin(), tet.end()) >= vertices_) return false;
     }
     sink_.write_tets(tets_, labels_);
+    return columns_ == 0 || values(count);
+  }
+
+  /// Takes the values of the tets that came last.
+  [[nodiscard]] bool values(std::size_t count) {
+    Head head;
+    if (!next(head) || head.message != Message::kValues || head.count != count) return false;
+    values_.resize(count * columns_);
+    if (!stream_.read(std::as_writable_bytes(std::span(values_)))) return false;
+    sink_.write_values(values_);
     return true;
   }
 
   ApartStream& stream_;
   MeshSink& sink_;
   std::uint64_t vertices_ = 0;
+  std::size_t columns_ = 0;  ///< of values
   std::vector<Position> positions_;
   std::vector<TetRows> tets_;
   std::vector<RawLabel> labels_;
+  std::vector<double> values_;
 };
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which array holds labels, and names of labels from three arrays of field data.
+// Which array holds labels, names of labels from three arrays of field data, and names of values.
 #include "io/mesh/field_names.h"
 
 #include <algorithm>
+#include <cctype>
+#include <set>
 
 #include "io/file/errors.h"
 
@@ -18,6 +20,21 @@ std::optional<Colour> colour_of(const FieldNames& fields, std::size_t row) {
   }
   if (colour == Colour{}) return std::nullopt;
   return colour;
+}
+
+constexpr std::size_t kMostLetters = 31;
+
+std::string in_small_letters(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string value_name(const std::string& array) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  std::string out;
+  for (const char c : array) out += is_letter(c) || (c >= '0' && c <= '9') ? c : '_';
+  if (out.empty() || !is_letter(out.front())) out = "value_" + out;
+  return out.substr(0, kMostLetters);
 }
 
 }  // namespace
@@ -44,6 +61,28 @@ LabelNames names_of(const FieldNames& fields, std::string_view file) {
     rows.push_back({fields.ids[i], fields.names[i], colour_of(fields, i)});
   }
   return LabelNames(std::move(rows));
+}
+
+std::vector<std::string> value_names(const std::vector<std::string>& arrays) {
+  std::set<std::string> taken{"label"};
+  std::vector<std::string> out;
+  for (const std::string& array : arrays) {
+    const std::string wanted = value_name(array);
+    std::string name = wanted;
+    for (int i = 2; !taken.insert(in_small_letters(name)).second; ++i) {
+      const std::string behind = text("_", i);
+      name = wanted.substr(0, kMostLetters - behind.size()) + behind;
+    }
+    out.push_back(name);
+  }
+  return out;
+}
+
+void name_values(std::vector<TetValues>& values) {
+  std::vector<std::string> arrays;
+  for (const TetValues& column : values) arrays.push_back(column.name);
+  const std::vector<std::string> names = value_names(arrays);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i].name = names[i];
 }
 
 }  // namespace mw::io

@@ -3,11 +3,18 @@
 // A whole mesh in memory, as verify, digest, info and convert read it.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
+
+/// A number for each tet; NaN: unknown.
+struct TetValues {
+  std::string name;  ///< see MeshHeader::values
+  std::vector<double> numbers;
+};
 
 /// Vertices by row, tets by vertex rows, one raw label a tet.
 struct MeshData {
@@ -17,16 +24,36 @@ struct MeshData {
   bool labels_signed = false;
   LabelNames names;
   MeshRecord record;
+  std::vector<TetValues> values;
 };
+
+/// Writes the tets of a mesh; where they have values, batch by batch with these.
+inline void write_tets(const MeshData& mesh, MeshSink& sink) {
+  if (mesh.values.empty()) return sink.write_tets(mesh.tets, mesh.labels);
+  constexpr std::size_t kBatchRows = 4096;
+  std::vector<double> rows;
+  for (std::size_t at = 0; at < mesh.tets.size(); at += kBatchRows) {
+    const std::size_t count = std::min(kBatchRows, mesh.tets.size() - at);
+    sink.write_tets(std::span(mesh.tets).subspan(at, count),
+                    std::span(mesh.labels).subspan(at, count));
+    rows.clear();
+    for (std::size_t t = at; t < at + count; ++t) {
+      for (const TetValues& column : mesh.values) rows.push_back(column.numbers[t]);
+    }
+    sink.write_values(rows);
+  }
+}
 
 /// Writes all of a mesh: begin to finish.
 inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
-  sink.begin({.tets = mesh.tets.size(),
-              .labels_signed = mesh.labels_signed,
-              .names = mesh.names,
-              .record = mesh.record});
+  MeshHeader header{.tets = mesh.tets.size(),
+                    .labels_signed = mesh.labels_signed,
+                    .names = mesh.names,
+                    .record = mesh.record};
+  for (const TetValues& column : mesh.values) header.values.push_back(column.name);
+  sink.begin(header);
   sink.write_vertices(mesh.vertices);
-  sink.write_tets(mesh.tets, mesh.labels);
+  write_tets(mesh, sink);
   sink.finish();
 }
 
@@ -37,6 +64,7 @@ class MeshDataSink : public MeshSink {
     mesh_.labels_signed = header.labels_signed;
     mesh_.names = header.names;
     mesh_.record = header.record;
+    for (const std::string& name : header.values) mesh_.values.push_back({name, {}});
     mesh_.tets.reserve(header.tets);
     mesh_.labels.reserve(header.tets);
   }
@@ -46,6 +74,11 @@ class MeshDataSink : public MeshSink {
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
     mesh_.tets.insert(mesh_.tets.end(), tets.begin(), tets.end());
     mesh_.labels.insert(mesh_.labels.end(), labels.begin(), labels.end());
+  }
+  void write_values(std::span<const double> rows) override {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      mesh_.values[i % mesh_.values.size()].numbers.push_back(rows[i]);
+    }
   }
   void finish() override {}
 

@@ -9,11 +9,13 @@
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
 #include "io/mesh/abaqus/inp_writer.h"
+#include "io/mesh/ansys/cdb_writer.h"
 #include "io/mesh/exodus/exodus_writer.h"
 #include "io/mesh/febio/febio_writer.h"
 #include "io/mesh/gmsh/msh.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/grouped_sink.h"
+#include "io/mesh/lsdyna/k_writer.h"
 #include "io/mesh/medit/medit.h"
 #include "io/mesh/nastran/bdf_writer.h"
 #include "io/mesh/pieces/pvtu.h"
@@ -36,17 +38,19 @@ struct MeshFormat {
   std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element);
   /// Endings of files that are written beside it, in the place of its own; null behind the last.
   std::array<const char*, 4> beside{};
-  /// Opens a sink that writes text; null where there is one way to write the format.
-  std::unique_ptr<MeshSink> (*open_text)(const std::filesystem::path&, Element) = nullptr;
-  /// Opens a sink that writes materials; null where the format has no sets of elements.
-  std::unique_ptr<MeshSink> (*open_materials)(const std::filesystem::path&, Element,
-                                              const MaterialRule&) = nullptr;
-  /// Opens a sink for a mesh that is known to have wedges; null where `open` or `open_text` does.
+  /// Opens a sink that writes extras; null where the format has room for none.
+  std::unique_ptr<MeshSink> (*open_with)(const std::filesystem::path&, Element,
+                                         const MeshExtras&) = nullptr;
+  /// Opens a sink for a mesh that is known to have wedges; null where the others do.
   std::unique_ptr<MeshSink> (*open_wedges)(const std::filesystem::path&, Element) = nullptr;
+  bool has_text = false;  ///< numbers are written in two ways
+  bool takes_materials = false;
+  bool takes_deck = false;
 
   [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }
   [[nodiscard]] bool is_written() const { return open != nullptr; }
-  [[nodiscard]] bool has_materials() const { return open_materials != nullptr; }
+  [[nodiscard]] bool has_materials() const { return takes_materials; }
+  [[nodiscard]] bool has_deck() const { return takes_deck; }
   [[nodiscard]] bool has_values() const {
     constexpr std::array<std::string_view, 6> kWithValues{".vtkhdf", ".vtu", ".msh",
                                                           ".msh2",   ".exo", ".xdmf"};
@@ -133,60 +137,69 @@ std::unique_ptr<MeshSink> open_grouped(const std::filesystem::path& path, Elemen
 }
 
 template <class Writer>
-std::unique_ptr<MeshSink> open_materials(const std::filesystem::path& path, Element element,
-                                         const MaterialRule& rule) {
-  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<Writer>(path, rule),
-                                       element);
-}
-
-template <bool ascii>
-std::unique_ptr<MeshSink> open_msh(const std::filesystem::path& path, Element element) {
-  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<MshWriter>(path, ascii),
+std::unique_ptr<MeshSink> open_extras(const std::filesystem::path& path, Element element,
+                                      const MeshExtras& extras) {
+  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<Writer>(path, extras),
                                        element);
 }
 
 const std::array kFormats{
-    MeshFormat{".vtkhdf",
-               nullptr,
-               &read_vtkhdf,
-               &open_streamed<VtkhdfSink>,
-               {},
-               nullptr,
-               nullptr,
-               &open_cells<VtkhdfSink>},
-    MeshFormat{".vtu",
-               [](const auto& path) { return read_vtu(*open_bytes(path)); },
-               nullptr,
-               &open_streamed<VtuSink>,
-               {},
-               nullptr,
-               nullptr,
-               &open_cells<VtuSink>},
+    MeshFormat{.extension = ".vtkhdf",
+               .read = nullptr,
+               .stream = &read_vtkhdf,
+               .open = &open_streamed<VtkhdfSink>,
+               .open_wedges = &open_cells<VtkhdfSink>},
+    MeshFormat{.extension = ".vtu",
+               .read = [](const auto& path) { return read_vtu(*open_bytes(path)); },
+               .stream = nullptr,
+               .open = &open_streamed<VtuSink>,
+               .open_wedges = &open_cells<VtuSink>},
     MeshFormat{".mesh", [](const auto& path) { return read_medit(*open_bytes(path)); }, nullptr,
                &open_corners<MeditSink>},
-    MeshFormat{".msh", &read_msh, nullptr, &open_msh<false>, {".msh.labels.csv"}, &open_msh<true>},
-    MeshFormat{".msh2", &read_msh, nullptr, &open_grouped<Msh2Writer>, {".msh2.labels.csv"}},
-    MeshFormat{".exo",
-               nullptr,
-               nullptr,
-               &open_grouped<ExodusWriter>,
-               {".exo.labels.csv"},
-               nullptr,
-               &open_materials<ExodusWriter>},
+    MeshFormat{.extension = ".msh",
+               .read = &read_msh,
+               .stream = nullptr,
+               .open = &open_grouped<MshWriter>,
+               .beside = {".msh.labels.csv"},
+               .open_with = &open_extras<MshWriter>,
+               .has_text = true,
+               .takes_materials = true},
+    MeshFormat{.extension = ".msh2",
+               .read = &read_msh,
+               .stream = nullptr,
+               .open = &open_grouped<Msh2Writer>,
+               .beside = {".msh2.labels.csv"},
+               .open_with = &open_extras<Msh2Writer>,
+               .takes_materials = true},
+    MeshFormat{.extension = ".exo",
+               .read = nullptr,
+               .stream = nullptr,
+               .open = &open_grouped<ExodusWriter>,
+               .beside = {".exo.labels.csv"},
+               .open_with = &open_extras<ExodusWriter>,
+               .takes_materials = true},
     MeshFormat{".bdf", nullptr, nullptr, &open_grouped<BdfWriter>, {".bdf.labels.csv"}},
-    MeshFormat{".inp",
-               nullptr,
-               nullptr,
-               &open_grouped<InpWriter>,
-               {},
-               nullptr,
-               &open_materials<InpWriter>},
+    MeshFormat{.extension = ".inp",
+               .read = nullptr,
+               .stream = nullptr,
+               .open = &open_grouped<InpWriter>,
+               .open_with = &open_extras<InpWriter>,
+               .takes_materials = true,
+               .takes_deck = true},
     MeshFormat{".xdmf",
                nullptr,
                nullptr,
                &open_grouped<XdmfWriter>,
                {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"}},
-    MeshFormat{".feb", nullptr, nullptr, &open_grouped<FebioWriter>, {".feb.labels.csv"}},
+    MeshFormat{".k", nullptr, nullptr, &open_grouped<LsdynaWriter>, {".k.labels.csv"}},
+    MeshFormat{".cdb", nullptr, nullptr, &open_grouped<CdbWriter>, {".cdb.labels.csv"}},
+    MeshFormat{.extension = ".feb",
+               .read = nullptr,
+               .stream = nullptr,
+               .open = &open_grouped<FebioWriter>,
+               .beside = {".feb.labels.csv"},
+               .open_with = &open_extras<FebioWriter>,
+               .takes_deck = true},
     MeshFormat{kPiecesExtension, &read_pvtu, nullptr, nullptr},
 };
 
@@ -263,14 +276,6 @@ class SinkWithoutWedges : public MeshSink {
   std::unique_ptr<MeshSink> below_;
 };
 
-std::unique_ptr<MeshSink> open_encoded(const MeshFormat& format, const std::filesystem::path& path,
-                                       Element element, Encoding encoding) {
-  if (encoding == Encoding::kUsual) return format.open(path, element);
-  if (format.open_text != nullptr) return format.open_text(path, element);
-  throw Error(ErrorKind::kUsage, text(path.string(), ": ", path.extension().string(),
-                                      " is written in one way, so ascii is not for it"));
-}
-
 }  // namespace
 
 std::string mesh_extensions() {
@@ -286,12 +291,18 @@ bool is_mesh_path(const std::filesystem::path& path) {
 }
 
 void require_place_for_values(const std::filesystem::path& path) {
-  const MeshFormat& format = written_format(path);
-  if (format.has_values()) return;
-  throw Error(ErrorKind::kUsage,
-              text(path.string(), ": ", format.extension, " has no place for values of tets; ",
-                   extensions_where(&MeshFormat::has_values), " have, and ",
-                   extensions_where(&MeshFormat::has_materials), " take sets by --materials"));
+  static_cast<void>(written_format(path));
+  if (const std::string why = why_no_values(path); !why.empty()) {
+    throw Error(ErrorKind::kUsage, why);
+  }
+}
+
+std::string why_no_values(const std::filesystem::path& path) {
+  const MeshFormat* const format = find_format(path);
+  if (format == nullptr || format->has_values() || !format->is_written()) return {};
+  return text(path.string(), ": ", format->extension, " has no place for values of tets; ",
+              extensions_where(&MeshFormat::has_values), " have, and ",
+              extensions_where(&MeshFormat::has_materials), " take sets by --materials");
 }
 
 void require_place_for_wedges(const std::filesystem::path& path, Element element) {
@@ -336,26 +347,31 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
-                                         Encoding encoding, Wedges wedges) {
-  const MeshFormat& format = written_format(path);
-  if (wedges == Wedges::kSome && format.open_wedges != nullptr && encoding == Encoding::kUsual) {
-    return format.open_wedges(path, element);
-  }
-  auto sink = open_encoded(format, path, element, encoding);
-  if (format.has_wedges(element)) return sink;
-  return std::make_unique<SinkWithoutWedges>(path, element, std::move(sink));
+                                         Encoding encoding) {
+  return open_mesh_sink(path, element, {.encoding = encoding});
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
-                                         const MaterialRule& materials) {
+                                         const MeshExtras& extras) {
   const MeshFormat& format = written_format(path);
-  if (format.has_materials()) {
-    auto sink = format.open_materials(path, element, materials);
-    if (format.has_wedges(element)) return sink;
-    return std::make_unique<SinkWithoutWedges>(path, element, std::move(sink));
+  if (extras.encoding == Encoding::kText && !format.has_text) {
+    throw Error(ErrorKind::kUsage, text(path.string(), ": ", format.extension,
+                                        " is written in one way, so ascii is not for it"));
   }
-  throw Error(ErrorKind::kUsage, text(path.string(), ": has no sets of elements for materials; ",
-                                      extensions_where(&MeshFormat::has_materials), " have"));
+  if (extras.materials && !format.has_materials()) {
+    throw Error(ErrorKind::kUsage, text(path.string(), ": has no place for materials; ",
+                                        extensions_where(&MeshFormat::has_materials), " have"));
+  }
+  if (extras.deck && !format.has_deck()) {
+    throw Error(ErrorKind::kUsage,
+                text(path.string(), ": no job is written in ", format.extension, "; --deck is for ",
+                     extensions_where(&MeshFormat::has_deck)));
+  }
+  if (extras.wedges && format.open_wedges != nullptr) return format.open_wedges(path, element);
+  auto sink = format.open_with != nullptr ? format.open_with(path, element, extras)
+                                          : format.open(path, element);
+  if (format.has_wedges(element)) return sink;
+  return std::make_unique<SinkWithoutWedges>(path, element, std::move(sink));
 }
 
 std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,

@@ -8,20 +8,11 @@
 #include <string>
 
 #include "io/mesh/element.h"
-#include "io/mesh/grouped/material_sets.h"
 #include "io/mesh/mesh_data.h"
+#include "io/mesh/mesh_extras.h"
 #include "io/mesh/shared_mesh.h"
 
 namespace mw::io {
-
-/// How numbers are written in a format that has both.
-enum class Encoding : std::uint8_t {
-  kUsual,  ///< binary
-  kText,
-};
-
-/// Whether a mesh has wedges between the sides of interfaces (MeshRecord::cohesive).
-enum class Wedges : std::uint8_t { kNone, kSome };
 
 /// Returns the extensions that are written, as ".vtkhdf, .vtu, .mesh".
 [[nodiscard]] std::string mesh_extensions();
@@ -33,6 +24,8 @@ enum class Wedges : std::uint8_t { kNone, kSome };
 /// ERRORS: mw::Error(kUsage) for a format that has no place for numbers of tets
 /// (MeshHeader::values).
 void require_place_for_values(const std::filesystem::path& path);
+/// What that error says; empty where there is a place, which meshes in pieces have, too.
+[[nodiscard]] std::string why_no_values(const std::filesystem::path& path);
 
 /// ERRORS: mw::Error(kUsage) for a format that has no place for wedges between tets of that kind.
 void require_place_for_wedges(const std::filesystem::path& path, Element element);
@@ -48,18 +41,15 @@ void require_place_for_wedges(const std::filesystem::path& path, Element element
 /// of MeshData.
 void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
-/// ERRORS: mw::Error(kUsage) for an unknown extension, an element or encoding that the format does
-/// not have a choice of, materials that it has no sets for, or a path that cannot be written;
-/// begin() throws it for a mesh with wedges that the format has no place for.
-/// wedges: what is known before the mesh comes, so that buffer_bytes() counts what they take.
+/// ERRORS: mw::Error(kUsage) for an unknown extension, an element that the format does not have, an
+/// extra that it has no room for, or a path that cannot be written; begin() throws it for a mesh
+/// with wedges that the format has no place for.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element = Element::kTet4,
-                                                       Encoding encoding = Encoding::kUsual,
-                                                       Wedges wedges = Wedges::kNone);
-/// With element sets, and the table material_table_path() beside the mesh.
+                                                       Encoding encoding = Encoding::kUsual);
+/// With materials there is the table material_table_path() beside the mesh.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
-                                                       Element element,
-                                                       const MaterialRule& materials);
+                                                       Element element, const MeshExtras& extras);
 
 /// The ending of meshes in pieces.
 inline constexpr const char* kPiecesExtension = ".pvtu";

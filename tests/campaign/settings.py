@@ -146,6 +146,8 @@ def draw_values(random, settings, volume):
     if random.random() < 0.15:
         statistic = random.choice(["mean", "min", "max", "mode"])
         settings.flags["sample"] = f"value={volume.file}:{statistic}"
+        if settings.output == "m.msh" and random.random() < 0.5:
+            settings.flags["materials"] = random.choice(["value=1", "value=7", "value=5:0:3"])
 
 
 def draw(random, volume, values_of):

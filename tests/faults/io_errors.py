@@ -39,6 +39,8 @@ RUNS = {
     "mesh .msh": ["mesh", "v.npy", "-o", "out/m.msh", *MESH],
     "convert .vtkhdf": ["convert", "in.vtu", "out/m.vtkhdf"],
     "convert .inp": ["convert", "in.vtkhdf", "out/m.inp"],
+    "convert .k": ["convert", "in.vtkhdf", "out/m.k"],
+    "convert .cdb": ["convert", "in.vtkhdf", "out/m.cdb"],
     "convert .xdmf": ["convert", "in.vtkhdf", "out/m.xdmf", "--element=tet10"],
     "convert --pieces": ["convert", "in.mesh", "out/m.pvtu", "--pieces=3"],
     "surface .stl": ["surface", "in.vtkhdf", "-o", "out/{label}.stl", "--each"],

@@ -44,12 +44,9 @@ bool has_no_sink(const SharedOutput& shared) {
 
 std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const SharedOutput& shared) {
   if (has_no_sink(shared)) return std::make_unique<io::NoSink>();
-  if (request.materials) {
-    return io::open_mesh_sink(request.output, request.element, *request.materials);
-  }
-  return io::open_mesh_sink(
-      request.output, request.element, request.ascii ? io::Encoding::kText : io::Encoding::kUsual,
-      request.job.connect.cohesive.any() ? io::Wedges::kSome : io::Wedges::kNone);
+  io::MeshExtras extras = request.extras;
+  extras.wedges = request.job.connect.cohesive.any();
+  return io::open_mesh_sink(request.output, request.element, extras);
 }
 
 /// The files of a run, created before any work so that a bad path fails at once.

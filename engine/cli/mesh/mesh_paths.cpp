@@ -27,7 +27,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 
 std::vector<fs::path> outputs_of(const MeshRequest& request) {
   std::vector<fs::path> out = io::mesh_files(request.output);
-  if (request.materials) out.push_back(io::material_table_path(request.output));
+  if (request.extras.materials) out.push_back(io::material_table_path(request.output));
   return out;
 }
 

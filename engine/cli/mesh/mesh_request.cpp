@@ -9,6 +9,7 @@
 #include "engine/cli/options/values.h"
 #include "engine/codt/worker_pool.h"
 #include "engine/sample/sample_text.h"
+#include "engine/settings/material_text.h"
 #include "engine/settings/size_text.h"
 #include "engine/system/memory.h"
 #include "io/file/errors.h"
@@ -25,27 +26,6 @@ std::chrono::milliseconds parse_delay(const std::string& text) {
     throw Error(ErrorKind::kUsage, "expected seconds from 0 to 1000000");
   }
   return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
-}
-
-/// "NAME=N" or "NAME=N:LO:HI".
-io::MaterialRule parse_materials(const std::string& text) {
-  const std::size_t equals = std::min(text.find('='), text.size());
-  const std::size_t colon = std::min(text.find(':', equals), text.size());
-  const std::size_t second = std::min(text.find(':', colon + 1), text.size());
-  if (equals == text.size() || (colon < text.size() && second == text.size())) {
-    throw Error(ErrorKind::kUsage, "expected NAME=N or NAME=N:LO:HI, got '" + text + "'");
-  }
-  const std::int64_t count = parse_integer(text.substr(equals + 1, colon - equals - 1));
-  if (count < 1 || count > io::kMostMaterials) {
-    throw Error(ErrorKind::kUsage, io::text("expected 1 to ", io::kMostMaterials, " materials"));
-  }
-  io::MaterialRule out{.values = text.substr(0, equals),
-                       .count = static_cast<std::uint32_t>(count)};
-  if (colon == text.size()) return out;
-  out.range = {parse_number(text.substr(colon + 1, second - colon - 1)),
-               parse_number(text.substr(second + 1))};
-  if ((*out.range)[0] < (*out.range)[1]) return out;
-  throw Error(ErrorKind::kUsage, "the first value of a range is below the last");
 }
 
 Certify parse_certify(const std::string& text) {
@@ -237,7 +217,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .kind = ValueKind::kSwitch,
                .fallback = "false",
                .listed = Listed::kInHelpAll,
-               .assign = into(request.ascii)});
+               .assign = into(request.extras.encoding, parse_ascii)});
   options.add({.name = "sample",
                .value = "NAME=FILE[:mean]",
                .help = "an image's mean, min, max or mode in each tet, repeatable",
@@ -250,7 +230,14 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .help = "N sets of elements by equal ranges of a --sample, with a table",
                .group = kOutputGroup,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.materials, parse_materials)});
+               .assign = into(request.extras.materials, engine::parse_materials)});
+  options.add({.name = "deck",
+               .help = "static: a job for CalculiX (.inp) or FEBio (.feb) that pulls the mesh",
+               .group = kOutputGroup,
+               .fallback = "none",
+               .choices = {"none", "static"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.extras.deck, parse_deck)});
   options.add({.name = "force",
                .help = "replaces an OUTPUT that is no mesh of this program",
                .group = kOutputGroup,
@@ -268,13 +255,13 @@ void require_memory_for_page(const MeshRequest& request) {
 }
 
 void require_room_for_values(const MeshRequest& request) {
-  if (request.materials) {
+  if (request.extras.materials) {
     const auto is_it = [&](const engine::SampleImage& sample) {
-      return sample.name == request.materials->values;
+      return sample.name == request.extras.materials->values;
     };
     if (std::any_of(request.job.samples.begin(), request.job.samples.end(), is_it)) return;
     throw Error(ErrorKind::kUsage,
-                "--materials: no --sample is called '" + request.materials->values + "'");
+                "--materials: no --sample is called '" + request.extras.materials->values + "'");
   }
   if (!request.job.samples.empty()) io::require_place_for_values(request.output);
 }

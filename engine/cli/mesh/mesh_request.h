@@ -8,7 +8,7 @@
 #include "engine/job/mesh_job.h"
 #include "engine/settings/settings.h"
 #include "io/mesh/element.h"
-#include "io/mesh/grouped/material_sets.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::cli {
 
@@ -18,8 +18,7 @@ struct MeshRequest {
   VolumeRequest volume;
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
-  bool ascii = false;                           ///< whether the output is text
-  std::optional<io::MaterialRule> materials{};  ///< sets of elements to be written
+  io::MeshExtras extras;                 ///< what the output has beside the mesh
   bool force = false;                    ///< whether it may replace a file that we did not write
   std::filesystem::path report;          ///< empty: none
   std::filesystem::path html;            ///< empty: none

@@ -13,6 +13,7 @@
 #include "engine/report/figures.h"
 #include "engine/settings/number_text.h"
 #include "io/mesh/element.h"
+#include "io/mesh/mesh_extras.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
 
@@ -36,6 +37,16 @@ using report::format_volume;
 [[nodiscard]] Index3 parse_shape(std::string_view text);                   ///< "X,Y,Z", each >= 1
 [[nodiscard]] Box3 parse_box(std::string_view text);  ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
 [[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
+
+/// Reads the switch --ascii.
+[[nodiscard]] inline io::Encoding parse_ascii(std::string_view text) {
+  return parse_switch(text) ? io::Encoding::kText : io::Encoding::kUsual;
+}
+
+/// Reads --deck: "none" or "static".
+[[nodiscard]] inline bool parse_deck(std::string_view text) {
+  return text == "static";
+}
 
 /// Returns an Option::assign for a value that lives elsewhere and outlives the options.
 template <class T, class Parse>

@@ -21,16 +21,16 @@ import numpy as np
 from . import _core
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
                       MissingPackageError, ResourceError, UsageError)
-from ._mesh import Mesh, Surface, Verdict
-from ._values import (count, label, naming, numbers, path_bytes, switch, text, unexpected,
-                      whole)
+from ._mesh import Materials, Mesh, Surface, Verdict
+from ._values import (count, file_options, label, naming, numbers, path_bytes, switch, text,
+                      unexpected, whole)
 from ._session import Session
 from ._volume import PLACE, as_volume
 
 __version__ = _core.__version__
 __all__ = [
-    "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Mesh",
-    "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
+    "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Materials",
+    "Mesh", "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
     "Session", "read", "settings", "synth",
 ]
 
@@ -264,14 +264,15 @@ def mesh(volume, *, progress=None, **arguments):
     return Mesh._of(_run(_core.mesh, volume, arguments, progress))
 
 
-def mesh_to_file(volume, path, *, element="tet4", progress=None, **arguments):
+def mesh_to_file(volume, path, *, element="tet4", materials=None, deck=False, progress=None,
+                 **arguments):
     """Meshes as :func:`mesh` does, into a file, so that the mesh is never whole in memory.  Returns
-    the report.  element: "tet4" or "tet10"."""
+    the report.  element, materials, deck: those of :meth:`Mesh.save`."""
 
     file = path_bytes(path, "path")
 
     def call(*run):
-        return _core.mesh_to_file(file, *run, text(element, "element"))
+        return _core.mesh_to_file(file, *run, file_options(element, True, materials, deck))
 
     report = _run(call, volume, arguments, progress)
     return json.loads(report) if report else None

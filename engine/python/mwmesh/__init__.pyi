@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 __version__: str
 __all__ = [
-    "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Mesh",
-    "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
+    "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Materials",
+    "Mesh", "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
     "Session", "read", "settings", "synth",
 ]
 
@@ -71,6 +71,14 @@ class Surface(NamedTuple):
     points: npt.NDArray[np.float64]
     triangles: npt.NDArray[np.int64]
 
+class Materials(NamedTuple):
+    numbers: npt.NDArray[np.int32]
+    begins: npt.NDArray[np.float64]
+    ends: npt.NDArray[np.float64]
+    means: npt.NDArray[np.float64]
+    tets: npt.NDArray[np.int64]
+    volumes: npt.NDArray[np.float64]
+
 class Verdict:
     passed: bool
     checks: list[tuple[str, bool, str]]
@@ -104,12 +112,22 @@ class Mesh:
     @property
     def digest(self) -> str: ...
     def label_list(self) -> npt.NDArray[np.int64] | npt.NDArray[np.uint64]: ...
+    def materials(
+        self, name: str, count: int, bounds: tuple[float, float] | None = None
+    ) -> Materials: ...
     def tet_volumes(self) -> npt.NDArray[np.float64]: ...
     def volumes(self) -> dict[int, float]: ...
     def facets(self, a: _Label, b: _Label) -> npt.NDArray[np.int64]: ...
     def surface(self, label: _Label, closed: bool = True) -> Surface: ...
     def contacts(self) -> dict[tuple[int, int], float]: ...
-    def save(self, path: _Path, element: _Element = "tet4") -> None: ...
+    def save(
+        self,
+        path: _Path,
+        element: _Element = "tet4",
+        values: bool = True,
+        materials: str | None = None,
+        deck: bool = False,
+    ) -> None: ...
     def verify(
         self,
         volume: _Source,
@@ -193,6 +211,8 @@ def mesh_to_file(
     path: _Path,
     *,
     element: _Element = "tet4",
+    materials: str | None = None,
+    deck: bool = False,
     progress: _Progress | None = None,
     **arguments: Any,
 ) -> dict[str, Any] | None: ...

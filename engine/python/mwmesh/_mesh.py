@@ -11,7 +11,7 @@ import numpy as np
 from . import _core
 from ._errors import MissingPackageError, UsageError
 from ._values import label as label_bits
-from ._values import name_rows, numbers, path_bytes, text, whole_numbers
+from ._values import file_options, name_rows, numbers, path_bytes, whole_numbers
 
 #: The corners of a tet's faces, seen counterclockwise from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -22,6 +22,17 @@ class Surface(NamedTuple):
 
     points: np.ndarray
     triangles: np.ndarray
+
+
+class Materials(NamedTuple):
+    """Tets by equal ranges of a value; row i of all but `numbers` is of material i + 1."""
+
+    numbers: np.ndarray  #: the material of each tet, from 1 on; 0 where it has no value
+    begins: np.ndarray  #: the least value of each material
+    ends: np.ndarray  #: where the next one begins; the last material has its end
+    means: np.ndarray  #: of the values by volume; NaN without tets
+    tets: np.ndarray  #: how many
+    volumes: np.ndarray
 
 
 class _Facets(NamedTuple):
@@ -155,7 +166,8 @@ class Mesh:
 
     @property
     def values(self):
-        """The m numbers of each image that was sampled, {name: float64}; NaN outside of it."""
+        """The m numbers of each image that was sampled, {name: float64}; NaN outside of it.  A mesh
+        that was read has those of its file."""
         return self._core.values
 
     @property
@@ -214,6 +226,38 @@ class Mesh:
         labels, ranks = self._ranks()
         sums = np.bincount(ranks, weights=self.tet_volumes(), minlength=len(labels))
         return {int(label): float(v) for label, v in zip(labels, sums)}
+
+    def materials(self, name, count, bounds=None):
+        """Returns the :class:`Materials` of ``mwmesh mesh --materials``: `count` equal ranges of the
+        values `name`, from the least to the largest or over bounds = (low, high), beyond which
+        values are in the first or the last.
+
+        >>> import mwmesh
+        >>> mesh = mwmesh.mesh("labels.npy", sample={"hu": "ct.npy"})    # doctest: +SKIP
+        >>> mesh.materials("hu", 50).means                               # doctest: +SKIP
+        """
+        if name not in self.values:
+            raise UsageError(f"materials: tets have no values '{name}'")
+        most = 10_000
+        if not 1 <= count <= most:
+            raise UsageError(f"materials: expected a count from 1 to {most}")
+        values, volumes = self.values[name], self.tet_volumes()
+        known = ~np.isnan(values)
+        if bounds is None:
+            bounds = (values[known].min(), values[known].max()) if known.any() else (0, 0)
+        elif not bounds[0] < bounds[1]:
+            raise UsageError("materials: the first of the bounds is below the second")
+        low, high = map(float, bounds)
+        begins = low + (high - low) * (np.arange(count) / count)
+        last = np.searchsorted(begins, values[known], side="right")
+        numbers = np.zeros(len(values), np.int32)
+        numbers[known] = np.clip(last, 1, count)
+        tets = np.bincount(numbers, minlength=count + 1)[1:]
+        sums = np.bincount(numbers, volumes, count + 1)[1:]
+        weighted = np.bincount(numbers, np.where(known, values, 0) * volumes, count + 1)[1:]
+        means = np.full(count, np.nan)
+        np.divide(weighted, sums, out=means, where=tets > 0)
+        return Materials(numbers, begins, np.append(begins[1:], high), means, tets, sums)
 
     def _facets(self):
         if "facets" in self._known:
@@ -285,10 +329,13 @@ class Mesh:
         return {(int(labels[p // len(labels)]), int(labels[p % len(labels)])): float(s)
                 for p, s in zip(known, sums)}
 
-    def save(self, path, element="tet4"):
+    def save(self, path, element="tet4", values=True, materials=None, deck=False):
         """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
-        it is whole.  element: "tet4" or "tet10"."""
-        _core.write_mesh(self._core, path_bytes(path, "path"), text(element, "element"))
+        it is whole.  element: "tet4" or "tet10".  values: False leaves out the values of tets, for
+        which some formats have no place.  materials: "NAME=N" or "NAME=N:LO:HI" makes N sets of
+        elements by ranges of a value.  deck: with a job for CalculiX (.inp) or FEBio (.feb)."""
+        _core.write_mesh(self._core, path_bytes(path, "path"),
+                         file_options(element, values, materials, deck))
 
     def verify(self, volume, *, threads=0, memory=None, labels=None, background=None, merge=None,
                drop_specks=None, **place):

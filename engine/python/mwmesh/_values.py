@@ -125,3 +125,9 @@ def name_rows(of, names):
         raise unexpected("names", "{label: name}, a list, or a file", names) from None
     return [_core.LabelName(label(of, key, "names"), text(name, "names"), None)
             for key, name in rows]
+
+
+def file_options(element, values, materials, deck):
+    """Returns how a file is written."""
+    return _core.FileOptions(text(element, "element"), switch(values, "values"),
+                             text(materials, "materials"), switch(deck, "deck"))

@@ -4,6 +4,7 @@
 #include "io/mesh/abaqus/inp_writer.h"
 
 #include "io/file/errors.h"
+#include "io/mesh/grouped/deck_ends.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/medit/medit.h"
 
@@ -62,7 +63,7 @@ class InpWriter::NumberRows {
 
 void InpWriter::write(GroupedMesh& mesh) {
   check_counts(mesh);
-  const PlainNames names(mesh);
+  PlainNames names(mesh);
   write_head(mesh, names);
   write_nodes(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
@@ -77,7 +78,9 @@ void InpWriter::write(GroupedMesh& mesh) {
     write_surface(mesh, set.name, set.group.facets, false);
     if (!set.other.empty()) write_surface(mesh, set.other, set.group.facets, true);
   }
-  if (rule_) write_materials(mesh);
+  if (rule_) materials_.emplace(mesh, *rule_);
+  if (rule_) write_materials();
+  if (has_deck_ && mesh.tet_count() > 0) write_deck(mesh, names);
   line(kInpEnds);
   table_ ? commit_together({*table_, file_}) : file_.commit();
 }
@@ -168,20 +171,86 @@ void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRa
   rows.end();
 }
 
-void InpWriter::write_materials(GroupedMesh& mesh) {
-  MaterialSets materials(mesh, *rule_);
+void InpWriter::write_materials() {
   NumberRows rows(*this);
   std::uint32_t last = 0;
-  materials.for_each(folder_, [&](std::uint32_t material, std::uint64_t tet) {
+  materials_->for_each(folder_, [&](std::uint32_t material, std::uint64_t tet) {
     if (material != last) {
       rows.end();
-      line("*ELSET, ELSET=", materials.name(material));
+      line("*ELSET, ELSET=", materials_->name(material));
     }
     last = material;
     rows.add(tet + 1);
   });
   rows.end();
-  materials.append_table(*table_);
+  materials_->append_table(*table_);
+}
+
+void InpWriter::write_deck(GroupedMesh& mesh, PlainNames& names) {
+  line(
+      "** A job to begin with.  1000 and 0.3 stand for modulus and Poisson's ratio of each "
+      "material.");
+  if (rule_) {
+    write_material_sections(mesh, names);
+  } else {
+    for (Label rank = 0; rank < mesh.table().size(); ++rank) write_section(names.volume(rank));
+  }
+  const DeckEnds ends(mesh);
+  std::string low = "Z_MIN", high = "Z_MAX";
+  if (!ends.are_sides()) {
+    low = names.add("DECK_LOW");
+    high = names.add("DECK_HIGH");
+    write_nodes_where(mesh, low, [&](const Position& p) { return ends.is_low(p); });
+    write_nodes_where(mesh, high, [&](const Position& p) { return ends.is_high(p); });
+  }
+  line("** One end is held, the other is pulled by 1 % of the height of the mesh.");
+  line("*BOUNDARY");
+  line(low, ", 1, 3");
+  line("*STEP");
+  line("*STATIC");
+  line("*BOUNDARY");
+  for (std::size_t k = 0; k < 3; ++k) {
+    line(text(high, ", ", k + 1, ", ", k + 1, ", ", ends.shift()[k]));
+  }
+  for (const char* const card : {"*NODE FILE", "U", "*EL FILE", "S", "*END STEP"}) line(card);
+}
+
+void InpWriter::write_section(const std::string& set) {
+  line("*MATERIAL, NAME=", set);
+  line("*ELASTIC");
+  line("1000, 0.3");
+  line(text("*SOLID SECTION, ELSET=", set, ", MATERIAL=", set));
+}
+
+/// One for each set, and one for the tets that are in none.
+void InpWriter::write_material_sections(GroupedMesh& mesh, PlainNames& names) {
+  std::uint64_t in_sets = 0;
+  for (std::uint32_t m = 1; m <= materials_->count(); ++m) {
+    const MaterialSets::Material& facts = materials_->facts(m);
+    in_sets += facts.tets;
+    if (facts.tets == 0) continue;
+    line(text("** ", materials_->name(m), ": the mean of ", rule_->values, " is ", facts.mean));
+    write_section(materials_->name(m));
+  }
+  if (in_sets == mesh.tet_count()) return;
+  const std::string none = names.add(rule_->values + "_none");
+  line("*ELSET, ELSET=", none);
+  NumberRows rows(*this);
+  for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) {
+    if (materials_->material_of(t) == 0) rows.add(t + 1);
+  }
+  rows.end();
+  write_section(none);
+}
+
+template <class Where>
+void InpWriter::write_nodes_where(GroupedMesh& mesh, const std::string& name, Where where) {
+  line("*NSET, NSET=", name);
+  NumberRows rows(*this);
+  for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
+    if (where(mesh.node(row))) rows.add(row + 1);
+  }
+  rows.end();
 }
 
 void InpWriter::line(std::string_view line, std::string_view more) {

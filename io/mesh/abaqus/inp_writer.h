@@ -10,6 +10,7 @@
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/material_sets.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
 
@@ -21,18 +22,20 @@ namespace mw::io {
 /// label is, with its name and colour as in MEDIT files.
 /// Wedges between the sides of an interface are elements COH3D6 behind the tets, in a set
 /// COHESIVE_1_2: their nodes 1 2 3 are on the side of label 1, and 4 5 6 on that of label 2.
-/// Between tets of ten nodes they are not written: Abaqus has no such element. Materials are
-/// element sets beside those of the labels; empty ones are left out. Memory: 9 MiB.  ERRORS: see
+/// Between tets of ten nodes they are not written: Abaqus has no such element.  Materials are
+/// element sets beside those of the labels; empty ones are left out.  A deck is a job for CalculiX:
+/// a material with placeholders and a section for each label, or for each material and the elements
+/// in none, and one static step (MeshExtras::deck).  Memory: 9 MiB.  ERRORS: see
 /// AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements, which is all that Abaqus has
 /// numbers for.
 class InpWriter : public GroupedWriter {
  public:
-  explicit InpWriter(const std::filesystem::path& path,
-                     std::optional<MaterialRule> materials = std::nullopt)
+  explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
       : folder_(path.parent_path()),
         name_(path.string()),
         file_(path),
-        rule_(std::move(materials)) {
+        rule_(extras.materials),
+        has_deck_(extras.deck) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 
@@ -45,7 +48,12 @@ class InpWriter : public GroupedWriter {
   void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);
   void write_wedges(GroupedMesh& mesh, const PlainNames& names);
   void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
-  void write_materials(GroupedMesh& mesh);
+  void write_materials();
+  void write_deck(GroupedMesh& mesh, PlainNames& names);
+  void write_section(const std::string& set);
+  void write_material_sections(GroupedMesh& mesh, PlainNames& names);
+  template <class Where>
+  void write_nodes_where(GroupedMesh& mesh, const std::string& name, Where where);
   /// One of many rows of numbers, 16 to a line.
   class NumberRows;
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
@@ -55,7 +63,9 @@ class InpWriter : public GroupedWriter {
   std::string name_;
   AtomicFile file_;
   std::optional<MaterialRule> rule_;
+  std::optional<MaterialSets> materials_;
   std::optional<AtomicFile> table_;  ///< of the materials
+  bool has_deck_ = false;
 };
 
 }  // namespace mw::io

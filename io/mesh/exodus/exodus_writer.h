@@ -7,6 +7,7 @@
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/mesh/grouped/material_sets.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
 
@@ -23,13 +24,12 @@ namespace mw::io {
 /// Memory: 9 MiB.  ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or tets.
 class ExodusWriter : public GroupedWriter {
  public:
-  explicit ExodusWriter(const std::filesystem::path& path,
-                        std::optional<MaterialRule> materials = std::nullopt)
+  explicit ExodusWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
       : folder_(path.parent_path()),
         name_(path.string()),
         out_(path),
         labels_(label_table_path(path)),
-        rule_(std::move(materials)) {
+        rule_(extras.materials) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 

@@ -22,6 +22,9 @@ constexpr std::string_view kHead =
     "  <Module type=\"solid\"/>\n"
     "  <!-- The materials are placeholders: one for each label of the mesh. -->\n";
 
+constexpr const char* kLowSet = "deck_low";
+constexpr const char* kHighSet = "deck_high";
+
 /// Gives each name once.
 class UniqueNames {
  public:
@@ -75,8 +78,12 @@ void FebioWriter::write(GroupedMesh& mesh) {
     write_part(mesh, mesh.label_tets()[rank], parts[rank]);
   }
   write_surfaces(mesh);
+  std::optional<DeckEnds> ends;
+  if (has_deck_ && mesh.tet_count() > 0) ends.emplace(mesh);
+  if (ends && !ends->are_sides()) write_node_sets(mesh, *ends);
   file_.append("  </Mesh>\n");
   write_domains(parts);
+  if (ends) write_job(*ends);
   file_.append("</febio_spec>\n");
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
   commit_together({labels_, file_});
@@ -145,6 +152,47 @@ void FebioWriter::write_domains(const std::vector<std::string>& parts) {
     file_.append(text("    <SolidDomain name=\"", name, "\" mat=\"", name, "\"/>\n"));
   }
   file_.append("  </MeshDomains>\n");
+}
+
+void FebioWriter::write_node_sets(GroupedMesh& mesh, const DeckEnds& ends) {
+  for (const bool is_low : {true, false}) {
+    file_.append(text("    <NodeSet name=\"", is_low ? kLowSet : kHighSet, "\">"));
+    const char* between = "";
+    for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
+      const Position p = mesh.node(row);
+      if (!(is_low ? ends.is_low(p) : ends.is_high(p))) continue;
+      file_.append(text(between, row + 1));
+      between = ",\n      ";
+    }
+    file_.append("</NodeSet>\n");
+  }
+}
+
+void FebioWriter::write_job(const DeckEnds& ends) {
+  const std::string low = ends.are_sides() ? "@surface:z_min" : kLowSet;
+  const std::string high = ends.are_sides() ? "@surface:z_max" : kHighSet;
+  file_.append(text("  <Boundary>\n    <bc name=\"held\" node_set=\"", low,
+                    "\" type=\"zero displacement\">\n      <x_dof>1</x_dof>\n      "
+                    "<y_dof>1</y_dof>\n      <z_dof>1</z_dof>\n    </bc>\n  </Boundary>\n"));
+  file_.append(
+      "  <Step>\n    <step id=\"1\" name=\"pull\">\n      <Control>\n        "
+      "<analysis>STATIC</analysis>\n        <time_steps>10</time_steps>\n        "
+      "<step_size>0.1</step_size>\n        <solver type=\"solid\"/>\n      </Control>\n      "
+      "<Boundary>\n");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string axis(1, "xyz"[k]);
+    file_.append(text("        <bc name=\"pulled_", axis, "\" node_set=\"", high,
+                      "\" type=\"prescribed displacement\">\n          <dof>", axis,
+                      "</dof>\n          <value lc=\"1\">", ends.shift()[k],
+                      "</value>\n          <relative>0</relative>\n        </bc>\n"));
+  }
+  file_.append(
+      "      </Boundary>\n    </step>\n  </Step>\n  <LoadData>\n    <load_controller id=\"1\" "
+      "name=\"ramp\" type=\"loadcurve\">\n      <interpolate>LINEAR</interpolate>\n      "
+      "<points>\n        <pt>0,0</pt>\n        <pt>1,1</pt>\n      </points>\n    "
+      "</load_controller>\n  </LoadData>\n  <Output>\n    <plotfile type=\"febio\">\n      "
+      "<var type=\"displacement\"/>\n      <var type=\"stress\"/>\n    </plotfile>\n  "
+      "</Output>\n");
 }
 
 }  // namespace mw::io

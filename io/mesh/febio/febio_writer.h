@@ -4,23 +4,28 @@
 #pragma once
 
 #include "io/file/sink/atomic_file.h"
+#include "io/mesh/grouped/deck_ends.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/label_numbers.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
 
-/// febio_spec 4.0 with what FEBio Studio needs to import a mesh, and nothing that loads it:
+/// febio_spec 4.0 with what FEBio Studio needs to import a mesh, and nothing that loads it unless a
+/// deck is asked for:
 ///   Material     one a label, of its name, a neo-Hookean placeholder; ids are 1 to the number of
 ///                labels, as FEBio wants them: the numbers of M.feb.labels.csv (label_numbers.h)
 ///   Mesh         Nodes; Elements tet4 or tet10 for each label; a Surface (tri3 or tri6) for each
 ///                side of the box, and two for each interface: liver|cyst with normals out of the
 ///                liver, cyst|liver the other way; all ids count from 1
 ///   MeshDomains  part to material
+///   Boundary, Step, LoadData, Output   of a deck alone (MeshExtras::deck): a static step of ten
+///                increments; where the mesh does not reach both sides there are node sets, too
 /// Parts and surfaces have the names of group_names.h, with _2 and so on behind one that was there.
 class FebioWriter : public GroupedWriter {
  public:
-  explicit FebioWriter(const std::filesystem::path& path)
-      : file_(path), labels_(label_table_path(path)) {}
+  explicit FebioWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
+      : file_(path), labels_(label_table_path(path)), has_deck_(extras.deck) {}
   void write(GroupedMesh& mesh) override;
 
  private:
@@ -31,9 +36,12 @@ class FebioWriter : public GroupedWriter {
   /// name: escaped.
   void write_surface(GroupedMesh& mesh, RowRange facets, const std::string& name, bool is_turned);
   void write_domains(const std::vector<std::string>& parts);
+  void write_node_sets(GroupedMesh& mesh, const DeckEnds& ends);
+  void write_job(const DeckEnds& ends);
 
   AtomicFile file_;
   AtomicFile labels_;
+  bool has_deck_;
 };
 
 }  // namespace mw::io

@@ -7,10 +7,12 @@
 
 #include "io/file/sink/partial_file.h"
 #include "io/mesh/gmsh/msh_encoder.h"
+#include "io/mesh/gmsh/msh_groups.h"
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/mesh/mesh_data.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
 
@@ -19,9 +21,9 @@ namespace mw::io {
 /// label is the first physical group of the tet's volume, or the volume's tag where it is in none:
 /// of that number, or what the table beside the file says (append_label_table).  Without a table,
 /// names are those of physical volumes.  The record is that of a comment, where MshWriter has left
-/// one; the wedges follow from it.
-/// ERRORS: mw::Error(kInput) with file and place; also for other versions, partitioned meshes, and
-/// elements of which none is a tet.
+/// one; the wedges follow from it.  Values are those of sections ElementData with one component,
+/// under the names of their views (value_names()).  ERRORS: mw::Error(kInput) with file and place;
+/// also for other versions, partitioned meshes, and elements of which none is a tet.
 [[nodiscard]] MeshData read_msh(const std::filesystem::path& path);
 
 /// A volume a label, whose tag and physical group are the label's number (LabelNumbers: from 1 to
@@ -33,13 +35,16 @@ namespace mw::io {
 /// Gmsh reads are "LABEL_7", "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
 /// Wedges between the sides of an interface are prisms in a volume of their own, above the
 /// surfaces, COHESIVE_1_2 as in .inp; a comment holds the record then.  Those of tets of ten nodes
-/// would need nodes between the two sides, and are not written. The table of labels is written
-/// beside it.  Entities may be in several pieces, which Gmsh's createTopology() parts, forgetting
-/// their groups; createTopology(False) keeps them.
+/// would need nodes between the two sides, and are not written.  Materials are one more
+/// ElementData, "hu_material" of values "hu", 0 where there is no value.  The table of labels is
+/// written beside it, and that of materials.  Entities may be in several pieces, which Gmsh's
+/// createTopology() parts, forgetting their groups; createTopology(False) keeps them.
 class MshWriter : public GroupedWriter {
  public:
-  MshWriter(const std::filesystem::path& path, bool ascii)
-      : out_(path, ascii), labels_(label_table_path(path)), folder_(folder_of(path)) {}
+  explicit MshWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
+      : out_(path, extras.encoding == Encoding::kText),
+        tables_(path, extras.materials),
+        folder_(folder_of(path)) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -68,7 +73,7 @@ class MshWriter : public GroupedWriter {
   void put_wedges(const Contents& contents, std::size_t entity);
 
   MshEncoder out_;
-  AtomicFile labels_;
+  MshTables tables_;
   std::filesystem::path folder_;  ///< of temporary files
 };
 
@@ -77,8 +82,8 @@ class MshWriter : public GroupedWriter {
 /// then tets.
 class Msh2Writer : public GroupedWriter {
  public:
-  explicit Msh2Writer(const std::filesystem::path& path)
-      : out_(path, true), labels_(label_table_path(path)) {}
+  explicit Msh2Writer(const std::filesystem::path& path, const MeshExtras& extras = {})
+      : out_(path, true), tables_(path, extras.materials) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -90,7 +95,7 @@ class Msh2Writer : public GroupedWriter {
                      std::int64_t entity, const NodeRows& nodes);
 
   MshEncoder out_;
-  AtomicFile labels_;
+  MshTables tables_;
 };
 
 }  // namespace mw::io

@@ -40,7 +40,7 @@ Kind kind_of(const MshInput& in, std::int64_t type, std::int64_t tags) {
 }
 
 /// Tags and nodes of one element.
-void read_element(MshInput& in, const Kind& kind, MshContent& out) {
+void read_element(MshInput& in, std::int64_t element, const Kind& kind, MshContent& out) {
   std::int64_t physical = 0;
   std::int64_t entity = 0;
   for (std::uint64_t i = 0; i < kind.tags; ++i) {
@@ -54,12 +54,13 @@ void read_element(MshInput& in, const Kind& kind, MshContent& out) {
   if (!kind.tet) return;
   const std::int64_t number = physical != 0 ? std::abs(physical) : entity;
   out.mesh.add_tet(nodes, static_cast<RawLabel>(number));
+  out.numbers.push_back(static_cast<std::uint64_t>(element));
 }
 
 void read_text_element(MshInput& in, MshContent& out) {
-  static_cast<void>(in.integer("the number of an element"));
+  const std::int64_t element = in.integer("the number of an element");
   const std::int64_t type = in.integer("a type of elements");
-  read_element(in, kind_of(in, type, in.integer("a number of tags")), out);
+  read_element(in, element, kind_of(in, type, in.integer("a number of tags")), out);
 }
 
 /// Elements of one type behind a common head.
@@ -71,8 +72,8 @@ void read_element_block(MshInput& in, std::uint64_t max, MshContent& out) {
     in.fail(text("a block of ", rows, " elements, where ", max, " are left"));
   }
   for (std::int64_t i = 0; i < rows; ++i) {
-    static_cast<void>(in.integer("the number of an element"));
-    read_element(in, kind, out);
+    const std::int64_t element = in.integer("the number of an element");
+    read_element(in, element, kind, out);
   }
 }
 

@@ -19,8 +19,7 @@ void Msh2Writer::write(GroupedMesh& mesh) {
   write_nodes(mesh);
   write_elements(mesh, numbers);
   write_element_data(out_, mesh);
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
-  commit_together({labels_, out_.file()});
+  tables_.write_with(out_, mesh, numbers);
 }
 
 void Msh2Writer::write_nodes(GroupedMesh& mesh) {

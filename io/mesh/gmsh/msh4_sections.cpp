@@ -62,9 +62,11 @@ std::uint64_t read_element_block(MshInput& in, MshContent& out) {
   in.check_rows(rows, (1 + nodes) * sizeof(std::uint64_t), 1 + nodes);
   std::vector<std::uint64_t> tags(nodes);
   for (std::uint64_t i = 0; i < rows; ++i) {
-    static_cast<void>(in.count("the number of an element"));
+    const std::uint64_t element = in.count("the number of an element");
     for (std::uint64_t& tag : tags) tag = in.count("a node of an element");
-    if (is_msh_tet(type)) out.mesh.add_tet(tags, static_cast<RawLabel>(entity));
+    if (!is_msh_tet(type)) continue;
+    out.mesh.add_tet(tags, static_cast<RawLabel>(entity));
+    out.numbers.push_back(element);
   }
   return rows;
 }

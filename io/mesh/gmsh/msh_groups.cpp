@@ -27,6 +27,27 @@ std::string name_line(std::int32_t dimension, std::int64_t tag, const std::strin
   return text(dimension, " ", tag, " \"", name, "\"");
 }
 
+/// A section of numbers of elements, alike in both versions; number_of(tet).
+template <class NumberOf>
+void write_column(MshEncoder& out, GroupedMesh& mesh, const std::string& name, NumberOf number_of) {
+  out.begin_section("ElementData");
+  out.add_line("1");
+  out.add_line(text("\"", name, "\""));
+  // A time, and three integers: its number, the components of a value, the values.
+  for (const char* const line : {"1", "0", "3", "0", "1"}) out.add_line(line);
+  out.add_line(text(mesh.facet_count() + mesh.tet_count() + mesh.wedge_count()));
+  std::int32_t element = 0;
+  const auto put = [&](std::uint64_t tet) {
+    out.put(++element);
+    out.put(number_of(tet));
+    out.end_row();
+  };
+  for (std::uint64_t f = 0; f < mesh.facet_count(); ++f) put(mesh.facet(f).tet);
+  for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) put(t);
+  for (std::uint64_t w = 0; w < mesh.wedge_count(); ++w) put(mesh.wedge(w).bottom_tet);
+  out.end_section("ElementData");
+}
+
 }  // namespace
 
 LabelNumbers msh_numbers(const GroupedMesh& mesh) {
@@ -86,23 +107,24 @@ void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelN
 void write_element_data(MshEncoder& out, GroupedMesh& mesh) {
   const std::vector<std::string>& names = mesh.header().values;
   for (std::size_t column = 0; column < names.size(); ++column) {
-    out.begin_section("ElementData");
-    out.add_line("1");
-    out.add_line(text("\"", names[column], "\""));
-    // A time, and three integers: its number, the components of a value, the values.
-    for (const char* const line : {"1", "0", "3", "0", "1"}) out.add_line(line);
-    out.add_line(text(mesh.facet_count() + mesh.tet_count() + mesh.wedge_count()));
-    std::int32_t element = 0;
-    const auto put = [&](std::uint64_t tet) {
-      out.put(++element);
-      out.put(mesh.value(tet, column));
-      out.end_row();
-    };
-    for (std::uint64_t f = 0; f < mesh.facet_count(); ++f) put(mesh.facet(f).tet);
-    for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) put(t);
-    for (std::uint64_t w = 0; w < mesh.wedge_count(); ++w) put(mesh.wedge(w).bottom_tet);
-    out.end_section("ElementData");
+    write_column(out, mesh, names[column],
+                 [&](std::uint64_t tet) { return mesh.value(tet, column); });
   }
+}
+
+MshTables::MshTables(const std::filesystem::path& mesh, std::optional<MaterialRule> rule)
+    : labels_(label_table_path(mesh)), rule_(std::move(rule)) {
+  if (rule_) materials_.emplace(material_table_path(mesh));
+}
+
+void MshTables::write_with(MshEncoder& out, GroupedMesh& mesh, const LabelNumbers& numbers) {
+  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  if (!rule_) return commit_together({labels_, out.file()});
+  MaterialSets sets(mesh, *rule_);
+  write_column(out, mesh, rule_->values + "_material",
+               [&](std::uint64_t tet) { return static_cast<double>(sets.material_of(tet)); });
+  sets.append_table(*materials_);
+  commit_together({labels_, *materials_, out.file()});
 }
 
 }  // namespace mw::io

@@ -10,6 +10,7 @@
 #include "io/mesh/gmsh/msh_encoder.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/label_numbers.h"
+#include "io/mesh/grouped/material_sets.h"
 
 namespace mw::io {
 
@@ -43,6 +44,20 @@ void write_cohesive_record(MshEncoder& out, const GroupedMesh& mesh);
 
 /// Writes the section of the names of all physical surfaces and volumes (see MshWriter).
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels);
+
+/// The files beside a .msh, and the numbers of materials in it.
+class MshTables {
+ public:
+  MshTables(const std::filesystem::path& mesh, std::optional<MaterialRule> rule);
+
+  /// Writes the section of materials, if there are any, and the tables, and commits all.
+  void write_with(MshEncoder& out, GroupedMesh& mesh, const LabelNumbers& numbers);
+
+ private:
+  AtomicFile labels_;
+  std::optional<MaterialRule> rule_;
+  std::optional<AtomicFile> materials_;
+};
 
 /// Writes a section ElementData for each of the values of tets, alike in both versions.  A triangle
 /// or a wedge has the value of the tet behind it: meshio reads no data that only some elements

@@ -52,11 +52,23 @@ void MshInput::end_section(std::string_view section) {
 }
 
 void MshInput::skip_section(std::string_view section) {
-  const std::string end = text("$End", section);
-  while (cursor_.read_line(text_, kMaxLineBytes)) {
-    if (trimmed(text_) == end) return;
+  if (!find_end(section)) fail(text("truncated: no $End", section));
+}
+
+bool MshInput::find_end(std::string_view section) {
+  // By bytes, since a binary section has lines of any length.
+  const std::string end = text("\n$End", section);
+  std::size_t matched = 1;  // a line begins here
+  for (int c = cursor_.peek(); c >= 0; c = cursor_.peek()) {
+    cursor_.take();
+    if (c == end[matched]) {
+      ++matched;
+    } else {
+      matched = c == '\n' ? 1 : 0;
+    }
+    if (matched == end.size()) return true;
   }
-  fail(text("truncated: no ", end));
+  return false;
 }
 
 std::string_view MshInput::word() {
@@ -101,6 +113,13 @@ double MshInput::real(std::string_view expected) {
   const auto number = from_bytes<double>(expected);
   if (!std::isfinite(number)) fail(text(expected, " is not finite"));
   return number;
+}
+
+double MshInput::real_or_nan(std::string_view expected) {
+  if (!ascii_) return from_bytes<double>(expected);
+  const auto number = parse_real(word());
+  if (!number) fail_word(expected);
+  return *number;
 }
 
 void MshInput::skip_reals(std::int64_t how_many) {

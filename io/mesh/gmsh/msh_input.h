@@ -24,8 +24,10 @@ class MshInput {
   [[nodiscard]] std::string next_section();
   /// Reads the line "$End<section>", which must come here.
   void end_section(std::string_view section);
-  /// Skips all up to that line, and the line.
+  /// Skips all up to that line, and what it says.
   void skip_section(std::string_view section);
+  /// Skips as much; whether that line came before the end of the file.
+  [[nodiscard]] bool find_end(std::string_view section);
 
   /// Reads an integer, of 32 bits in binary.
   [[nodiscard]] std::int64_t integer(std::string_view expected);
@@ -33,6 +35,8 @@ class MshInput {
   [[nodiscard]] std::uint64_t count(std::string_view expected);
   /// Reads a finite number.
   [[nodiscard]] double real(std::string_view expected);
+  /// Reads a number, finite or not.
+  [[nodiscard]] double real_or_nan(std::string_view expected);
   /// Skips reals that do not matter, finite or not.
   void skip_reals(std::int64_t how_many);
   /// Fails unless the rest of the file can hold these rows, of at least `bytes` each in binary, or

@@ -6,6 +6,7 @@
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
 #include "io/file/text_numbers.h"
+#include "io/mesh/field_names.h"
 #include "io/mesh/gmsh/msh_groups.h"
 #include "io/mesh/gmsh/msh_sections.h"
 #include "io/mesh/grouped/group_names.h"
@@ -86,7 +87,7 @@ void read_section(const std::string& section, bool is_4, MshInput& in, MshConten
   }
 }
 
-/// Up to the elements, which come behind all that they need.
+/// Elements come behind all that they need, and values of elements behind these.
 MshContent read_content(const ByteSource& source) {
   MshInput in(source);
   const bool is_4 = read_format(in);
@@ -102,6 +103,7 @@ MshContent read_content(const ByteSource& source) {
   }
   if (!nodes) in.fail("no $Nodes before $Elements");
   if (out.mesh.tet_count() == 0 && out.elements > 0) in.fail("no element is a tetrahedron");
+  read_msh_values(in, out);
   return out;
 }
 
@@ -140,6 +142,8 @@ MeshData read_msh(const std::filesystem::path& path) {
   MeshData mesh = content.mesh.finish();
   mesh.labels_signed = labels.labels_signed();
   mesh.record = std::move(content.record);
+  mesh.values = std::move(content.values);
+  name_values(mesh.values);
   mesh.names = labels.has_table() ? labels.names() : names_of(content);
   return mesh;
 }

@@ -19,6 +19,8 @@ struct MshContent {
   std::map<std::int64_t, std::string> names;         ///< of physical volumes
   std::uint64_t elements = 0;                        ///< of all types
   MeshRecord record;                                 ///< what a comment tells, or nothing
+  std::vector<std::uint64_t> numbers{};              ///< of tets as elements
+  std::vector<TetValues> values{};                   ///< under the names in the file
 };
 
 // ERRORS of all: see MshInput.
@@ -32,5 +34,10 @@ void read_msh4_elements(MshInput& in, MshContent& out);
 /// is none.
 void read_msh2_nodes(MshInput& in, MshContent& out);
 void read_msh2_elements(MshInput& in, MshContent& out);
+
+/// The sections behind the elements, of both versions: of each ElementData with one component the
+/// values of tets; a tet without one has NaN.  Those that have none of a tet are left out, like
+/// what is more than kMostValues.
+void read_msh_values(MshInput& in, MshContent& out);
 
 }  // namespace mw::io

@@ -36,8 +36,7 @@ void MshWriter::write(GroupedMesh& mesh) {
   write_nodes(contents);
   write_elements(contents);
   write_element_data(out_, mesh);
-  append_label_table(labels_, mesh.table(), mesh.names(), contents.numbers);
-  commit_together({labels_, out_.file()});
+  tables_.write_with(out_, mesh, contents.numbers);
 }
 
 MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {

@@ -24,8 +24,8 @@ bool is_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-bool is_plain(char c) {
-  return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+bool is_plain(char c, const NameRule& rule) {
+  return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || (c == '-' && rule.allows_dash);
 }
 
 std::string in_capitals(std::string name) {
@@ -34,12 +34,12 @@ std::string in_capitals(std::string name) {
 }
 
 /// A '_' for all that is not allowed between two characters that are; empty where none is.
-std::string plain_text(std::string_view name) {
+std::string plain_text(std::string_view name, const NameRule& rule) {
   std::string out;
   bool gap = false;
   for (const char c : name) {
-    gap = gap || !is_plain(c);
-    if (!is_plain(c)) continue;
+    gap = gap || !is_plain(c, rule);
+    if (!is_plain(c, rule)) continue;
     if (gap && !out.empty()) out += '_';
     gap = false;
     out += c;
@@ -91,7 +91,7 @@ std::string plain_facet_name(const LabelTable& table, const FacetGroup& group) {
   return in_capitals(side_name(group.side));
 }
 
-PlainNames::PlainNames(const GroupedMesh& mesh) {
+PlainNames::PlainNames(const GroupedMesh& mesh, const NameRule& rule) : rule_(rule) {
   for (std::size_t side = 0; side < kSides; ++side) {
     taken_.insert(in_capitals(side_name(static_cast<Side>(side))));
   }
@@ -113,7 +113,7 @@ void PlainNames::name_volumes(const GroupedMesh& mesh) {
   std::vector<std::string> wanted;
   std::map<std::string, std::size_t> uses;
   for (Label rank = 0; rank < table.size(); ++rank) {
-    wanted.push_back(plain_text(mesh.names().name(table.raw(rank))));
+    wanted.push_back(plain_text(mesh.names().name(table.raw(rank)), rule_));
     if (wanted.back().empty()) wanted.back() = plain_volume_name(table, rank);
     ++uses[in_capitals(wanted.back())];
   }
@@ -133,18 +133,19 @@ void PlainNames::name_interface(const GroupedMesh& mesh, Label from, Label to) {
 std::string PlainNames::pair_text(const GroupedMesh& mesh, Label one, Label other) const {
   const LabelTable& table = mesh.table();
   const auto part = [&](Label rank) {
-    const bool named = !plain_text(mesh.names().name(table.raw(rank))).empty();
+    const bool named = !plain_text(mesh.names().name(table.raw(rank)), rule_).empty();
     return named ? volumes_[rank] : plain_digits(table, rank);
   };
   return text(part(one), "_", part(other));
 }
 
 std::string PlainNames::take(const std::string& wanted, const std::string& number) {
-  constexpr std::size_t kMaxBytes = 80;
+  const std::size_t max = rule_.max_bytes;
   std::string name = wanted;
-  for (int i = 1; name.size() > kMaxBytes || !taken_.insert(in_capitals(name)).second; ++i) {
-    const std::string behind = text("_", number, i == 1 ? std::string() : text("_", i));
-    name = wanted.substr(0, kMaxBytes - behind.size()) + behind;
+  for (int i = 1; name.size() > max || !taken_.insert(in_capitals(name)).second; ++i) {
+    std::string behind = text("_", number, i == 1 ? std::string() : text("_", i));
+    if (behind.size() >= max) behind = text("_", i);
+    name = wanted.substr(0, max - behind.size()) + behind;
   }
   return name;
 }

@@ -44,8 +44,14 @@ class GroupNames {
 /// How names of wedges begin.
 inline constexpr std::string_view kWedgeNames = "COHESIVE_";
 
-/// Names for programs (Abaqus, CalculiX) that allow letters, digits, '_' and '-' alone, a letter
-/// first, and 80 of them, and take small and capital letters for the same.
+/// What a program allows in names; by default Abaqus and CalculiX.
+struct NameRule {
+  std::size_t max_bytes = 80;
+  bool allows_dash = true;
+};
+
+/// Names for programs that allow letters, digits, '_' and perhaps '-' alone, a letter first, and
+/// some number of them, and take small and capital letters for the same.
 /// A label is called by its name with '_' for what is not allowed ("Matrix (epoxy)" is
 /// "Matrix_epoxy") and "L_" in front of what begins with no letter; without a name as
 /// plain_volume_name().  An interface is "FACE_a_b" on the side of a, with names or numbers of its
@@ -53,13 +59,15 @@ inline constexpr std::string_view kWedgeNames = "COHESIVE_";
 /// ENSURES: no two are the same.  Where they would be, or are longer, numbers of labels go behind.
 class PlainNames {
  public:
-  explicit PlainNames(const GroupedMesh& mesh);
+  explicit PlainNames(const GroupedMesh& mesh, const NameRule& rule = {});
 
   [[nodiscard]] const std::string& volume(Label rank) const { return volumes_[rank]; }
   /// On the side of the group's first label, or of its second, which interfaces alone have.
   [[nodiscard]] std::string facets(const FacetGroup& group, bool of_second = false) const;
   /// By number in GroupedMesh::wedge_groups().
   [[nodiscard]] const std::string& wedges(std::size_t group) const { return wedges_[group]; }
+  /// A name for something else: that, or if it is taken or too long one that begins like it.
+  [[nodiscard]] std::string add(const std::string& wanted) { return take(wanted, "1"); }
 
  private:
   void name_volumes(const GroupedMesh& mesh);
@@ -69,6 +77,7 @@ class PlainNames {
   /// The name, or where it is too long or taken as much of it as leaves room for the number.
   [[nodiscard]] std::string take(const std::string& wanted, const std::string& number);
 
+  NameRule rule_;
   std::vector<std::string> volumes_;
   std::map<std::pair<Label, Label>, std::string> interfaces_;  ///< by the label that is inside
   std::vector<std::string> wedges_;

@@ -23,7 +23,7 @@ namespace mw::io {
 ///   PointData/GlobalNodeIds   Int64, the vertex's row in the whole mesh: vertices of several
 ///   pieces
 ///                             are those with one id
-///   CellData/label            as in a .vtu
+///   CellData/label            as in a .vtu, and values beside it
 /// The folder gets its name first, then M.pvtu; a kill in between leaves the folder.
 /// Memory: the mesh, and 40 bytes a tet.  ERRORS: as AtomicFile and AtomicFolder; mw::Error(kUsage)
 /// for more pieces than tets.
@@ -49,6 +49,7 @@ class PvtuSink : public MeshDataSink {
 /// The .vtu files that a .pvtu names, in its folder or below, put together: vertices by ascending
 /// PointData/GlobalNodeIds, tets piece by piece, names of labels from all.  A single piece needs no
 /// ids.  What PvtuSink wrote comes back as the mesh; only the order of tets may differ.
+/// Values that a piece does not have are NaN there.
 /// Memory: the mesh, and 24 bytes a vertex of a piece.
 /// ERRORS: mw::Error(kInput) with file and place as read_vtu(); for pieces that overlap (ghost
 /// cells), without ids, or with tets of ten nodes, and for an id at two places.

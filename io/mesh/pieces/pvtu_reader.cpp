@@ -3,11 +3,13 @@
 #include "io/mesh/pieces/pvtu.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "io/file/errors.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
+#include "io/mesh/field_names.h"
 #include "io/mesh/vtu/vtu.h"
 #include "io/mesh/vtu/vtu_layout.h"
 #include "io/vtk_xml/vtk_document.h"
@@ -32,7 +34,22 @@ std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path
   return out;
 }
 
+/// Ahead of the tets.
+void append_values(const MeshData& piece, MeshData& mesh) {
+  for (const TetValues& column : piece.values) {
+    const auto has_name = [&](const TetValues& other) { return other.name == column.name; };
+    auto to = std::find_if(mesh.values.begin(), mesh.values.end(), has_name);
+    if (to == mesh.values.end()) {
+      if (mesh.values.size() == kMostValues) continue;
+      to = mesh.values.insert(to, {column.name, {}});
+    }
+    to->numbers.resize(mesh.tets.size(), std::nan(""));
+    to->numbers.insert(to->numbers.end(), column.numbers.begin(), column.numbers.end());
+  }
+}
+
 void append(const MeshData& piece, MeshData& mesh) {
+  append_values(piece, mesh);
   const std::uint64_t first = mesh.vertices.size();
   mesh.vertices.insert(mesh.vertices.end(), piece.vertices.begin(), piece.vertices.end());
   for (TetRows tet : piece.tets) {
@@ -86,6 +103,7 @@ MeshData read_pvtu(const std::filesystem::path& path) {
     ids.insert(ids.end(), piece.ids.begin(), piece.ids.end());
     mesh.names = mesh.names.merged_with(piece.mesh.names);
   }
+  for (TetValues& column : mesh.values) column.numbers.resize(mesh.tets.size(), std::nan(""));
   join_vertices(mesh, ids, path.string());
   return mesh;
 }

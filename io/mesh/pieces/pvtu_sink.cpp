@@ -20,7 +20,11 @@ std::string piece_name(const std::string& stem, std::uint64_t number) {
   return stem + digits + ".vtu";
 }
 
-std::string index_text(const std::string& stem, std::uint64_t pieces, bool labels_signed) {
+std::string index_text(const std::string& stem, std::uint64_t pieces, const MeshHeader& header) {
+  std::string values;
+  for (const std::string& name : header.values) {
+    values += text("      <PDataArray type=\"Float64\" Name=\"", name, "\"/>\n");
+  }
   std::string out = text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PUnstructuredGrid "
@@ -31,8 +35,8 @@ std::string index_text(const std::string& stem, std::uint64_t pieces, bool label
       kNodeIds,
       "\"/>\n    </PPointData>\n    <PCellData "
       "Scalars=\"label\">\n      <PDataArray type=\"",
-      labels_signed ? "Int64" : "UInt64",
-      "\" Name=\"label\"/>\n    </PCellData>\n    <PPoints>\n      <PDataArray type=\"Float64\" "
+      header.labels_signed ? "Int64" : "UInt64", "\" Name=\"label\"/>\n", values,
+      "    </PCellData>\n    <PPoints>\n      <PDataArray type=\"Float64\" "
       "Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n");
   for (std::uint64_t i = 0; i < pieces; ++i) {
     out += text("    <Piece Source=\"", xml_escaped(stem + "/" + piece_name(stem, i)), "\"/>\n");
@@ -81,12 +85,19 @@ void PvtuSink::begin(const MeshHeader& header) {
 void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> tets) {
   const MeshData& whole = mesh();
   const std::vector<std::uint64_t> rows = rows_of(whole, tets);
-  const VtuLayout layout = make_vtu_layout(
-      {.tets = tets.size(), .labels_signed = whole.labels_signed, .names = whole.names},
-      rows.size(), Element::kTet4, VtuIds::kOfNodes);
+  const VtuLayout layout = make_vtu_layout({.tets = tets.size(),
+                                            .labels_signed = whole.labels_signed,
+                                            .names = whole.names,
+                                            .record = {},
+                                            .values = header_.values},
+                                           rows.size(), Element::kTet4, VtuIds::kOfNodes);
   AtomicFile file(folder_.path() / piece_name(stem_, number));
   const auto begin = [&](VtuLayout::Array array) { append(file, layout.length[array]); };
   file.append(layout.head);
+  for (const TetValues& column : whole.values) {
+    append(file, layout.value_length);
+    for (const std::uint64_t t : tets) append(file, column.numbers[t]);
+  }
   begin(VtuLayout::kConnectivity);
   for (const std::uint64_t t : tets) {
     for (const std::uint64_t v : whole.tets[t]) {
@@ -114,7 +125,7 @@ void PvtuSink::finish() {
   check_sink_counts(name_, header_, mesh().tets.size());
   const auto parts = mesh_parts(mesh(), pieces_);
   for (std::uint64_t i = 0; i < parts.size(); ++i) write_piece(i, parts[i]);
-  index_.append(index_text(stem_, pieces_, mesh().labels_signed));
+  index_.append(index_text(stem_, pieces_, header_));
   index_.sync();
   folder_.commit();
   try {

@@ -91,13 +91,14 @@ class VtkhdfShared : public SharedMesh {
 
 /// VTKHDF of type UnstructuredGrid, version 1 or 2 (one time step); partitions are put one after
 /// the other.  The label is the cell array `label`, else `Label`, `labels`, `material` or
-/// `medit:ref`, else the only integer cell array.
+/// `medit:ref`, else the only integer cell array.  Cell arrays of floats with one component are
+/// values (value_names()).
 /// The HDF5 library reads in a child process: damaged files crash it.
 /// Tets with ten nodes are read by their corners, without the middles of edges.
-/// Memory: batches of 65,536 rows, whatever the size of the mesh; of one with ten-node tets a
-/// quarter of a byte a node as well.
-/// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
-/// tetrahedra, without label, or when a row does not exist; what the sink throws.
+/// Memory: batches of 65,536 rows, whatever the size of the mesh, with all their values; of one
+/// with ten-node tets a quarter of a byte a node as well. ERRORS: mw::Error(kInput) with file and
+/// place when truncated or corrupt, for cells that are not tetrahedra, without label, or when a row
+/// does not exist; what the sink throws.
 void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink);
 
 /// Writes what VTK reads, in a group FieldData of `grid`: the arrays of field_names.h.  Strings

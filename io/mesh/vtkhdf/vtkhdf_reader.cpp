@@ -41,15 +41,16 @@ class Reader {
         point_counts_(counts(group.get(), "NumberOfPoints")),
         cell_counts_(counts(group.get(), "NumberOfCells")),
         labels_(label_array(group.get())),
-        header_(std::move(facts)) {}
+        header_(std::move(facts)) {
+    find_values(group.get());
+  }
 
   void read() {
     check_arrays();
     const std::uint64_t cells = sum(cell_counts_);
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) survey(part);
-    if (labels_ && labels_->rows() != cells) {
-      labels_->fail(text("has ", labels_->rows(), " rows, there are ", cells, " cells"));
-    }
+    if (labels_) check_rows(*labels_, cells);
+    for (const Hdf5Array& array : values_) check_rows(array, cells);
     header_.tets = cells - wedges_;
     header_.labels_signed = labels_ && labels_->is_signed();
     sink_.begin(header_);
@@ -100,6 +101,24 @@ class Reader {
                  "store the labels as an integer cell array 'label'");
     }
     return Hdf5Array(group, "CellData/" + *name, file_);
+  }
+
+  /// Floats of one component are values.
+  void find_values(hid_t group) {
+    if (!labels_) return;
+    std::vector<std::string> names;
+    for (const std::string& name : cell_arrays(group)) {
+      Hdf5Array array(group, "CellData/" + name, file_);
+      if (array.is_integer() || array.components() != 1 || names.size() == kMostValues) continue;
+      names.push_back(name);
+      values_.push_back(std::move(array));
+    }
+    header_.values = value_names(names);
+  }
+
+  void check_rows(const Hdf5Array& array, std::uint64_t cells) const {
+    if (array.rows() == cells) return;
+    array.fail(text("has ", array.rows(), " rows, there are ", cells, " cells"));
   }
 
   [[nodiscard]] static std::vector<std::string> cell_arrays(hid_t group) {
@@ -250,13 +269,30 @@ class Reader {
       }
       of_cells.resize(types.size());
       read_labels(*labels_, at, of_cells);
-      at += types.size();
       labels.clear();
       for (std::size_t i = 0; i < types.size(); ++i) {
         if (!is_vtk_wedge(types[i])) labels.push_back(of_cells[i]);
       }
       sink_.write_tets(tets, labels);
+      pass_values(at, types);
+      at += types.size();
     });
+  }
+
+  /// Passes on the values of the tets among the cells of these types.
+  void pass_values(std::uint64_t first, const Numbers& types) {
+    if (values_.empty()) return;
+    std::vector<double> rows(types.size() * values_.size()), column(types.size());
+    std::size_t tets = 0;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      values_[i].read(first, types.size(), column.data());
+      tets = 0;
+      for (std::size_t cell = 0; cell < types.size(); ++cell) {
+        if (!is_vtk_wedge(types[cell])) rows[tets++ * values_.size() + i] = column[cell];
+      }
+    }
+    rows.resize(tets * values_.size());
+    sink_.write_values(rows);
   }
 
   std::string file_;
@@ -268,6 +304,7 @@ class Reader {
   std::vector<std::uint64_t> point_counts_;  ///< by partition
   std::vector<std::uint64_t> cell_counts_;
   std::optional<Hdf5Array> labels_;  ///< unless there are no cells
+  std::vector<Hdf5Array> values_;
   MeshHeader header_;
   std::vector<Part> parts_;
   Part next_;

@@ -17,9 +17,10 @@ namespace mw::io {
 
 /// Pieces are put one after the other.  Of tets with ten nodes the corners are read; the middles of
 /// edges go.  The label is the cell array `label`, else `Label`,
-/// `labels`, `material` or `medit:ref`, else the only integer cell array.
-/// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
-/// tetrahedra, without label, or when a row does not exist.
+/// `labels`, `material` or `medit:ref`, else the only integer cell array.  Cell arrays of floats
+/// with one component are values (value_names()). ERRORS: mw::Error(kInput) with file and place
+/// when truncated or corrupt, for cells that are not tetrahedra, without label, or when a row does
+/// not exist.
 [[nodiscard]] MeshData read_vtu(const ByteSource& source);
 
 /// A mesh that is part of another.

@@ -3,6 +3,7 @@
 // Reads a tetrahedral .vtu file.
 #include "io/mesh/vtu/vtu.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/file/errors.h"
@@ -124,10 +125,35 @@ void read_corners(pugi::xml_node cells, const VtuCells& kinds, VtkDocument& docu
   }
 }
 
+/// Floats of one component are values.  Pieces without an array have NaN in its place.
+/// before: the number of tets in the pieces before.
+void read_values(pugi::xml_node cell_data, const VtuCells& kinds, std::size_t before,
+                 VtkDocument& document, MeshData& mesh) {
+  for (const pugi::xml_node array : cell_data.children("DataArray")) {
+    const auto type = parse_number_type(array.attribute("type").as_string());
+    if (!type || !type->is_float || document.number(array, "NumberOfComponents", 1) != 1) continue;
+    const std::string name = array.attribute("Name").as_string();
+    auto column = std::find_if(mesh.values.begin(), mesh.values.end(),
+                               [&](const TetValues& values) { return values.name == name; });
+    if (column == mesh.values.end()) {
+      if (mesh.values.size() == kMostValues) continue;
+      column = mesh.values.insert(column, {name, {}});
+    }
+    if (column->numbers.size() > before) continue;  // the name was there before in this piece
+    column->numbers.resize(before, std::nan(""));
+    const std::vector<double> numbers = document.reals(array, kinds.types.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!is_vtk_wedge(kinds.types[i])) column->numbers.push_back(numbers[i]);
+    }
+  }
+  for (TetValues& column : mesh.values) column.numbers.resize(mesh.tets.size(), std::nan(""));
+}
+
 void read_cells(pugi::xml_node piece, VtkDocument& document, MeshData& mesh, KeptRows& middles) {
   const std::uint64_t count = count_of(piece, "NumberOfCells", document);
   if (count == 0) return;
   middles.grow(mesh.vertices.size());
+  const std::size_t tets_before = mesh.tets.size();
   const VtuCells kinds = read_kinds(piece.child("Cells"), count, document, mesh.record);
   read_corners(piece.child("Cells"), kinds, document, mesh, middles);
   const pugi::xml_node array = label_array(piece.child("CellData"), document);
@@ -137,6 +163,7 @@ void read_cells(pugi::xml_node piece, VtkDocument& document, MeshData& mesh, Kep
   }
   const auto type = parse_number_type(array.attribute("type").as_string());
   mesh.labels_signed = mesh.labels_signed || type->is_signed;
+  read_values(piece.child("CellData"), kinds, tets_before, document, mesh);
 }
 
 /// All pieces, one after the other; which vertices are middles of edges goes to `middles`.
@@ -148,6 +175,7 @@ void read_grid(VtkDocument& document, MeshData& mesh, KeptRows& middles) {
     found = true;
   }
   if (!found) fail_input(document.file(), "Piece", "missing: the file holds no mesh");
+  name_values(mesh.values);
 }
 
 std::vector<std::uint64_t> read_ids(VtkDocument& document) {

@@ -96,10 +96,50 @@ class Materials(unittest.TestCase):
                             for i, name in enumerate(names, 1)}
                 self.check(table("m.exo.materials.csv"), sets, lo, hi, count)
 
+    def test_gmsh_has_numbers_of_materials(self):
+        """meshio reads .msh; .msh2 is read by hand."""
+        run("mesh", "v.npy", "-o", "m.inp", "--sample", "hu=image.npy", "--materials", "hu=6")
+        rows, sets = table("m.inp.materials.csv"), element_sets("m.inp")
+        wanted = np.zeros(len(self.values))
+        for row in rows:
+            if row["set"]:
+                wanted[np.array(sets[row["set"]]) - 1] = int(row["material"])
+        self.assertGreater(len(np.unique(wanted)), 3)
+        for arguments in (("m.msh",), ("m.msh", "--ascii"), ("m.msh2",)):
+            run("mesh", "v.npy", "-o", *arguments, "--sample", "hu=image.npy",
+                "--materials", "hu=6", "--element", "tet10")
+            self.assertEqual(table(f"{arguments[0]}.materials.csv"), rows)
+            if arguments[0] == "m.msh":
+                mesh = meshio.read("m.msh")
+                found = np.concatenate([data for block, data in zip(
+                    mesh.cells, mesh.cell_data["hu_material"]) if block.type == "tetra10"])
+            else:
+                with open("m.msh2", encoding="utf-8") as file:
+                    lines = file.read().split('"hu_material"\n')[1].split("$End")[0].split("\n")
+                found = np.array([line.split()[1] for line in lines[6:-1]], float)
+                self.assertEqual(len(found), int(lines[5]))
+                found = found[-len(wanted):]
+            np.testing.assert_array_equal(found.ravel(), wanted)
+            # They come back as values do.
+            run("convert", arguments[0], "back.vtu")
+            back = meshio.read("back.vtu").cell_data_dict["hu_material"]["tetra"]
+            np.testing.assert_array_equal(np.sort(back), np.sort(wanted))
+
+    def test_convert_makes_the_same_sets(self):
+        run("mesh", "v.npy", "-o", "a.inp", "--sample", "hu=image.npy", "--materials", "hu=9")
+        for ending in ("vtkhdf", "msh"):
+            run("mesh", "v.npy", "-o", f"a.{ending}", "--sample", "hu=image.npy")
+            self.assertEqual(run("convert", f"a.{ending}", "b.inp", "--materials", "hu=9"), "")
+            self.assertEqual(table("b.inp.materials.csv"), table("a.inp.materials.csv"))
+            self.assertEqual(element_sets("b.inp"), element_sets("a.inp"))
+        done = start("convert", "a.msh", "b.inp", "--materials", "density=9")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no values of that name", done.stderr)
+
     def test_what_cannot_be_is_said(self):
         sample = ("--sample", "hu=image.npy")
         for output, arguments, word in (
-                ("m.vtu", (*sample, "--materials", "hu=3"), "no sets of elements"),
+                ("m.vtu", (*sample, "--materials", "hu=3"), "no place for materials"),
                 ("m.inp", ("--materials", "hu=3"), "no --sample is called 'hu'"),
                 ("m.inp", (*sample, "--materials", "hu=0"), "--materials"),
                 ("m.inp", (*sample, "--materials", "hu=3:1"), "--materials"),

@@ -127,6 +127,43 @@ def read_msh2(path):
     return values, points[corners].mean(1)
 
 
+def read_values(path):
+    """{name: values}, centres of tets: by readers that are not ours."""
+    ending = path.split(".")[-1]
+    if ending == "msh2":
+        return read_msh2(path)
+    if ending == "vtkhdf":
+        with h5py.File(path) as file:
+            grid = file["VTKHDF"]
+            nodes = 10 if grid["Types"][0] == 24 else 4
+            rows = grid["Connectivity"][:].reshape(-1, nodes)
+            return ({n: grid["CellData"][n][:] for n in "ab"},
+                    grid["Points"][:][rows[:, :4]].mean(1))
+    if ending == "exo":
+        with Dataset(path) as file:
+            blocks = range(1, file.dimensions["num_el_blk"].size + 1)
+            names = ["".join(c.decode() for c in row.compressed() if c)
+                     for row in np.ma.array(file["name_elem_var"][:])]
+            assert names == ["a", "b"] and file["time_whole"][:].tolist() == [0], names
+            values = {n: np.concatenate([np.ma.getdata(file[f"vals_elem_var{v}eb{b}"][0])
+                                         for b in blocks]) for v, n in enumerate(names, 1)}
+            rows = np.concatenate([file[f"connect{b}"][:] for b in blocks]) - 1
+            points = np.stack([file[f"coord{x}"][:] for x in "xyz"], axis=1)
+            return values, points[rows[:, :4]].mean(1)
+    mesh = meshio.read(path.replace(".xdmf", ".cells.xdmf"))
+    blocks = [i for i, block in enumerate(mesh.cells) if block.type.startswith("tetra")]
+    tets = np.concatenate([mesh.cells[i].data for i in blocks])
+    return ({n: np.concatenate([mesh.cell_data[n][i] for i in blocks]).ravel() for n in "ab"},
+            mesh.points[tets[:, :4]].mean(1))
+
+
+def values_in_order(path):
+    """Rows of values, tets by their centres."""
+    values, centres = read_values(path)
+    order = np.lexsort(centres.round(9).T)
+    return np.stack([values[n][order] for n in "ab"])
+
+
 class Samples(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -225,53 +262,53 @@ class Samples(unittest.TestCase):
 
     def test_all_formats_have_the_same_values(self):
         image = self.random.normal(size=self.labels.shape).astype(np.float32)
+        image[:2] = np.nan
         np.save("image.npy", image)
+        endings = ("vtu", "vtkhdf", "msh", "msh2", "xdmf", "exo")
         for element in ("tet4", "tet10"):
-            cell = {"tet4": "tetra", "tet10": "tetra10"}[element]
-            values = {}
-            for ending in ("vtu", "vtkhdf", "msh", "msh2", "xdmf", "exo"):
+            for ending in endings:
                 run("mesh", "v.npy", "-o", f"m.{ending}", "--element", element,
                     "--sample", "a=image.npy", "--sample", "b=image.npy:max")
-            # Our readers pass over values.
+            # Values do not count in digests.
             self.assertEqual(len({run("digest", f"m.{ending}")
                                   for ending in ("vtu", "vtkhdf", "msh", "msh2")}), 1)
-            mesh = meshio.read("m.vtu")
-            values["vtu"] = {n: mesh.cell_data_dict[n][cell].ravel() for n in "ab"}
-            centres = {"vtu": mesh.points[mesh.cells_dict[cell][:, :4]].mean(1)}
-            with h5py.File("m.vtkhdf") as file:
-                grid = file["VTKHDF"]
-                values["vtkhdf"] = {n: grid["CellData"][n][:] for n in "ab"}
-                rows = grid["Connectivity"][:].reshape(-1, 4 if cell == "tetra" else 10)
-                centres["vtkhdf"] = grid["Points"][:][rows[:, :4]].mean(1)
-            values["msh2"], centres["msh2"] = read_msh2("m.msh2")
-            for ending, path in (("msh", "m.msh"), ("xdmf", "m.cells.xdmf")):
-                mesh = meshio.read(path)
-                values[ending] = {n: np.concatenate(
-                    [data for block, data in zip(mesh.cells, mesh.cell_data[n])
-                     if block.type == cell]).ravel() for n in "ab"}
-                tets = np.concatenate([b.data for b in mesh.cells if b.type == cell])
-                centres[ending] = mesh.points[tets[:, :4]].mean(1)
-            with Dataset("m.exo") as file:
-                blocks = range(1, file.dimensions["num_el_blk"].size + 1)
-                names = ["".join(c.decode() for c in row.compressed() if c)
-                         for row in np.ma.array(file["name_elem_var"][:])]
-                self.assertEqual(names, ["a", "b"])
-                self.assertEqual(file["time_whole"][:].tolist(), [0])
-                values["exo"] = {n: np.concatenate(
-                    [file[f"vals_elem_var{v}eb{b}"][0] for b in blocks])
-                    for v, n in enumerate(names, 1)}
-                rows = np.concatenate([file[f"connect{b}"][:] for b in blocks]) - 1
-                points = np.stack([file[f"coord{x}"][:] for x in "xyz"], axis=1)
-                centres["exo"] = points[rows[:, :4]].mean(1)
-
-            def ordered(ending):
-                order = np.lexsort(centres[ending].round(9).T)
-                return np.stack([values[ending][n][order] for n in "ab"])
-
-            expected = ordered("vtu")
+            expected = values_in_order("m.vtu")
             self.assertGreater(len(np.unique(expected[0])), 20)
-            for ending in values:
-                np.testing.assert_array_equal(ordered(ending), expected, err_msg=ending)
+            self.assertTrue(np.isnan(expected).any())
+            for ending in endings:
+                np.testing.assert_array_equal(values_in_order(f"m.{ending}"), expected, ending)
+            run("convert", "m.msh", f"{element}.pvtu", "--pieces", "3")
+            run("convert", "m.vtu", "text.msh", "--ascii")
+            for source in ("m.vtu", "m.vtkhdf", "m.msh", "m.msh2", f"{element}.pvtu",
+                           "text.msh"):
+                for ending in endings:
+                    run("convert", source, f"c.{ending}", "--element", element)
+                    np.testing.assert_array_equal(values_in_order(f"c.{ending}"), expected,
+                                                  f"{source} {ending}")
+
+    def test_convert_says_what_it_leaves_out(self):
+        run("mesh", "v.npy", "-o", "m.vtu", "--sample", "a=v.npy", "--sample", "b=v.npy:max")
+        for ending in ("mesh", "bdf", "feb", "inp"):
+            text = run("convert", "m.vtu", f"c.{ending}")
+            self.assertIn("left out: values a, b", text)
+            self.assertEqual(text.count("\n"), 1)
+        self.assertEqual(run("convert", "m.vtu", "c.exo"), "")
+        self.assertEqual(run("convert", "c.mesh", "d.inp"), "")
+
+    def test_values_of_other_programs(self):
+        """Their names are made plain; arrays of integers and of vectors are no values."""
+        points = np.eye(4, 3)
+        tets = np.array([[0, 1, 2, 3], [0, 2, 1, 3]])
+        data = {"label": np.array([1, 2]), "Stress XX": np.array([1.5, np.inf]),
+                "stress_xx": np.array([2.5, 3.5], np.float32), "9": np.array([4.0, 5.0]),
+                "id": np.array([8, 9]), "vector": np.zeros((2, 3))}
+        meshio.write("other.vtu", meshio.Mesh(points, [("tetra", tets)],
+                                              cell_data={n: [x] for n, x in data.items()}))
+        run("convert", "other.vtu", "own.vtkhdf")
+        with h5py.File("own.vtkhdf") as file:
+            found = {name: set[:].tolist() for name, set in file["VTKHDF/CellData"].items()}
+        self.assertEqual(found, {"label": [1, 2], "Stress_XX": [1.5, np.inf],
+                                 "stress_xx_2": [2.5, 3.5], "value_9": [4, 5]})
 
     def test_bytes_do_not_depend_on_how_it_runs(self):
         run("synth", "spheres", "--shape", "60,50,40", "--labels", "9", "--seed", "1", "-o",

@@ -139,7 +139,7 @@ TEST_F(UsageTest, ReplacesNothingButItsOwnMeshes) {
   expect_done("mesh v.npy -o v.vtu --force");
   write("empty.vtu", "");
   for (const char* name : {"empty.vtu", "v.vtu", "v.vtkhdf", "v.mesh", "v.msh", "v.msh2", "v.inp",
-                           "v.xdmf", "v.feb", "v.exo", "v.bdf"}) {
+                           "v.xdmf", "v.feb", "v.exo", "v.bdf", "v.k", "v.cdb"}) {
     expect_done(std::string("mesh v.npy -o ") + name);
     expect_done(std::string("mesh v.npy -o ") + name);
   }

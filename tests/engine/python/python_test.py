@@ -3,6 +3,7 @@
 """The Python package as its users call it; numpy alone is the oracle."""
 
 import copy
+import csv
 import doctest
 import json
 import os
@@ -490,8 +491,47 @@ class Values(InFolder):
         part = mwmesh.mesh(self.path("v.npy"), crop=((2, 1, 3), (9, 8, 10)),
                            sample={"hu": self.path("image.npy")})
         self.assertAlmostEqual(part.values["hu"] @ part.tet_volumes(), image[3:10, 1:8, 2:9].sum(), 6)
+        self.check_materials(mesh)
+        with self.assertRaisesRegex(mwmesh.UsageError, "no values 'density'"):
+            mesh.materials("density", 3)
+        with self.assertRaisesRegex(mwmesh.UsageError, "from 1 to 10000"):
+            mesh.materials("hu", 0)
         with self.assertRaisesRegex(mwmesh.UsageError, "no place for values"):
             mesh.save(self.path("m.bdf"))
+        mesh.save(self.path("m.bdf"), values=False)
+        mesh.save(self.path("m.inp"), materials="hu=4", deck=True)
+        with open(self.path("m.inp"), encoding="ascii") as file:
+            text = file.read()
+        self.assertIn("*ELSET, ELSET=hu_4\n", text)
+        self.assertIn("*STEP\n*STATIC\n", text)
+        np.save(self.path("v.npy"), labels)
+        mwmesh.mesh_to_file(self.path("v.npy"), self.path("f.inp"), spacing=2, materials="hu=4",
+                            deck=True, sample={"hu": self.path("image.npy")})
+        with open(self.path("f.inp"), encoding="ascii") as file:
+            self.assertEqual(file.read().count("*SOLID SECTION"), text.count("*SOLID SECTION"))
+        with self.assertRaisesRegex(mwmesh.UsageError, "deck is for .inp, .feb"):
+            mesh.save(self.path("n.vtu"), deck=True)
+        back = mwmesh.read(self.path("m.vtu"))
+        self.assertEqual(list(back.values), ["hu", "most"])
+        np.testing.assert_array_equal(back.values["hu"], mesh.values["hu"])
+
+    def check_materials(self, mesh):
+        """They are those of the program, which writes them by other code."""
+        for text, arguments in (("hu=7", ("hu", 7)), ("hu=5:-0.5:0.25", ("hu", 5, (-0.5, 0.25)))):
+            self.program("convert", "m.vtu", "m.inp", "--materials", text)
+            found = mesh.materials(*arguments)
+            with open(self.path("m.inp.materials.csv"), encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(found.tets.tolist(), [int(row["tets"]) for row in rows])
+            self.assertGreater(np.count_nonzero(found.tets), 3)
+            self.assertEqual(np.bincount(found.numbers)[1:].tolist(), found.tets.tolist())
+            for column, numbers in (("from", found.begins), ("to", found.ends),
+                                    ("volume", found.volumes)):
+                np.testing.assert_allclose(numbers, [float(row[column]) for row in rows], 1e-12)
+            used = found.tets > 0
+            np.testing.assert_allclose(found.means[used], [float(r["mean"]) for r in rows if r["mean"]],
+                                       1e-9, 1e-12)
+            self.assertTrue(np.isnan(found.means[~used]).all())
 
 
 class Seen(InFolder):

@@ -289,6 +289,79 @@ MeshData read_bdf(const std::filesystem::path& path) {
   return mesh;
 }
 
+std::vector<std::uint64_t> integers_of(const std::string& line, std::size_t columns) {
+  std::vector<std::uint64_t> out;
+  for (std::size_t at = 0; at + columns <= line.size(); at += columns) {
+    out.push_back(std::stoull(field_of(line, at, columns)));
+  }
+  return out;
+}
+
+/// Three reals behind `first` columns.
+Position position_of(const std::string& line, std::size_t first, std::size_t columns) {
+  Position out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i] = std::stod(field_of(line, first + i * columns, columns));
+  }
+  return out;
+}
+
+MeshData read_k(const std::filesystem::path& path) {
+  std::istringstream lines(test::content_of(path));
+  const LabelMap table = read_label_table(path).value();
+  MeshData mesh;
+  std::string card;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('*')) {
+      card = line;
+    } else if (card == "*NODE") {
+      mesh.vertices.push_back(position_of(line, 8, 16));
+    } else if (card == "*ELEMENT_SOLID") {
+      const std::vector<std::uint64_t> head = integers_of(line, 8);
+      std::string more;
+      if (head.size() == 2) std::getline(lines, more);
+      Nodes nodes = integers_of(head.size() == 2 ? more : line.substr(16), 8);
+      for (std::uint64_t& node : nodes) --node;
+      nodes.resize(head.size() == 2 ? 10 : 4);
+      add_tet(mesh, nodes, table.labels.at(static_cast<std::int64_t>(head[1])));
+    }
+  }
+  mesh.labels_signed = table.labels_signed;
+  mesh.names = table.names;
+  return mesh;
+}
+
+MeshData read_cdb(const std::filesystem::path& path) {
+  std::istringstream lines(test::content_of(path));
+  const LabelMap table = read_label_table(path).value();
+  MeshData mesh;
+  std::string block;
+  for (std::string line; std::getline(lines, line);) {
+    const bool begins = line.starts_with("NBLOCK") || line.starts_with("EBLOCK");
+    if (begins || line.starts_with("N,") || line == "       -1") {
+      block = begins ? line.substr(0, 6) : "";
+      if (begins) std::getline(lines, line);
+    } else if (block == "NBLOCK") {
+      mesh.vertices.push_back(position_of(line, 27, 21));
+    } else if (block == "EBLOCK") {
+      constexpr std::size_t kHead = 11, kType = 1, kNodes = 8;
+      std::vector<std::uint64_t> row = integers_of(line, 9);
+      if (row[kNodes] > 8) {
+        std::getline(lines, line);
+        for (const std::uint64_t node : integers_of(line, 9)) row.push_back(node);
+      }
+      EXPECT_EQ(row.size(), kHead + row[kNodes]);
+      if (row[kType] != 1) continue;  // a triangle
+      Nodes nodes(row.begin() + kHead, row.end());
+      for (std::uint64_t& node : nodes) --node;
+      add_tet(mesh, nodes, table.labels.at(static_cast<std::int64_t>(row[0])));
+    }
+  }
+  mesh.labels_signed = table.labels_signed;
+  mesh.names = table.names;
+  return mesh;
+}
+
 }  // namespace
 
 template <class T>
@@ -320,6 +393,8 @@ MeshData read_back(const std::filesystem::path& path) {
   if (path.extension() == ".feb") return read_feb(path);
   if (path.extension() == ".exo") return read_exo(path);
   if (path.extension() == ".bdf") return read_bdf(path);
+  if (path.extension() == ".k") return read_k(path);
+  if (path.extension() == ".cdb") return read_cdb(path);
   if (path.extension() == ".xdmf") return read_xdmf(path);
   return read_mesh(path);
 }

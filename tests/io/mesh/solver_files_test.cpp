@@ -118,33 +118,62 @@ TEST(ExodusWriter, OutOfRoomIsAResourceErrorAndLeavesNothing) {
   expect_full_disk("m.exo", Encoding::kUsual);
 }
 
-/// Rounds to ten digits.
-double ten_digits(double value) {
-  std::array<char, 32> out{};
-  std::snprintf(out.data(), out.size(), "%.9e", value);
+/// Formats of cards: real fields have fewer digits than numbers, but all else is as it was.
+struct CardFormat {
+  std::string extension;
+  int digits;  ///< behind the point
+  std::size_t columns;
+};
+
+double rounded(double value, int digits) {
+  std::array<char, 48> out{};
+  std::snprintf(out.data(), out.size(), "%.*e", digits, value);
   return std::stod(out.data());
 }
 
-/// Nastran's real fields have ten digits, so that all else is as it was.
-TEST(BdfWriter, HoldsTheMeshToTenDigits) {
+class CardFiles : public testing::TestWithParam<CardFormat> {};
+
+TEST_P(CardFiles, HoldTheMeshToTheirDigits) {
   const TempDir dir;
+  const auto path = dir.path() / ("m" + GetParam().extension);
   for (const Element element : {Element::kTet4, Element::kTet10}) {
-    MeshData mesh = random_mesh(3, false);
-    save(mesh, dir.path() / "m.bdf", element);
-    MeshData back = read_back(dir.path() / "m.bdf");
-    back.vertices.resize(mesh.vertices.size());  // middles of edges come behind
-    for (Position& p : mesh.vertices) {
-      for (double& x : p) x = ten_digits(x);
+    for (const bool labels_signed : {false, true}) {
+      MeshData mesh = random_mesh(3, labels_signed);
+      save(mesh, path, element);
+      MeshData back = read_back(path);
+      back.vertices.resize(mesh.vertices.size());  // middles of edges come behind
+      for (Position& p : mesh.vertices) {
+        for (double& x : p) x = rounded(x, GetParam().digits);
+      }
+      EXPECT_EQ(mesh_digest(back), mesh_digest(mesh));
+      EXPECT_EQ(back.labels_signed, labels_signed);
+      std::istringstream lines(content_of(path));
+      for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(line.size(), GetParam().columns) << line;
+      }
     }
-    EXPECT_EQ(mesh_digest(back), mesh_digest(mesh));
-    std::istringstream lines(content_of(dir.path() / "m.bdf"));
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
   }
 }
 
-TEST(BdfWriter, OutOfRoomIsAResourceErrorAndLeavesNothing) {
-  expect_full_disk("m.bdf", Encoding::kUsual);
+TEST_P(CardFiles, AreTheSameBytesEachTimeAndMayBeEmpty) {
+  const TempDir dir;
+  const auto path = dir.path() / ("m" + GetParam().extension);
+  save(random_mesh(1, true), path, Element::kTet10);
+  const std::string first = content_of(path);
+  save(random_mesh(1, true), path, Element::kTet10);
+  EXPECT_TRUE(content_of(path) == first);
+  save({}, path);
+  EXPECT_TRUE(read_back(path).tets.empty());
 }
+
+TEST_P(CardFiles, OutOfRoomIsAResourceErrorAndLeavesNothing) {
+  expect_full_disk("m" + GetParam().extension, Encoding::kUsual);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CardFiles,
+                         testing::Values(CardFormat{".bdf", 9, 80}, CardFormat{".k", 9, 80},
+                                         CardFormat{".cdb", 13, 171}),
+                         [](const auto& test) { return test.param.extension.substr(1); });
 
 /// Lines of Abaqus hold 256 characters and 16 items.
 TEST(InpWriter, LinesAreWithinTheLimitsOfAbaqus) {

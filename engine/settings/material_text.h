@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// How users ask for materials by ranges of a value.
+#pragma once
+
+#include <string_view>
+
+#include "io/mesh/grouped/material_sets.h"
+
+namespace mw::engine {
+
+/// "NAME=N" or "NAME=N:LO:HI".  ERRORS: mw::Error(kUsage) for another form, fewer than 1 or more
+/// than io::kMostMaterials materials, and a range that is none.
+[[nodiscard]] io::MaterialRule parse_materials(std::string_view text);
+
+}  // namespace mw::engine

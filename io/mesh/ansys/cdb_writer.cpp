@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Commands and blocks are those of the Ansys Mechanical APDL Programmer's Reference (CDWRITE).
+#include "io/mesh/ansys/cdb_writer.h"
+
+#include "io/file/errors.h"
+#include "io/mesh/grouped/fixed_fields.h"
+#include "io/mesh/grouped/group_names.h"
+#include "kernels/core/error.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::uint64_t kMaxNumber = 99'999'999;
+constexpr std::size_t kColumns = 9;
+constexpr std::uint64_t kTetType = 1, kFaceType = 2;
+
+}  // namespace
+
+void CdbWriter::write(GroupedMesh& mesh) {
+  constexpr NameRule kNames{.max_bytes = 32, .allows_dash = false};
+  PlainNames names(mesh, kNames);
+  const std::vector<NamedFacets> sets = named_facets(mesh, names);
+  std::vector<Faces> faces;
+  std::uint64_t elements = mesh.tet_count();
+  for (const NamedFacets& set : sets) {
+    faces.push_back({names.add("F_" + set.name), set.group.facets});
+    if (!set.other.empty()) {
+      faces.push_back({names.add("F_" + set.other), set.group.facets, true});
+    }
+    elements += (set.other.empty() ? 1 : 2) * set.group.facets.size();
+  }
+  check_counts(mesh, elements);
+  const auto labels = static_cast<std::int64_t>(mesh.table().size());
+  const LabelNumbers numbers(mesh.table(), {.min = 1, .max = std::max<std::int64_t>(labels, 1)});
+
+  write_head(mesh);
+  write_nodes(mesh);
+  line(text("EBLOCK,19,SOLID,", fixed_integer(elements, kColumns), ",",
+            fixed_integer(elements, kColumns)));
+  line("(19i9)");
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    write_tets(mesh, mesh.label_tets()[rank], static_cast<std::uint64_t>(numbers[rank]));
+  }
+  std::uint64_t next = mesh.tet_count();
+  for (const Faces& set : faces) {
+    write_faces(mesh, set, next);
+    next += set.facets.size();
+  }
+  line("       -1");
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    write_element_set(names.volume(rank), mesh.label_tets()[rank]);
+    line(text("MP,EX,", numbers[rank], ",1.0"));
+    line(text("MP,PRXY,", numbers[rank], ",0.3"));
+  }
+  next = mesh.tet_count();
+  for (const Faces& set : faces) {
+    write_element_set(set.name, {next, next + set.facets.size()});
+    next += set.facets.size();
+  }
+  for (const NamedFacets& set : sets) {
+    write_node_set(mesh, set.name, set.group.facets, false);
+    if (!set.other.empty() && mesh.header().record.has_doubles) {
+      write_node_set(mesh, set.other, set.group.facets, true);
+    }
+  }
+  line("FINISH");
+  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  commit_together({labels_, file_});
+}
+
+void CdbWriter::check_counts(const GroupedMesh& mesh, std::uint64_t elements) const {
+  const std::uint64_t max = std::max(mesh.node_count(), elements);
+  if (max <= kMaxNumber) return;
+  throw Error(ErrorKind::kUsage, text(name_, ": Ansys files have numbers up to ", kMaxNumber, ", ",
+                                      max, " are needed; write .exo or .vtkhdf"));
+}
+
+void CdbWriter::write_head(const GroupedMesh& mesh) {
+  const bool ten = mesh.element() == Element::kTet10;
+  line(text("/COM,mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
+  line("/COM,Materials are placeholders.  Components X_MIN and FACE_1_2 are nodes of sides and");
+  line("/COM,interfaces; F_X_MIN, F_FACE_1_2 their triangles, which no solution sees (MESH200).");
+  line("/PREP7");
+  line(ten ? "ET,1,187" : "ET,1,285");
+  line("ET,2,200");
+  line(ten ? "KEYOPT,2,1,5" : "KEYOPT,2,1,4");
+}
+
+void CdbWriter::write_nodes(GroupedMesh& mesh) {
+  constexpr std::size_t kRealColumns = 21, kExponent = 3;
+  constexpr int kDigits = 13;
+  const std::string count = fixed_integer(mesh.node_count(), kColumns);
+  line(text("NBLOCK,6,SOLID,", count, ",", count));
+  line("(3i9,6e21.13e3)");
+  for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
+    std::string out =
+        fixed_integer(row + 1, kColumns) + fixed_integer(0, kColumns) + fixed_integer(0, kColumns);
+    for (const double x : mesh.node(row)) out += fixed_real(x, kRealColumns, kDigits, kExponent);
+    line(out);
+  }
+  line("N,R5.3,LOC,       -1,");
+}
+
+void CdbWriter::write_tets(GroupedMesh& mesh, RowRange tets, std::uint64_t material) {
+  for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
+    write_element(material, kTetType, t + 1, mesh.tet_nodes(t));
+  }
+}
+
+void CdbWriter::write_faces(GroupedMesh& mesh, const Faces& faces, std::uint64_t first) {
+  for (std::uint64_t f = faces.facets.begin; f < faces.facets.end; ++f) {
+    const Facet facet = faces.of_second ? mesh.of_second(mesh.facet(f)) : mesh.facet(f);
+    write_element(1, kFaceType, ++first, mesh.facet_nodes(facet));
+  }
+}
+
+void CdbWriter::write_element(std::uint64_t material, std::uint64_t type, std::uint64_t number,
+                              const NodeRows& nodes) {
+  constexpr std::size_t kOnFirstLine = 8;
+  std::string out;
+  // Behind the type: real constants, section, coordinates, birth, solid model, shape; then how many
+  // nodes there are, and a field that is not used.
+  for (const std::uint64_t item :
+       {material, type, std::uint64_t{1}, std::uint64_t{1}, std::uint64_t{0}, std::uint64_t{0},
+        std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{nodes.size()}, std::uint64_t{0},
+        number}) {
+    out += fixed_integer(item, kColumns);
+  }
+  std::size_t written = 0;
+  for (const std::uint64_t row : nodes) {
+    if (written++ == kOnFirstLine) {
+      line(out);
+      out.clear();
+    }
+    out += fixed_integer(row + 1, kColumns);
+  }
+  line(out);
+}
+
+void CdbWriter::write_element_set(const std::string& name, RowRange elements) {
+  constexpr std::size_t kItemColumns = 10;
+  const bool one = elements.size() == 1;
+  line(text("CMBLOCK,", name, ",ELEM,", fixed_integer(one ? 1 : 2, kItemColumns)));
+  line("(8i10)");
+  std::string items = fixed_integer(elements.begin + 1, kItemColumns);
+  if (!one) {  // a negative number ends a range
+    const std::string last = text("-", elements.end);
+    items += std::string(kItemColumns - last.size(), ' ') + last;
+  }
+  line(items);
+}
+
+void CdbWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets,
+                               bool of_second) {
+  constexpr std::size_t kItemColumns = 10, kOnLine = 8;
+  std::uint64_t count = 0;
+  for_each_facet_node(
+      mesh, facets, folder_, [&](std::uint64_t /*row*/) { ++count; }, of_second);
+  line(text("CMBLOCK,", name, ",NODE,", fixed_integer(count, kItemColumns)));
+  line("(8i10)");
+  std::string items;
+  const auto add = [&](std::uint64_t row) {
+    items += fixed_integer(row + 1, kItemColumns);
+    if (items.size() < kOnLine * kItemColumns) return;
+    line(items);
+    items.clear();
+  };
+  for_each_facet_node(mesh, facets, folder_, add, of_second);
+  if (!items.empty()) line(items);
+}
+
+void CdbWriter::line(std::string_view line) {
+  file_.append(line);
+  file_.append("\n");
+}
+
+}  // namespace mw::io

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a grouped mesh as a blocked database file of Ansys Mechanical APDL.
+#pragma once
+
+#include "io/file/sink/atomic_file.h"
+#include "io/mesh/grouped/facet_nodes.h"
+#include "io/mesh/grouped/label_numbers.h"
+
+namespace mw::io {
+
+/// NBLOCK, and EBLOCK with tets SOLID285, or SOLID187 of ten nodes, of type 1.  The material of a
+/// tet is the number of its label in the table beside the file (label_numbers.h), from 1 to the
+/// number of labels, with EX and PRXY as placeholders; a component of elements has the label's name
+/// (PlainNames, with at most 32 characters, and '_' for '-').  The nodes of each interface and side
+/// of the box are a component of nodes, X_MIN, and the triangles are elements MESH200 of type 2,
+/// which no solution sees, in a component F_X_MIN; of an interface two, F_FACE_1_2 with normals out
+/// of label 1, F_FACE_2_1 the other way.  Nodes count from 1, elements too, tets first.
+/// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes or elements,
+/// since fields have nine columns and one stays blank.
+class CdbWriter : public GroupedWriter {
+ public:
+  explicit CdbWriter(const std::filesystem::path& path)
+      : folder_(path.parent_path()),
+        name_(path.string()),
+        file_(path),
+        labels_(label_table_path(path)) {}
+
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  /// Triangles of one component.
+  struct Faces {
+    std::string name;
+    RowRange facets;
+    bool of_second = false;
+  };
+
+  void check_counts(const GroupedMesh& mesh, std::uint64_t elements) const;
+  void write_head(const GroupedMesh& mesh);
+  void write_nodes(GroupedMesh& mesh);
+  void write_tets(GroupedMesh& mesh, RowRange tets, std::uint64_t material);
+  void write_faces(GroupedMesh& mesh, const Faces& faces, std::uint64_t first);
+  void write_element(std::uint64_t material, std::uint64_t type, std::uint64_t number,
+                     const NodeRows& nodes);
+  /// Elements first .. last, of which there is one or more.
+  void write_element_set(const std::string& name, RowRange elements);
+  void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
+  void line(std::string_view line);
+
+  std::filesystem::path folder_;
+  std::string name_;
+  AtomicFile file_;
+  AtomicFile labels_;
+};
+
+}  // namespace mw::io

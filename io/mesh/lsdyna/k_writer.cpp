@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Cards are those of the LS-DYNA Keyword User's Manual, volume I.
+#include "io/mesh/lsdyna/k_writer.h"
+
+#include "io/file/errors.h"
+#include "io/mesh/grouped/fixed_fields.h"
+#include "io/mesh/grouped/group_names.h"
+#include "kernels/core/error.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::uint64_t kMaxNumber = 99'999'999;
+constexpr std::size_t kShort = 8;   // columns of a field of nodes and elements
+constexpr std::size_t kField = 10;  // of other fields
+
+/// The corners and the middles of edges 0 1, 1 2 and 2 0 of a triangle: four triangles.
+constexpr std::array<std::array<std::size_t, 3>, 4> kQuarters{
+    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+
+std::string card(std::initializer_list<std::uint64_t> numbers, std::size_t columns) {
+  std::string out;
+  for (const std::uint64_t number : numbers) out += fixed_integer(number, columns);
+  return out;
+}
+
+}  // namespace
+
+void LsdynaWriter::write(GroupedMesh& mesh) {
+  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count());
+  if (max > kMaxNumber) {
+    throw Error(ErrorKind::kUsage, text(name_, ": LS-DYNA has numbers up to ", kMaxNumber, ", ",
+                                        max, " are needed; write .exo or .vtkhdf"));
+  }
+  constexpr std::uint64_t kTet4Form = 10, kTet10Form = 16;
+  const bool ten = mesh.element() == Element::kTet10;
+  const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
+  const PlainNames names(mesh);
+  line("*KEYWORD");
+  line("*TITLE");
+  line(text("mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
+  line("$ Materials are placeholders.  FACE_1_2 is where labels 1 and 2 meet.");
+  write_nodes(mesh);
+  line("*SECTION_SOLID");
+  line(card({1, ten ? kTet10Form : kTet4Form}, kField));
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    write_part(mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
+  }
+  for (const NamedFacets& set : named_facets(mesh, names)) {
+    const bool is_interface = !set.other.empty();
+    write_node_set(mesh, set, false);
+    if (is_interface && mesh.header().record.has_doubles) write_node_set(mesh, set, true);
+    write_segments(mesh, set, false);
+    if (is_interface) write_segments(mesh, set, true);
+  }
+  line("*END");
+  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  commit_together({labels_, file_});
+}
+
+void LsdynaWriter::write_nodes(GroupedMesh& mesh) {
+  constexpr std::size_t kColumns = 16;
+  constexpr int kDigits = 9;
+  line("*NODE");
+  for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
+    std::string out = fixed_integer(row + 1, kShort);
+    for (const double x : mesh.node(row)) {
+      const std::string number = fixed_real(x, kColumns, kDigits);
+      if (number.size() > kColumns) {
+        throw Error(ErrorKind::kUsage, text(name_, ": ", x, " has too large an exponent for 16 ",
+                                            "columns; choose another unit or format"));
+      }
+      out += number;
+    }
+    line(out);
+  }
+}
+
+void LsdynaWriter::write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number,
+                              const std::string& name) {
+  const auto part = static_cast<std::uint64_t>(number);
+  line("*PART");
+  line(name);
+  line(card({part, 1, part}, kField));
+  line("*MAT_ELASTIC");
+  line(fixed_integer(part, kField) + "       1.0       1.0       0.3");
+  line("*ELEMENT_SOLID");
+  for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
+    constexpr std::size_t kBrick = 8;
+    const std::string head = card({t + 1, part}, kShort);
+    std::string row;
+    std::uint64_t last = 0;
+    const NodeRows nodes = mesh.tet_nodes(t);
+    for (const std::uint64_t node : nodes) {
+      last = node + 1;
+      row += fixed_integer(last, kShort);
+    }
+    if (nodes.size() > kBrick) {
+      line(head);
+      line(row);
+      continue;
+    }
+    for (std::size_t i = nodes.size(); i < kBrick; ++i) row += fixed_integer(last, kShort);
+    line(head + row);
+  }
+}
+
+void LsdynaWriter::begin_set(const char* keyword, const std::string& title, std::uint64_t number) {
+  line(keyword);
+  line(title);
+  line(fixed_integer(number, kField));
+}
+
+void LsdynaWriter::write_node_set(GroupedMesh& mesh, const NamedFacets& set, bool of_second) {
+  constexpr std::size_t kOnLine = 8;
+  begin_set("*SET_NODE_LIST_TITLE", of_second ? set.other : set.name, ++node_sets_);
+  std::string row;
+  const auto add = [&](std::uint64_t node) {
+    row += fixed_integer(node + 1, kField);
+    if (row.size() < kOnLine * kField) return;
+    line(row);
+    row.clear();
+  };
+  for_each_facet_node(mesh, set.group.facets, folder_, add, of_second);
+  if (!row.empty()) line(row);
+}
+
+void LsdynaWriter::write_segments(GroupedMesh& mesh, const NamedFacets& set, bool of_second) {
+  begin_set("*SET_SEGMENT_TITLE", of_second ? set.other : set.name, ++segment_sets_);
+  const RowRange facets = set.group.facets;
+  for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
+    const Facet facet = of_second ? mesh.of_second(mesh.facet(f)) : mesh.facet(f);
+    const NodeRows nodes = mesh.facet_nodes(facet);
+    const auto put = [&](const std::array<std::size_t, 3>& corners) {
+      const auto node = [&](std::size_t i) { return nodes.begin()[corners[i]] + 1; };
+      line(card({node(0), node(1), node(2), node(2)}, kField));
+    };
+    if (nodes.size() == 3) {
+      put({0, 1, 2});
+    } else {
+      for (const auto& quarter : kQuarters) put(quarter);
+    }
+  }
+}
+
+void LsdynaWriter::line(std::string_view line) {
+  file_.append(line);
+  file_.append("\n");
+}
+
+}  // namespace mw::io

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Writes a grouped mesh as a keyword file of LS-DYNA.
+#pragma once
+
+#include "io/file/sink/atomic_file.h"
+#include "io/mesh/grouped/facet_nodes.h"
+#include "io/mesh/grouped/label_numbers.h"
+
+namespace mw::io {
+
+/// A PART for each label, whose number is the label's in the table beside the file
+/// (label_numbers.h) and whose title is its name (PlainNames), with a MAT_ELASTIC of the same
+/// number as a placeholder; all have one SECTION_SOLID of ELFORM 10, or 16 for ten nodes.
+/// ELEMENT_SOLID has a tet of four nodes in one line, its last node five times, one of ten nodes in
+/// two lines.  Nodes and tets count from 1.  The nodes of each interface and of each side of the
+/// box are a SET_NODE_LIST, the triangles a SET_SEGMENT, their normals out of the mesh or,
+/// FACE_1_2, out of label 1; an interface has two, of which the titles tell.  Of ten nodes each
+/// triangle is four, so that the middles of edges are loaded, too.  Both kinds of sets have numbers
+/// from 1 on. Coordinates have ten digits.  Memory: 9 MiB.  ERRORS: see AtomicFile;
+/// mw::Error(kUsage) above 99,999,999 nodes or tets, which is what eight columns hold, and for a
+/// coordinate of 1e100.
+class LsdynaWriter : public GroupedWriter {
+ public:
+  explicit LsdynaWriter(const std::filesystem::path& path)
+      : folder_(path.parent_path()),
+        name_(path.string()),
+        file_(path),
+        labels_(label_table_path(path)) {}
+
+  void write(GroupedMesh& mesh) override;
+
+ private:
+  void write_nodes(GroupedMesh& mesh);
+  void write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number, const std::string& name);
+  void write_node_set(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
+  void write_segments(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
+  void begin_set(const char* keyword, const std::string& title, std::uint64_t number);
+  void line(std::string_view line);
+
+  std::filesystem::path folder_;
+  std::string name_;
+  AtomicFile file_;
+  AtomicFile labels_;
+  std::uint64_t node_sets_ = 0;
+  std::uint64_t segment_sets_ = 0;
+};
+
+}  // namespace mw::io
