@@ -27,7 +27,7 @@ SimplifyOptions simplify_options(const MeshSettings& settings) {
 /// Without a floor new vertices still leave no slivers.
 constexpr double kMinInnerRatio = 0.1;
 
-/// Of threads of a voxel (bench/parameters.md, "Constants").
+/// The curvature of threads of a voxel (bench/parameters.md, "Constants").
 constexpr double kMaxCurvatureOfSource = 4.0;
 
 std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings, bool has_source) {

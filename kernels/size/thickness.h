@@ -27,10 +27,9 @@ inline constexpr std::int64_t kThinHalo = kThinReach + 7;
 /// - nothing thicker begins beside it: four voxels away, sides are at most 0.75 of a voxel farther
 ///   from the middle there, so that the tip of a wedge does not count, and neither does what sticks
 ///   out of a face because it is made of voxels.
-/// Thicknesses are lengths of the metric.  The end of the volume (kExterior) is a side, too: what is
-/// computed on the mesh ends there.
-/// REQUIRES: labels has kThinHalo around `asked`.
-/// Cost: some 150 steps a voxel of labels; 6 bytes a voxel.
+/// Thicknesses are lengths of the metric.  The end of the volume (kExterior) is a side, too: what
+/// is computed on the mesh ends there. REQUIRES: labels has kThinHalo around `asked`. Cost: some
+/// 150 steps a voxel of labels; 6 bytes a voxel.
 void for_each_thin_voxel(const LabelBox& labels, const Box3& asked, const Metric& metric,
                          const std::function<void(Index3 voxel, double thickness)>& found);
 

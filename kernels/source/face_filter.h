@@ -19,7 +19,7 @@ namespace mw {
 /// Memory: 4 bytes a face, and up to 36 while a filter works.
 class FaceFilter {
  public:
-  /// Of a point or a vector, in any unit.
+  /// The coordinates of a point or a vector, in any unit.
   using Value = std::array<std::int32_t, 3>;
 
   static constexpr int kNormalSteps = 5;  ///< before normals of neighbours are compared

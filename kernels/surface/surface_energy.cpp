@@ -87,8 +87,8 @@ struct NearestFeet {
   StoredLanes at_corner;
 };
 
-/// Of the points whose bits are set in `wanted`: a foot is on the carrier when it is inside, else
-/// on the nearest triangle between the same labels.
+/// Finds feet of the points whose bits are set in `wanted`: a foot is on the carrier when it is
+/// inside, else on the nearest triangle between the same labels.
 MW_WIDE void find_nearest(const KnownTriangles& known, std::size_t carrier,
                           const PointLanes& points, unsigned wanted, NearestFeet& out) {
   const Lanes3 p{load(points[0]), load(points[1]), load(points[2])};
