@@ -50,7 +50,9 @@ std::uint64_t DoubledVertices::rank(std::uint64_t row) const {
 
 void MergedVertices::begin(const MeshHeader& header) {
   if (header.record.has_doubles) waiting_.emplace(folder_);
-  below_.begin(header);
+  MeshHeader told = header;
+  told.values.clear();  // they are not passed on
+  below_.begin(told);
 }
 
 void MergedVertices::write_vertices(std::span<const Position> positions) {

@@ -39,7 +39,7 @@ class DoubledVertices {
 };
 
 /// Passes a mesh on; where its record tells of doubled vertices, with all vertices at one position
-/// as one.  REQUIRES: the sink outlives it.
+/// as one.  Values of tets stay behind.  REQUIRES: the sink outlives it.
 /// Memory: that of DoubledVertices and 1 MiB.  Disk: with doubles, besides, 24 bytes a vertex and
 /// 40 a tet.
 class MergedVertices : public MeshSink {

@@ -295,6 +295,16 @@ class Samples(unittest.TestCase):
         self.assertEqual(run("convert", "m.vtu", "c.exo"), "")
         self.assertEqual(run("convert", "c.mesh", "d.inp"), "")
 
+    def test_commands_read_meshes_with_values(self):
+        for options in ((), ("--split", "*")):
+            for ending in ("vtkhdf", "vtu", "msh"):
+                run("mesh", "v.npy", "-o", f"w.{ending}", "--sample", "a=v.npy", *options)
+                run("info", f"w.{ending}", "v.npy", "--contacts")
+                run("picture", f"w.{ending}", "-o", "w.png")
+                run("surface", f"w.{ending}", "--labels", "1", "-o", "w.stl")
+                if ending != "msh":  # the others tell what was doubled
+                    run("verify", "v.npy", f"w.{ending}")
+
     def test_values_of_other_programs(self):
         """Their names are made plain; arrays of integers and of vectors are no values."""
         points = np.eye(4, 3)
