@@ -250,14 +250,25 @@ const MeshFormat& read_format(const std::filesystem::path& path) {
                                       read_mesh_extensions()));
 }
 
-/// A format without a place for wedges refuses a mesh that has some.
+/// CalculiX, which runs the jobs, has no cohesive elements.
+[[noreturn]] void refuse_wedges_in_deck(const std::filesystem::path& path) {
+  throw Error(ErrorKind::kUsage,
+              text(path.string(), ": --deck has no sections for cohesive wedges; give --split in ",
+                   "the place of --cohesive"));
+}
+
+/// Refuses a mesh with wedges where the format or a deck has no place for them.
 class SinkWithoutWedges : public MeshSink {
  public:
-  SinkWithoutWedges(std::filesystem::path path, Element element, std::unique_ptr<MeshSink> below)
-      : path_(std::move(path)), element_(element), below_(std::move(below)) {}
+  SinkWithoutWedges(std::filesystem::path path, Element element, bool has_deck,
+                    std::unique_ptr<MeshSink> below)
+      : path_(std::move(path)), element_(element), has_deck_(has_deck), below_(std::move(below)) {}
 
   void begin(const MeshHeader& header) override {
-    if (header.record.cohesive.any()) require_place_for_wedges(path_, element_);
+    if (header.record.cohesive.any()) {
+      require_place_for_wedges(path_, element_);
+      if (has_deck_) refuse_wedges_in_deck(path_);
+    }
     below_->begin(header);
   }
   void write_vertices(std::span<const Position> positions) override {
@@ -273,6 +284,7 @@ class SinkWithoutWedges : public MeshSink {
  private:
   std::filesystem::path path_;
   Element element_;
+  bool has_deck_;
   std::unique_ptr<MeshSink> below_;
 };
 
@@ -367,11 +379,12 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
                 text(path.string(), ": no job is written in ", format.extension, "; --deck is for ",
                      extensions_where(&MeshFormat::has_deck)));
   }
+  if (extras.deck && extras.wedges) refuse_wedges_in_deck(path);
   if (extras.wedges && format.open_wedges != nullptr) return format.open_wedges(path, element);
   auto sink = format.open_with != nullptr ? format.open_with(path, element, extras)
                                           : format.open(path, element);
-  if (format.has_wedges(element)) return sink;
-  return std::make_unique<SinkWithoutWedges>(path, element, std::move(sink));
+  if (format.has_wedges(element) && !extras.deck) return sink;
+  return std::make_unique<SinkWithoutWedges>(path, element, extras.deck, std::move(sink));
 }
 
 std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Decks as they are written: solved by CalculiX beside theory; FEBio's by their elements of XML."""
 import csv
+import os
 import shutil
 import subprocess
 import sys
@@ -190,6 +191,15 @@ class Decks(unittest.TestCase):
         done = start("mesh", "bar.npy", "-o", "bar.vtu", "--deck", "static")
         self.assertEqual(done.returncode, 2)
         self.assertIn("--deck is for .inp, .feb", done.stderr)
+
+    def test_there_is_none_with_cohesive_wedges(self):
+        run("mesh", "bar.npy", "-o", "wedges.vtu", "--cohesive", "1|2")
+        for first in (("mesh", "bar.npy", "-o", "no.inp", "--cohesive", "1|2"),
+                      ("convert", "wedges.vtu", "no.inp")):
+            done = start(*first, "--deck", "static")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("give --split", done.stderr)
+            self.assertFalse(os.path.exists("no.inp"))
 
 
 if __name__ == "__main__":
