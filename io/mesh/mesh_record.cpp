@@ -22,7 +22,7 @@ constexpr const char* kOnly = "only_labels";
 constexpr const char* kWithout = "without_labels";
 constexpr const char* kPartial = "partial_labels";
 constexpr const char* kDoubled = "doubled_vertices";
-constexpr const char* kCohesive = "cohesive";
+constexpr const char* kCohesiveKey = "cohesive";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 Json box_json(const MeshBox& box) {
@@ -99,15 +99,15 @@ Json cohesive_json(const CohesiveRule& rule) {
 
 CohesiveRule cohesive_in(const JsonFields& fields) {
   CohesiveRule out;
-  if (!fields.has(kCohesive)) return out;
-  if (!fields.is_array(kCohesive)) {
-    out.all = fields.flag(kCohesive);
+  if (!fields.has(kCohesiveKey)) return out;
+  if (!fields.is_array(kCohesiveKey)) {
+    out.all = fields.flag(kCohesiveKey);
     return out;
   }
-  const std::vector<RawLabel> labels = labels_in(fields, kCohesive);
-  if (labels.size() % 2 != 0) fields.fail(kCohesive, "has a label without another one");
+  const std::vector<RawLabel> labels = labels_in(fields, kCohesiveKey);
+  if (labels.size() % 2 != 0) fields.fail(kCohesiveKey, "has a label without another one");
   for (std::size_t i = 0; i < labels.size(); i += 2) {
-    if (out.has(labels[i], labels[i + 1])) fields.fail(kCohesive, "has a pair twice");
+    if (out.has(labels[i], labels[i + 1])) fields.fail(kCohesiveKey, "has a pair twice");
     out.pairs.push_back({labels[i], labels[i + 1]});
   }
   return out;
@@ -132,7 +132,7 @@ std::string record_text(const MeshRecord& record) {
   add_labels(record.without_labels, kWithout, out);
   add_labels(record.partial_labels, kPartial, out);
   if (record.has_doubles) out[kDoubled] = true;
-  if (record.cohesive.any()) out[kCohesive] = cohesive_json(record.cohesive);
+  if (record.cohesive.any()) out[kCohesiveKey] = cohesive_json(record.cohesive);
   return out.empty() ? std::string() : out.dump();
 }
 

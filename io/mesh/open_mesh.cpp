@@ -394,7 +394,7 @@ std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
                                         " and files beside it"));
   }
   if (pieces == 0) throw Error(ErrorKind::kUsage, text(path.string(), ": no pieces are no mesh"));
-  return std::make_unique<SinkWithoutWedges>(path, Element::kTet4,
+  return std::make_unique<SinkWithoutWedges>(path, Element::kTet4, false,
                                              std::make_unique<PvtuSink>(path, pieces));
 }
 
