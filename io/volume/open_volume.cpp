@@ -13,6 +13,9 @@
 #include "io/file/errors.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
+#include "io/remote/address.h"
+#include "io/remote/remote_store.h"
+#include "io/store/place.h"
 #include "io/volume/checks.h"
 #include "io/volume/cropped_volume.h"
 #include "io/volume/hdf5/open_hdf5.h"
@@ -35,18 +38,22 @@ using OpenFile = std::unique_ptr<LabelVolume> (*)(std::unique_ptr<ByteSource> so
                                                   const OpenOptions& options);
 using OpenFolder = std::unique_ptr<LabelVolume> (*)(const std::filesystem::path& folder,
                                                     const OpenOptions& options);
+using OpenStore = std::unique_ptr<LabelVolume> (*)(const Place& place, const OpenOptions& options);
 
 /// One format: what it is called, how it is told, how it is read, and which options it understands.
 struct VolumeFormat {
   const char* name;  ///< in help and errors
   /// Endings of a file, each with a dot, with blanks between them; .gz may follow them.  Null in
-  /// rows of folders, as are the next two.
+  /// rows of folders and stores, as are the next two.
   const char* endings = nullptr;
   bool (*is_file)(std::span<const std::byte> head) = nullptr;
   OpenFile open_file = nullptr;
-  /// Null in rows of files.
+  /// Null in rows of files and stores.
   bool (*is_folder)(const std::filesystem::path& folder) = nullptr;
   OpenFolder open_folder = nullptr;
+  /// Null in rows of files and other folders.  A store is a folder, or an address of a server.
+  bool (*is_store)(const Place& place) = nullptr;
+  OpenStore open_store = nullptr;
   bool has_datasets = false;  ///< --dataset chooses in it
   bool has_scales = false;    ///< --scale chooses in it
 };
@@ -65,18 +72,18 @@ constexpr std::array kFormats{
     VolumeFormat{"PNG", ".png", has_png_magic, open_png},
     VolumeFormat{"NIfTI", ".nii", has_nifti_magic, open_nifti},
     VolumeFormat{.name = "neuroglancer precomputed",
-                 .is_folder = is_precomputed,
-                 .open_folder = open_precomputed,
+                 .is_store = is_precomputed,
+                 .open_store = open_precomputed,
                  .has_datasets = true,
                  .has_scales = true},
     VolumeFormat{.name = "N5",
-                 .is_folder = is_n5,
-                 .open_folder = open_n5,
+                 .is_store = is_n5,
+                 .open_store = open_n5,
                  .has_datasets = true,
                  .has_scales = true},
     VolumeFormat{.name = "Zarr",
-                 .is_folder = is_zarr,
-                 .open_folder = open_zarr,
+                 .is_store = is_zarr,
+                 .open_store = open_zarr,
                  .has_datasets = true,
                  .has_scales = true},
     VolumeFormat{.name = "TIFF or PNG slices",
@@ -94,6 +101,10 @@ std::string names_of(IsMeant is_meant) {
     if (is_meant(format)) out += (out.empty() ? "" : ", ") + text(format.name);
   }
   return out;
+}
+
+std::string stores() {
+  return names_of([](const VolumeFormat& format) { return format.is_store != nullptr; });
 }
 
 bool has_ending(const VolumeFormat& format, const std::string& ending) {
@@ -147,6 +158,7 @@ bool holds_dicom(const std::filesystem::path& folder) {
 
 const VolumeFormat& format_of_folder(const std::filesystem::path& folder) {
   for (const VolumeFormat& format : kFormats) {
+    if (format.is_store != nullptr && format.is_store(folder)) return format;
     if (format.is_folder != nullptr && format.is_folder(folder)) return format;
   }
   if (holds_dicom(folder)) fail_dicom(folder);
@@ -167,8 +179,26 @@ void check_understood(const VolumeFormat& format, const std::filesystem::path& p
   if (options.scale && !format.has_scales) fail("--scale", "scales", formats_with_scales());
 }
 
+std::unique_ptr<LabelVolume> open_remote(const std::string& address, const OpenOptions& options) {
+  if (options.raw) {
+    throw Error(ErrorKind::kUsage, text("--shape: ", address,
+                                        " is a remote volume, and raw files "
+                                        "are read from disks only"));
+  }
+  const Place place = remote_place(address);
+  for (const VolumeFormat& format : kFormats) {
+    if (format.is_store != nullptr && format.is_store(place)) {
+      return format.open_store(place, options);
+    }
+  }
+  fail_input(place.string(), "format", "the server has no metadata of a volume there",
+             text("give the address of the folder that holds them; remote volumes are ", stores(),
+                  ", and files of other formats are to be copied to a disk first"));
+}
+
 std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
                                         const OpenOptions& options) {
+  if (is_remote_address(path.string())) return open_remote(path.string(), options);
   if (options.raw) {
     check_understood(kRawFormat, path, options);
     return open_raw(open_raw_bytes(path, *options.raw), options);
@@ -176,7 +206,8 @@ std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
   if (std::filesystem::is_directory(path)) {
     const VolumeFormat& format = format_of_folder(path);
     check_understood(format, path, options);
-    return format.open_folder(path, options);
+    return format.open_store != nullptr ? format.open_store(path, options)
+                                        : format.open_folder(path, options);
   }
   std::unique_ptr<ByteSource> source = open_bytes(path);
   const VolumeFormat& format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
@@ -198,7 +229,7 @@ std::string volume_endings() {
 }
 
 std::string volume_folders() {
-  return names_of([](const VolumeFormat& format) { return format.is_folder != nullptr; });
+  return names_of([](const VolumeFormat& format) { return format.endings == nullptr; });
 }
 
 std::string formats_with_datasets() {

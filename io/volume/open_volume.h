@@ -21,12 +21,13 @@ namespace mw::io {
 /// ERRORS: mw::Error(kUsage) unless spacing is finite and positive, and origin finite.
 void check_place(const std::optional<Vector3>& spacing, const std::optional<Vector3>& origin);
 
+/// A path, or the address of a remote volume (io/remote/address.h), whose format its metadata tell.
 /// Tells the format of a file by content, then by extension, whether it is gzipped or not, and that
 /// of a folder by what is in it; raw when options.raw is given.  The numbers of the options are
 /// checked like the file's.
 /// ERRORS: mw::Error(kInput) naming file, field, reason and way out; kResource when a gzipped
-/// file does not fit into $TMPDIR; kUsage when the options make no sense, also those that the
-/// format does not have: --scale of a file without scales.
+/// file does not fit into $TMPDIR, or a server does not answer; kUsage when the options make no
+/// sense, also those that the format does not have: --scale of a file without scales.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                                        const OpenOptions& options = {});
 
