@@ -56,6 +56,8 @@ struct VolumeFormat {
   OpenStore open_store = nullptr;
   bool has_datasets = false;  ///< --dataset chooses in it
   bool has_scales = false;    ///< --scale chooses in it
+  /// Null where there are none.
+  std::size_t (*count_scales)(const Place& place, const OpenOptions& options) = nullptr;
 };
 
 /// Folders of slices come last: other stores may hold pictures, too.
@@ -75,17 +77,20 @@ constexpr std::array kFormats{
                  .is_store = is_precomputed,
                  .open_store = open_precomputed,
                  .has_datasets = true,
-                 .has_scales = true},
+                 .has_scales = true,
+                 .count_scales = count_precomputed_scales},
     VolumeFormat{.name = "N5",
                  .is_store = is_n5,
                  .open_store = open_n5,
                  .has_datasets = true,
-                 .has_scales = true},
+                 .has_scales = true,
+                 .count_scales = count_n5_scales},
     VolumeFormat{.name = "Zarr",
                  .is_store = is_zarr,
                  .open_store = open_zarr,
                  .has_datasets = true,
-                 .has_scales = true},
+                 .has_scales = true,
+                 .count_scales = count_zarr_scales},
     VolumeFormat{.name = "TIFF or PNG slices",
                  .is_folder = is_slice_folder,
                  .open_folder = open_slice_folder},
@@ -179,21 +184,23 @@ void check_understood(const VolumeFormat& format, const std::filesystem::path& p
   if (options.scale && !format.has_scales) fail("--scale", "scales", formats_with_scales());
 }
 
-std::unique_ptr<LabelVolume> open_remote(const std::string& address, const OpenOptions& options) {
-  if (options.raw) {
-    throw Error(ErrorKind::kUsage, text("--shape: ", address,
-                                        " is a remote volume, and raw files "
-                                        "are read from disks only"));
-  }
-  const Place place = remote_place(address);
+/// The format of what is on a server.
+const VolumeFormat& format_of_remote(const Place& place) {
   for (const VolumeFormat& format : kFormats) {
-    if (format.is_store != nullptr && format.is_store(place)) {
-      return format.open_store(place, options);
-    }
+    if (format.is_store != nullptr && format.is_store(place)) return format;
   }
   fail_input(place.string(), "format", "the server has no metadata of a volume there",
              text("give the address of the folder that holds them; remote volumes are ", stores(),
                   ", and files of other formats are to be copied to a disk first"));
+}
+
+std::unique_ptr<LabelVolume> open_remote(const std::string& address, const OpenOptions& options) {
+  if (options.raw) {
+    throw Error(ErrorKind::kUsage,
+                text("--shape: ", address, " is remote, and raw files are read from disks only"));
+  }
+  const Place place = remote_place(address);
+  return format_of_remote(place).open_store(place, options);
 }
 
 std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
@@ -255,6 +262,34 @@ std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {
   check_place(options.spacing, options.origin);
   return cropped(open_whole(path, options), path.string(), options);
+}
+
+namespace {
+
+std::size_t count_scales(const std::filesystem::path& path, const OpenOptions& options) {
+  const bool is_remote = is_remote_address(path.string());
+  if (options.raw || (!is_remote && !std::filesystem::is_directory(path))) return 0;
+  const Place place = is_remote ? remote_place(path.string()) : Place(path);
+  const VolumeFormat& format = is_remote ? format_of_remote(place) : format_of_folder(path);
+  return format.count_scales == nullptr ? 0 : format.count_scales(place, options);
+}
+
+}  // namespace
+
+std::vector<VolumeScale> scales_of(const std::filesystem::path& path, const OpenOptions& options) {
+  std::vector<VolumeScale> out;
+  const std::size_t count = count_scales(path, options);
+  OpenOptions one = options;
+  one.crop.reset();
+  for (std::size_t i = 0; i < count; ++i) {
+    one.scale = static_cast<int>(i);
+    try {
+      out.push_back({*one.scale, open_whole(path, one)->info()});
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kResource) throw;
+    }
+  }
+  return out;
 }
 
 }  // namespace mw::io

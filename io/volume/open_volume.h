@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "io/volume/open_options.h"
 
@@ -30,5 +31,18 @@ void check_place(const std::optional<Vector3>& spacing, const std::optional<Vect
 /// sense, also those that the format does not have: --scale of a file without scales.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                                        const OpenOptions& options = {});
+
+/// One of the scales that OpenOptions::scale chooses from.
+struct VolumeScale {
+  int number = 0;
+  VolumeInfo info;
+};
+
+/// The scales of a volume, the finest first, from its metadata alone; empty when its format has
+/// none, or one of them is chosen already (by options.dataset of a precomputed volume).  Those that
+/// a copy of the volume lacks are left out.
+/// ERRORS: those of open_volume().
+[[nodiscard]] std::vector<VolumeScale> scales_of(const std::filesystem::path& path,
+                                                 const OpenOptions& options);
 
 }  // namespace mw::io

@@ -94,13 +94,23 @@ Place dataset_folder(const Place& container, const std::string& dataset) {
                                       "; it has ", Search(container).names()));
 }
 
+int count_levels(const Place& pyramid) {
+  int count = 1;
+  while (has_array(pyramid / text("s", count))) ++count;
+  return count;
+}
+
 Place level_in(const Place& pyramid, int level) {
   const auto folder = [&](int i) { return pyramid / text("s", i); };
   if (level >= 0 && has_array(folder(level))) return folder(level);
-  int count = 1;
-  while (has_array(folder(count))) ++count;
+  const int count = count_levels(pyramid);
   throw Error(ErrorKind::kUsage, text("--scale ", level, ": ", pyramid.string(), " has ", count,
                                       " levels, 0 (the finest) to ", count - 1));
+}
+
+Place array_or_pyramid(const Place& container, const OpenOptions& options) {
+  Place folder = options.dataset.empty() ? container : dataset_folder(container, options.dataset);
+  return kind_of(folder) == Kind::kGroup ? only_one(folder) : folder;
 }
 
 }  // namespace
@@ -122,8 +132,7 @@ std::optional<std::size_t> level_of(const Place& folder) {
 }
 
 Place find_n5_array(const Place& container, const OpenOptions& options) {
-  Place folder = options.dataset.empty() ? container : dataset_folder(container, options.dataset);
-  if (kind_of(folder) == Kind::kGroup) folder = only_one(folder);
+  const Place folder = array_or_pyramid(container, options);
   if (kind_of(folder) == Kind::kPyramid) return level_in(folder, options.scale.value_or(0));
   if (options.scale.value_or(0) == 0) return folder;
   throw Error(ErrorKind::kUsage,
@@ -168,6 +177,12 @@ std::unique_ptr<LabelVolume> open_n5(const Place& container, const OpenOptions& 
   return std::make_unique<ChunkedVolume>(std::move(info), coding, 0,
                                          std::make_unique<N5Blocks>(folder, std::move(array)),
                                          options.cache_bytes);
+}
+
+std::size_t count_n5_scales(const Place& container, const OpenOptions& options) {
+  const Place folder = array_or_pyramid(container, options);
+  if (kind_of(folder) != Kind::kPyramid) return 1;
+  return static_cast<std::size_t>(count_levels(folder));
 }
 
 }  // namespace mw::io

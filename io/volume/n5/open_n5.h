@@ -29,4 +29,8 @@ namespace mw::io {
 /// naming file and field; kUsage when there is no such dataset or level.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_n5(const Place& folder, const OpenOptions& options);
 
+/// Returns how many levels the pyramid has that open_n5() looks at; 1 for an array.
+/// ERRORS: those of find_n5_array().
+[[nodiscard]] std::size_t count_n5_scales(const Place& container, const OpenOptions& options);
+
 }  // namespace mw::io

@@ -11,6 +11,7 @@
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "io/json/json.h"
+#include "io/json/json_fields.h"
 
 namespace mw::io {
 namespace {
@@ -171,6 +172,12 @@ std::unique_ptr<LabelVolume> open_precomputed(const Place& folder, const OpenOpt
                                                     std::move(scale));
   return std::make_unique<ChunkedVolume>(std::move(info), coding, 0, std::move(chunks),
                                          options.cache_bytes);
+}
+
+std::size_t count_precomputed_scales(const Place& folder, const OpenOptions& /*options*/) {
+  const Place path = folder / "info";
+  const Json info = read_json(path);
+  return JsonFields(info, path.string()).count("scales");
 }
 
 }  // namespace mw::io

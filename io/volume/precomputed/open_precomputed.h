@@ -84,4 +84,7 @@ class PrecomputedChunks : public ChunkSource {
 [[nodiscard]] std::unique_ptr<LabelVolume> open_precomputed(const Place& folder,
                                                             const OpenOptions& options);
 
+/// Returns how many scales the volume has.  ERRORS: those of open_precomputed().
+[[nodiscard]] std::size_t count_precomputed_scales(const Place& folder, const OpenOptions& options);
+
 }  // namespace mw::io

@@ -196,4 +196,11 @@ std::unique_ptr<LabelVolume> open_zarr(const Place& folder, const OpenOptions& o
                   " has none of this name; it has ", contents(folder)));
 }
 
+std::size_t count_zarr_scales(const Place& folder, const OpenOptions& options) {
+  const auto path = path_in_store(folder, options.dataset);
+  const auto node = path ? read_zarr_node(*path) : std::nullopt;
+  if (!node || node->is_array || !has_multiscale(node->attributes)) return 1;
+  return parse_multiscale(node->attributes, node->attributes_file).levels.size();
+}
+
 }  // namespace mw::io

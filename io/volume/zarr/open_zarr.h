@@ -3,8 +3,7 @@
 // Opens an array or a multiscale image of a Zarr store as a volume.
 #pragma once
 
-#include <filesystem>
-
+#include "io/store/place.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {
@@ -19,5 +18,9 @@ namespace mw::io {
 /// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such dataset or scale.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_zarr(const Place& folder,
                                                      const OpenOptions& options);
+
+/// Returns how many levels the image at the folder, or at options.dataset in it, has; 1 for what is
+/// no image.  ERRORS: mw::Error(kInput) when its metadata are damaged.
+[[nodiscard]] std::size_t count_zarr_scales(const Place& folder, const OpenOptions& options);
 
 }  // namespace mw::io
