@@ -104,7 +104,12 @@ struct Headers {
   std::string last_modified;
 
   void add(std::string_view line) {
-    if (line.starts_with("HTTP/")) *this = {};
+    if (line.starts_with("HTTP/")) {
+      *this = {};
+      const std::size_t blank = std::min(line.find(' '), line.size() - 1);
+      std::from_chars(line.data() + blank + 1, line.data() + line.size(), status);
+      return;
+    }
     const std::size_t colon = line.find(':');
     if (colon == line.npos) return;
     const std::string_view name = line.substr(0, colon);

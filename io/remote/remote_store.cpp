@@ -227,7 +227,8 @@ class RemoteStore : public Store {
   [[nodiscard]] std::optional<Answer> remembered(const std::string& name) const {
     const std::lock_guard lock(mutex_);
     const auto found = answers_.find(name);
-    return found == answers_.end() ? std::nullopt : std::optional(found->second);
+    if (found == answers_.end()) return std::nullopt;
+    return std::make_optional<Answer>(found->second);
   }
   void remember(const std::string& name, Answer answer) const {
     const std::lock_guard lock(mutex_);
