@@ -56,6 +56,12 @@ class _Handler(http.server.BaseHTTPRequestHandler):
     def log_message(self, *_):
         pass
 
+    def handle(self):
+        try:
+            super().handle()
+        except ConnectionError:
+            pass  # a client that was killed, or has enough
+
     def answer(self, status, body=b"", **headers):
         self.send_response(status)
         for name, value in headers.items():
@@ -68,13 +74,10 @@ class _Handler(http.server.BaseHTTPRequestHandler):
     def do_GET(self):
         owner = self.owner
         fault = owner.fault_of(self.path, self.headers)
-        try:
-            if self.path in owner.handlers:
-                owner.handlers[self.path](self)
-            else:
-                self.serve(owner.folder + self.path, fault)
-        except (BrokenPipeError, ConnectionResetError):
-            pass  # a client that has enough
+        if self.path in owner.handlers:
+            owner.handlers[self.path](self)
+        else:
+            self.serve(owner.folder + self.path, fault)
 
     def serve(self, path, fault):
         if fault in ("503", "429"):
