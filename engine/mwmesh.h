@@ -113,7 +113,7 @@ struct RegionVolume {
   std::function<void(const Box& box, std::span<std::uint64_t> out)> read;
 };
 
-/// A file or folder of any format that `mwmesh info` reads.
+/// A file or folder of any format that `mwmesh info` reads, or the address of a remote volume.
 struct VolumeFile {
   std::filesystem::path path;
   std::string dataset{};       ///< within a file that holds several; empty: found by convention

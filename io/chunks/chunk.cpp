@@ -31,13 +31,6 @@ std::uint64_t checked_chunk_bytes(std::string_view file, std::string_view field,
   return bytes;
 }
 
-std::unique_ptr<FileSource> open_if_there(const std::filesystem::path& path) {
-  std::error_code ignored;
-  const auto type = std::filesystem::status(path, ignored).type();
-  if (type == std::filesystem::file_type::not_found) return nullptr;
-  return std::make_unique<FileSource>(path);
-}
-
 std::vector<std::byte> read_rest(const ByteSource& source, std::uint64_t offset,
                                  std::uint64_t max) {
   const std::uint64_t count = source.size() > offset ? source.size() - offset : 0;

@@ -77,10 +77,6 @@ inline constexpr std::uint64_t kMaxChunkBytes = 2ULL << 30U;
   return unpacked + unpacked / 2 + kHeaders;
 }
 
-/// Opens a file of a store; null when there is none.
-/// ERRORS: mw::Error(kInput) when there is something that cannot be read.
-[[nodiscard]] std::unique_ptr<FileSource> open_if_there(const std::filesystem::path& path);
-
 /// Chunks of that many bytes and more are so few that each of their files may be looked at when a
 /// store is opened; kMaxLooks of them at most.
 inline constexpr std::uint64_t kLargeChunk = std::uint64_t{16} << 20U;

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "io/file/errors.h"
-#include "io/file/source/file_source.h"
+#include "io/store/place.h"
 
 namespace mw::io {
 namespace {
@@ -236,16 +236,18 @@ Json parse_json(std::string_view text, std::string_view file) {
   }
 }
 
-Json read_json(const std::filesystem::path& path) {
-  const FileSource source(path);
-  const std::optional<std::string> content = read_whole(source, kMaxJsonBytes);
+Json read_json(const Place& place) {
+  const auto source = place.open_if_there(kMaxJsonBytes);
+  if (!source)
+    fail_input(place.string(), {}, "cannot open: there is no such file", "check the path");
+  const std::optional<std::string> content = read_whole(*source, kMaxJsonBytes);
   if (!content) {
-    fail_input(source.name(), "JSON",
-               text("the file has ", source.size(), " bytes, and at most ", kMaxJsonBytes,
+    fail_input(source->name(), "JSON",
+               text("the file has ", source->size(), " bytes, and at most ", kMaxJsonBytes,
                     " are read of a description"),
                "check that it is the store's own");
   }
-  return parse_json(*content, source.name());
+  return parse_json(*content, source->name());
 }
 
 }  // namespace mw::io

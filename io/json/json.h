@@ -5,7 +5,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -14,6 +13,8 @@
 #include <vector>
 
 namespace mw::io {
+
+class Place;
 
 /// Null, a boolean, a number, a text, an array or an object, whose fields stay in the order in
 /// which they came.  Only what makes and takes texts knows a JSON library, which is slow to
@@ -134,7 +135,8 @@ inline constexpr int kMaxJsonDepth = 64;
 /// deeper than kMaxJsonDepth.
 [[nodiscard]] Json parse_json(std::string_view text, std::string_view file);
 
-/// ERRORS: those of parse_json; kInput when the file is missing or larger than kMaxJsonBytes.
-[[nodiscard]] Json read_json(const std::filesystem::path& path);
+/// ERRORS: those of parse_json; kInput when the file is missing or larger than kMaxJsonBytes;
+/// kResource when a server does not answer.
+[[nodiscard]] Json read_json(const Place& place);
 
 }  // namespace mw::io

@@ -13,6 +13,9 @@
 #include "io/file/errors.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
+#include "io/remote/address.h"
+#include "io/remote/remote_store.h"
+#include "io/store/place.h"
 #include "io/volume/checks.h"
 #include "io/volume/cropped_volume.h"
 #include "io/volume/hdf5/open_hdf5.h"
@@ -36,21 +39,27 @@ using OpenFile = std::unique_ptr<LabelVolume> (*)(std::unique_ptr<ByteSource> so
                                                   const OpenOptions& options);
 using OpenFolder = std::unique_ptr<LabelVolume> (*)(const std::filesystem::path& folder,
                                                     const OpenOptions& options);
+using OpenStore = std::unique_ptr<LabelVolume> (*)(const Place& place, const OpenOptions& options);
 
 /// One format: what it is called, how it is told, how it is read, and which options it understands.
 struct VolumeFormat {
   const char* name;  ///< in help and errors
   /// Endings of a file, each with a dot, with blanks between them; .gz may follow them.  Null in
-  /// rows of folders, as are the next two.
+  /// rows of folders and stores, as are the next two.
   const char* endings = nullptr;
   bool (*is_file)(std::span<const std::byte> head) = nullptr;
   OpenFile open_file = nullptr;
-  /// Null in rows of files.
+  /// Null in rows of files and stores.
   bool (*is_folder)(const std::filesystem::path& folder) = nullptr;
   OpenFolder open_folder = nullptr;
+  /// Null in rows of files and other folders.  A store is a folder, or an address of a server.
+  bool (*is_store)(const Place& place) = nullptr;
+  OpenStore open_store = nullptr;
   bool has_datasets = false;  ///< --dataset chooses in it
   bool has_scales = false;    ///< --scale chooses in it
   bool has_masks = false;     ///< --overlap says what masks become that overlap
+  /// Null where there are none.
+  std::size_t (*count_scales)(const Place& place, const OpenOptions& options) = nullptr;
 };
 
 /// Folders of slices come last: other stores may hold pictures, too.
@@ -75,20 +84,23 @@ constexpr std::array kFormats{
                  .open_file = open_nifti,
                  .has_masks = true},
     VolumeFormat{.name = "neuroglancer precomputed",
-                 .is_folder = is_precomputed,
-                 .open_folder = open_precomputed,
+                 .is_store = is_precomputed,
+                 .open_store = open_precomputed,
                  .has_datasets = true,
-                 .has_scales = true},
+                 .has_scales = true,
+                 .count_scales = count_precomputed_scales},
     VolumeFormat{.name = "N5",
-                 .is_folder = is_n5,
-                 .open_folder = open_n5,
+                 .is_store = is_n5,
+                 .open_store = open_n5,
                  .has_datasets = true,
-                 .has_scales = true},
+                 .has_scales = true,
+                 .count_scales = count_n5_scales},
     VolumeFormat{.name = "Zarr",
-                 .is_folder = is_zarr,
-                 .open_folder = open_zarr,
+                 .is_store = is_zarr,
+                 .open_store = open_zarr,
                  .has_datasets = true,
-                 .has_scales = true},
+                 .has_scales = true,
+                 .count_scales = count_zarr_scales},
     VolumeFormat{.name = "TIFF or PNG slices",
                  .is_folder = is_slice_folder,
                  .open_folder = open_slice_folder},
@@ -110,6 +122,10 @@ std::string names_of(IsMeant is_meant) {
     if (is_meant(format)) out += (out.empty() ? "" : ", ") + text(format.name);
   }
   return out;
+}
+
+std::string stores() {
+  return names_of([](const VolumeFormat& format) { return format.is_store != nullptr; });
 }
 
 bool has_ending(const VolumeFormat& format, const std::string& ending) {
@@ -163,6 +179,7 @@ bool holds_dicom(const std::filesystem::path& folder) {
 
 const VolumeFormat& format_of_folder(const std::filesystem::path& folder) {
   for (const VolumeFormat& format : kFormats) {
+    if (format.is_store != nullptr && format.is_store(folder)) return format;
     if (format.is_folder != nullptr && format.is_folder(folder)) return format;
   }
   if (holds_dicom(folder)) fail_dicom(folder);
@@ -186,8 +203,30 @@ void check_understood(const VolumeFormat& format, const std::filesystem::path& p
   }
 }
 
+/// The format of what is on a server.
+const VolumeFormat& format_of_remote(const Place& place) {
+  for (const VolumeFormat& format : kFormats) {
+    if (format.is_store != nullptr && format.is_store(place)) return format;
+  }
+  fail_input(place.string(), "format", "the server has no metadata of a volume there",
+             text("give the address of the folder that holds them; remote volumes are ", stores(),
+                  ", and files of other formats are to be copied to a disk first"));
+}
+
+std::unique_ptr<LabelVolume> open_remote(const std::string& address, const OpenOptions& options) {
+  if (options.raw) {
+    throw Error(ErrorKind::kUsage,
+                text("--shape: ", address, " is remote, and raw files are read from disks only"));
+  }
+  const Place place = remote_place(address);
+  const VolumeFormat& format = format_of_remote(place);
+  check_understood(format, address, options);
+  return format.open_store(place, options);
+}
+
 std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
                                         const OpenOptions& options) {
+  if (is_remote_address(path.string())) return open_remote(path.string(), options);
   if (options.raw) {
     check_understood(kRawFormat, path, options);
     return open_raw(open_raw_bytes(path, *options.raw), options);
@@ -195,7 +234,8 @@ std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
   if (std::filesystem::is_directory(path)) {
     const VolumeFormat& format = format_of_folder(path);
     check_understood(format, path, options);
-    return format.open_folder(path, options);
+    return format.open_store != nullptr ? format.open_store(path, options)
+                                        : format.open_folder(path, options);
   }
   if (const std::vector<std::filesystem::path> masks = listed_masks(path); !masks.empty()) {
     check_understood(kMaskList, path, options);
@@ -221,7 +261,7 @@ std::string volume_endings() {
 }
 
 std::string volume_folders() {
-  return names_of([](const VolumeFormat& format) { return format.is_folder != nullptr; });
+  return names_of([](const VolumeFormat& format) { return format.endings == nullptr; });
 }
 
 std::string formats_with_datasets() {
@@ -251,6 +291,34 @@ std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {
   check_place(options.spacing, options.origin);
   return cropped(open_whole(path, options), path.string(), options);
+}
+
+namespace {
+
+std::size_t count_scales(const std::filesystem::path& path, const OpenOptions& options) {
+  const bool is_remote = is_remote_address(path.string());
+  if (options.raw || (!is_remote && !std::filesystem::is_directory(path))) return 0;
+  const Place place = is_remote ? remote_place(path.string()) : Place(path);
+  const VolumeFormat& format = is_remote ? format_of_remote(place) : format_of_folder(path);
+  return format.count_scales == nullptr ? 0 : format.count_scales(place, options);
+}
+
+}  // namespace
+
+std::vector<VolumeScale> scales_of(const std::filesystem::path& path, const OpenOptions& options) {
+  std::vector<VolumeScale> out;
+  const std::size_t count = count_scales(path, options);
+  OpenOptions one = options;
+  one.crop.reset();
+  for (std::size_t i = 0; i < count; ++i) {
+    one.scale = static_cast<int>(i);
+    try {
+      out.push_back({*one.scale, open_whole(path, one)->info()});
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kResource) throw;
+    }
+  }
+  return out;
 }
 
 }  // namespace mw::io

@@ -10,6 +10,8 @@
 
 #include "engine/cli/info/fact_text.h"
 #include "engine/report/figures.h"
+#include "io/remote/address.h"
+#include "io/volume/open_volume.h"
 
 namespace mw::cli {
 namespace {
@@ -50,7 +52,25 @@ Json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
           {"frame", io::name(space.frame)},
           {"affine", affine_json(space)},
           {"voxels", info.shape.product()},
-          {"labels", labels_json(regions, has_signed_labels(info))}};
+          {"labels", regions.empty() ? Json("not read: choose with --scale or --crop")
+                                     : labels_json(regions, has_signed_labels(info))}};
+}
+
+/// A row for each, where there are several.
+Json scales_json(const std::vector<io::VolumeScale>& scales) {
+  Json rows = Json::array();
+  for (const auto& [number, info] : scales) {
+    rows.push_back({{"scale", number},
+                    {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
+                    {"spacing_xyz", info.space.spacing},
+                    {"chunk_xyz", {info.chunk.x, info.chunk.y, info.chunk.z}}});
+  }
+  return rows;
+}
+
+/// A remote volume may be too large to be read because somebody asks what it is.
+bool reads_labels(const VolumeRequest& request) {
+  return !io::is_remote_address(request.path.string()) || request.scale || request.crop;
 }
 
 }  // namespace
@@ -59,9 +79,12 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   const std::unique_ptr<io::LabelVolume> opened = open(request);
   const io::PreparedInput input(*opened, request.steps);
   info_ = input.volume().info();
-  regions_ = engine::label_regions(input.volume());
+  if (reads_labels(request)) regions_ = engine::label_regions(input.volume());
   facts_ = facts_of(request, info_, regions_);
   if (input.specks()) facts_["specks"] = specks_json(input.specks());
+  if (request.scale) return;
+  const auto scales = io::scales_of(request.path, open_options(request));
+  if (scales.size() > 1) facts_["scales"] = scales_json(scales);
 }
 
 Json VolumeFacts::label_row(std::size_t i) const {
@@ -83,7 +106,7 @@ std::string VolumeFacts::volume_text(std::size_t i) const {
 
 void print_volume(const VolumeFacts& volume) {
   Json facts = volume.json();
-  facts["labels"].erase("per_label");
+  if (volume.labels() > 0) facts["labels"].erase("per_label");
   print_facts(facts);
   const std::size_t shown = std::min(volume.labels(), kMaxPrinted);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -96,6 +119,10 @@ void print_volume(const VolumeFacts& volume) {
 }
 
 void print_volume_json(const VolumeFacts& volume) {
+  if (volume.labels() == 0) {
+    std::cout << volume.json().dump_indented() << "\n";
+    return;
+  }
   const auto for_each_row = [&](const TakeRow& take) {
     for (std::size_t i = 0; i < volume.labels(); ++i) take(volume.label_row(i));
   };

@@ -11,7 +11,7 @@
 
 namespace mw::cli {
 
-/// A volume and its labels, read once.
+/// A volume and its labels, read once; those of a remote volume with --scale or --crop only.
 class VolumeFacts {
  public:
   /// ERRORS: those of open() and of reading the volume.

@@ -15,6 +15,7 @@
 #include "engine/cli/options/option_text.h"
 #include "engine/codt/worker_pool.h"
 #include "engine/settings/named_labels.h"
+#include "io/remote/http_client.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -240,7 +241,8 @@ std::string variable_of(const std::string& option) {
 }
 
 void refuse_unknown_variables(const std::vector<const OptionSet*>& all) {
-  std::set<std::string> known{"MW_PROGRAM", engine::codt::kWorkerVariable};
+  std::set<std::string> known{"MW_PROGRAM", engine::codt::kWorkerVariable,
+                              io::kAuthorizationVariable};
   for (const OptionSet* options : all) {
     for (const OptionSet::Entry& entry : options->entries()) {
       if (!entry.option.only_flag) known.insert(variable_of(entry.option.name));

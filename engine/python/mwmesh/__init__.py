@@ -204,7 +204,8 @@ def mesh(volume, *, progress=None, **arguments):
     """Meshes a labelled volume.
 
     volume
-        a path of any format that ``mwmesh info`` reads; a numpy array, which is not copied; a
+        a path of any format that ``mwmesh info`` reads, or an address (``https://``, ``gs://``,
+        ``s3://``) of a Zarr, N5 or precomputed volume; a numpy array, which is not copied; a
         nibabel image; or an object with shape, dtype and slices (h5py, Zarr, dask), which is read
         box by box.  Labels are integers, or floats that are whole numbers.
     spacing, origin

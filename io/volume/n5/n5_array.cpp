@@ -222,19 +222,19 @@ std::uint64_t product(const std::vector<std::int64_t>& extents) {
 }  // namespace
 
 /// "x/y/z", and 0 for axes that are left out.
-std::filesystem::path N5Blocks::path_of(Index3 chunk) const {
+Place N5Blocks::path_of(Index3 chunk) const {
   const std::array<std::int64_t, 3> index{chunk.x, chunk.y, chunk.z};
   std::vector<std::int64_t> numbers(array_.dimensions.size(), 0);
   for (std::size_t i = 0; i < 3; ++i) {
     if (array_.axes[i] >= 0) numbers[static_cast<std::size_t>(array_.axes[i])] = index[i];
   }
-  std::filesystem::path path = folder_;
-  for (const std::int64_t number : numbers) path /= std::to_string(number);
+  Place path = folder_;
+  for (const std::int64_t number : numbers) path = path / std::to_string(number);
   return path;
 }
 
 std::optional<Chunk> N5Blocks::load(Index3 chunk, const Box3& box, ChunkPlace place) const {
-  const std::shared_ptr<const FileSource> file = open_if_there(path_of(chunk));
+  const std::shared_ptr<const ByteSource> file = path_of(chunk).open_if_there(max_file_bytes());
   if (!file) return std::nullopt;
   const BlockHeader header = read_header(*file, array_);
   check_reaches(*file, array_, header.extents, box.shape());
@@ -259,7 +259,19 @@ std::optional<Chunk> N5Blocks::load(Index3 chunk, const Box3& box, ChunkPlace pl
   return out;
 }
 
-N5Blocks::N5Blocks(std::filesystem::path folder, N5Array array)
+std::optional<std::uint64_t> N5Blocks::streaming_bytes() const {
+  const auto codec = max_streamed(array_.codec);
+  return codec ? std::optional(*codec + folder_.held_bytes(max_file_bytes())) : std::nullopt;
+}
+
+/// The most bytes that the file of a block can have.
+std::uint64_t N5Blocks::max_file_bytes() const {
+  const std::uint64_t header = 8 + 4 * array_.dimensions.size();
+  return header + max_packed_bytes(product(array_.block_size) *
+                                   static_cast<std::uint64_t>(byte_size(array_.type)));
+}
+
+N5Blocks::N5Blocks(Place folder, N5Array array)
     : folder_(std::move(folder)), array_(std::move(array)), scratch_(found_scratch()) {}
 
 /// What the blocks that are there take, where they are large; else what any may take.  Blocks at
@@ -269,12 +281,12 @@ std::uint64_t N5Blocks::found_scratch() const {
       product(array_.block_size) * static_cast<std::uint64_t>(byte_size(array_.type));
   const std::uint64_t library = max_scratch(array_.codec, block);
   const Box3 grid = cells_of({{0, 0, 0}, shape_of(array_)}, block_of(array_));
-  if (block < kLargeChunk || grid.voxels() > kMaxLooks) {
-    return block + max_packed_bytes(block) + library;
+  if (block < kLargeChunk || grid.voxels() > kMaxLooks || !folder_.is_near()) {
+    return block + max_packed_bytes(block) + library + folder_.held_bytes(max_file_bytes());
   }
   std::uint64_t packed = 0;
   for_each_index(grid, [&](Index3 number) {
-    const auto file = open_if_there(path_of(number));
+    const auto file = path_of(number).open_if_there(max_file_bytes());
     if (file) packed = std::max(packed, file->size());
   });
   return block + std::min(packed, max_packed_bytes(block)) + library;

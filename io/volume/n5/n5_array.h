@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "io/codec/codec.h"
 #include "io/json/json.h"
 #include "io/json/json_fields.h"
+#include "io/store/place.h"
 #include "io/volume/label_volume.h"
 #include "io/volume/open_options.h"
 
@@ -29,7 +29,7 @@ struct N5Document {
 
 /// The attributes of a folder; empty: it has none.
 /// ERRORS: mw::Error(kInput) when the file cannot be read or is no JSON.
-[[nodiscard]] std::optional<N5Document> read_attributes(const std::filesystem::path& folder);
+[[nodiscard]] std::optional<N5Document> read_attributes(const Place& folder);
 
 /// Axes go from the fastest to the slowest, as N5 has them.
 struct N5Array {
@@ -59,22 +59,21 @@ struct N5Array {
 class N5Blocks : public ChunkSource {
  public:
   /// folder: the array's.
-  N5Blocks(std::filesystem::path folder, N5Array array);
+  N5Blocks(Place folder, N5Array array);
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override { return path_of(chunk).string(); }
   [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
                                           ChunkPlace place) const override;
   [[nodiscard]] std::uint64_t scratch_bytes() const override { return scratch_; }
-  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override {
-    return max_streamed(array_.codec);
-  }
+  [[nodiscard]] std::optional<std::uint64_t> streaming_bytes() const override;
 
  private:
-  [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;
+  [[nodiscard]] Place path_of(Index3 chunk) const;
+  [[nodiscard]] std::uint64_t max_file_bytes() const;
   [[nodiscard]] std::uint64_t found_scratch() const;
 
-  std::filesystem::path folder_;
+  Place folder_;
   N5Array array_;
   std::uint64_t scratch_;
 };

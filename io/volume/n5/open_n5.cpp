@@ -16,36 +16,22 @@
 namespace mw::io {
 namespace {
 
-namespace fs = std::filesystem;
-
 enum class Kind { kArray, kPyramid, kGroup };
 
-bool has_array(const fs::path& folder) {
+bool has_array(const Place& folder) {
   const auto attributes = read_attributes(folder);
   return attributes && attributes->json.is_object() && is_n5_array(attributes->fields());
 }
 
-Kind kind_of(const fs::path& folder) {
+Kind kind_of(const Place& folder) {
   if (has_array(folder)) return Kind::kArray;
   return has_array(folder / "s0") ? Kind::kPyramid : Kind::kGroup;
-}
-
-/// By name, so that what is found does not depend on the file system.
-std::vector<fs::path> folders_in(const fs::path& folder) {
-  std::vector<fs::path> out;
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    std::error_code ignored;
-    if (at->is_directory(ignored)) out.push_back(at->path());
-  }
-  std::sort(out.begin(), out.end());
-  return out;
 }
 
 /// Arrays and pyramids below a group, within bounds: links may lead round and round.
 class Search {
  public:
-  explicit Search(const fs::path& container) { look(container, "", 0); }
+  explicit Search(const Place& container) { look(container, "", 0); }
 
   [[nodiscard]] const std::vector<std::string>& found() const { return found_; }
   /// Whether there was more than is looked through.
@@ -63,10 +49,13 @@ class Search {
   static constexpr int kMaxDepth = 8;
   static constexpr int kMaxFolders = 5000;
 
-  void look(const fs::path& folder, const std::string& prefix, int depth) {
-    for (const fs::path& child : folders_in(folder)) {
+  void look(const Place& folder, const std::string& prefix, int depth) {
+    const auto names = folder.folders();
+    if (!names) return;
+    for (const std::string& last : *names) {
       if (++folders_ >= kMaxFolders) return;
-      const std::string name = prefix + child.filename().string();
+      const Place child = folder / last;
+      const std::string name = prefix + last;
       if (kind_of(child) != Kind::kGroup) {
         found_.push_back(name);
       } else if (depth < kMaxDepth) {
@@ -79,7 +68,11 @@ class Search {
   int folders_ = 0;
 };
 
-fs::path only_one(const fs::path& group) {
+Place only_one(const Place& group) {
+  if (!group.folders()) {
+    fail_input(group.string(), "N5", "is no array, and a server does not list what is in a group",
+               "name the array with --dataset, or give its own address");
+  }
   const Search search(group);
   if (search.found().size() == 1 && !search.gave_up()) return group / search.found()[0];
   if (search.found().empty()) {
@@ -91,36 +84,45 @@ fs::path only_one(const fs::path& group) {
 }
 
 /// "/volumes/labels" is meant from the container on.
-fs::path dataset_folder(const fs::path& container, const std::string& dataset) {
+Place dataset_folder(const Place& container, const std::string& dataset) {
   const std::size_t start = dataset.find_first_not_of('/');
-  const fs::path inside = start == dataset.npos ? fs::path() : fs::path(dataset.substr(start));
+  const std::filesystem::path inside = start == dataset.npos ? "" : dataset.substr(start);
   const bool leaves = std::find(inside.begin(), inside.end(), "..") != inside.end();
-  std::error_code ignored;
-  fs::path folder = container / inside;
-  if (!leaves && fs::is_directory(folder, ignored)) return folder;
+  Place folder = container / inside.string();
+  if (!leaves && folder.is_folder().value_or(true)) return folder;
   throw Error(ErrorKind::kUsage, text("--dataset ", dataset, ": not in ", container.string(),
                                       "; it has ", Search(container).names()));
 }
 
-fs::path level_in(const fs::path& pyramid, int level) {
+int count_levels(const Place& pyramid) {
+  int count = 1;
+  while (has_array(pyramid / text("s", count))) ++count;
+  return count;
+}
+
+Place level_in(const Place& pyramid, int level) {
   const auto folder = [&](int i) { return pyramid / text("s", i); };
   if (level >= 0 && has_array(folder(level))) return folder(level);
-  int count = 1;
-  while (has_array(folder(count))) ++count;
+  const int count = count_levels(pyramid);
   throw Error(ErrorKind::kUsage, text("--scale ", level, ": ", pyramid.string(), " has ", count,
                                       " levels, 0 (the finest) to ", count - 1));
 }
 
+Place array_or_pyramid(const Place& container, const OpenOptions& options) {
+  Place folder = options.dataset.empty() ? container : dataset_folder(container, options.dataset);
+  return kind_of(folder) == Kind::kGroup ? only_one(folder) : folder;
+}
+
 }  // namespace
 
-std::optional<N5Document> read_attributes(const fs::path& folder) {
-  const fs::path path = folder / "attributes.json";
-  if (!open_if_there(path)) return std::nullopt;
+std::optional<N5Document> read_attributes(const Place& folder) {
+  const Place path = folder / "attributes.json";
+  if (!path.is_file() && !path.open_if_there(kMaxJsonBytes)) return std::nullopt;
   return N5Document{.json = read_json(path), .file = path.string()};
 }
 
-std::optional<std::size_t> level_of(const fs::path& folder) {
-  const std::string name = folder.filename().string();
+std::optional<std::size_t> level_of(const Place& folder) {
+  const std::string name = folder.last_part();
   if (name.size() < 2 || name[0] != 's') return std::nullopt;
   std::size_t level = 0;
   const char* end = name.data() + name.size();
@@ -129,10 +131,8 @@ std::optional<std::size_t> level_of(const fs::path& folder) {
   return level;
 }
 
-fs::path find_n5_array(const fs::path& container, const OpenOptions& options) {
-  fs::path folder =
-      options.dataset.empty() ? container : dataset_folder(container, options.dataset);
-  if (kind_of(folder) == Kind::kGroup) folder = only_one(folder);
+Place find_n5_array(const Place& container, const OpenOptions& options) {
+  const Place folder = array_or_pyramid(container, options);
   if (kind_of(folder) == Kind::kPyramid) return level_in(folder, options.scale.value_or(0));
   if (options.scale.value_or(0) == 0) return folder;
   throw Error(ErrorKind::kUsage,
@@ -142,13 +142,13 @@ fs::path find_n5_array(const fs::path& container, const OpenOptions& options) {
 namespace {
 
 /// A level of a pyramid needs what is written of the finest one and of all.
-VolumeSpace space_of(const std::filesystem::path& folder, const N5Document& own,
-                     const N5Array& array, const OpenOptions& options) {
+VolumeSpace space_of(const Place& folder, const N5Document& own, const N5Array& array,
+                     const OpenOptions& options) {
   const auto level = level_of(folder);
-  if (!level) return n5_space({.own = own}, array, options);
-  const std::filesystem::path group_folder = folder / "..";
-  const auto group = read_attributes(group_folder);
-  const auto finest = *level == 0 ? std::nullopt : read_attributes(group_folder / "s0");
+  const auto above = level ? folder.parent() : std::nullopt;
+  if (!above) return n5_space({.own = own}, array, options);
+  const auto group = read_attributes(above->first);
+  const auto finest = *level == 0 ? std::nullopt : read_attributes(above->first / "s0");
   return n5_space({.own = own,
                    .group = group ? &*group : nullptr,
                    .finest = finest ? &*finest : nullptr,
@@ -158,18 +158,13 @@ VolumeSpace space_of(const std::filesystem::path& folder, const N5Document& own,
 
 }  // namespace
 
-bool is_n5(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  return std::filesystem::exists(folder / "attributes.json", ignored) ||
-         std::filesystem::exists(folder / "s0" / "attributes.json", ignored) ||
-         folder.extension() == ".n5";
+bool is_n5(const Place& folder) {
+  return (folder / "attributes.json").is_file() || (folder / "s0" / "attributes.json").is_file() ||
+         std::filesystem::path(folder.string()).extension() == ".n5";
 }
 
-std::unique_ptr<LabelVolume> open_n5(const std::filesystem::path& container,
-                                     const OpenOptions& options) {
-  std::filesystem::path folder = find_n5_array(container, options);
-  // A path with a slash at its end has no name.
-  if (!folder.has_filename()) folder = folder.parent_path();
+std::unique_ptr<LabelVolume> open_n5(const Place& container, const OpenOptions& options) {
+  const Place folder = find_n5_array(container, options);
   const auto document = read_attributes(folder);
   if (!document) fail_input(folder.string(), "N5", "attributes.json is missing");
   N5Array array = parse_n5_array(document->fields());
@@ -179,9 +174,15 @@ std::unique_ptr<LabelVolume> open_n5(const std::filesystem::path& container,
                   .format = "n5",
                   .chunk = block_of(array)};
   const VoxelCoding coding{.type = array.type, .order = ByteOrder::kBig};
-  return std::make_unique<ChunkedVolume>(
-      std::move(info), coding, 0, std::make_unique<N5Blocks>(std::move(folder), std::move(array)),
-      options.cache_bytes);
+  return std::make_unique<ChunkedVolume>(std::move(info), coding, 0,
+                                         std::make_unique<N5Blocks>(folder, std::move(array)),
+                                         options.cache_bytes);
+}
+
+std::size_t count_n5_scales(const Place& container, const OpenOptions& options) {
+  const Place folder = array_or_pyramid(container, options);
+  if (kind_of(folder) != Kind::kPyramid) return 1;
+  return static_cast<std::size_t>(count_levels(folder));
 }
 
 }  // namespace mw::io

@@ -3,10 +3,10 @@
 // Opens an array of an N5 container, looked for where the caller did not name it.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
+#include "io/store/place.h"
 #include "io/volume/n5/n5_array.h"
 #include "io/volume/open_options.h"
 
@@ -16,19 +16,21 @@ namespace mw::io {
 /// there is; of a pyramid (a group with s0, s1, ...) the level options.scale.
 /// ERRORS: mw::Error(kInput) when there is none or several, with their names; kUsage when the
 /// options name one that is not there.
-[[nodiscard]] std::filesystem::path find_n5_array(const std::filesystem::path& container,
-                                                  const OpenOptions& options);
+[[nodiscard]] Place find_n5_array(const Place& container, const OpenOptions& options);
 
 /// The number of a level by the name of its folder, "s2"; empty for other names.
-[[nodiscard]] std::optional<std::size_t> level_of(const std::filesystem::path& folder);
+[[nodiscard]] std::optional<std::size_t> level_of(const Place& folder);
 
 /// Whether the folder has an attributes.json, levels of a pyramid, or a name with .n5.
-[[nodiscard]] bool is_n5(const std::filesystem::path& folder);
+[[nodiscard]] bool is_n5(const Place& folder);
 
 /// Blocks raw or packed by gzip, zlib, bzip2, xz, lz4, blosc or zstd; what is not there has label
 /// 0. See find_n5_array for which array, and n5_space for its place. ERRORS: mw::Error(kInput)
 /// naming file and field; kUsage when there is no such dataset or level.
-[[nodiscard]] std::unique_ptr<LabelVolume> open_n5(const std::filesystem::path& folder,
-                                                   const OpenOptions& options);
+[[nodiscard]] std::unique_ptr<LabelVolume> open_n5(const Place& folder, const OpenOptions& options);
+
+/// Returns how many levels the pyramid has that open_n5() looks at; 1 for an array.
+/// ERRORS: those of find_n5_array().
+[[nodiscard]] std::size_t count_n5_scales(const Place& container, const OpenOptions& options);
 
 }  // namespace mw::io

@@ -8,8 +8,10 @@
 #include "io/chunks/chunked_volume.h"
 #include "io/codec/codec.h"
 #include "io/file/errors.h"
+#include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "io/json/json.h"
+#include "io/json/json_fields.h"
 
 namespace mw::io {
 namespace {
@@ -17,25 +19,24 @@ namespace {
 constexpr std::string_view kWayOut = "get a whole copy of the store";
 
 /// A chunk that is there in another packing must not be taken for background.
-void refuse_packed_otherwise(const std::filesystem::path& path) {
+void refuse_packed_otherwise(const Place& path) {
   for (const char* ending : {".br", ".zst", ".bz2", ".xz"}) {
-    const std::string other = path.string() + ending;
-    std::error_code ignored;
-    if (!std::filesystem::exists(other, ignored)) continue;
-    fail_input(other, {}, "chunks in this packing are not read here",
+    const Place other = path + ending;
+    if (!other.is_file()) continue;
+    fail_input(other.string(), {}, "chunks in this packing are not read here",
                "copy the volume with gzip or without packing");
   }
 }
 
 }  // namespace
 
-PrecomputedChunks::PrecomputedChunks(std::filesystem::path folder, PrecomputedScale scale)
+PrecomputedChunks::PrecomputedChunks(Place folder, PrecomputedScale scale)
     : folder_(std::move(folder)), scale_(std::move(scale)), grid_(chunk_grid(scale_)) {
   if (scale_.sharding) shards_.emplace(folder_, *scale_.sharding, grid_);
 }
 
 /// "x0-x1_y0-y1_z0-z1", voxels of the world.
-std::filesystem::path PrecomputedChunks::path_of(Index3 chunk) const {
+Place PrecomputedChunks::path_of(Index3 chunk) const {
   const Index3 size = scale_.chunk, first = scale_.offset, end = first + scale_.shape;
   const Index3 lo = first + Index3{chunk.x * size.x, chunk.y * size.y, chunk.z * size.z};
   const Index3 hi{std::min(lo.x + size.x, end.x), std::min(lo.y + size.y, end.y),
@@ -63,16 +64,17 @@ std::uint64_t PrecomputedChunks::max_encoded(Index3 shape) const {
 
 /// Servers give gzipped files under the chunk's name, tools write them with .gz behind it.
 PrecomputedChunks::Stored PrecomputedChunks::find_file(Index3 chunk, std::uint64_t wanted) const {
-  const std::filesystem::path path = path_of(chunk);
-  if (std::shared_ptr<const ByteSource> file = open_if_there(path)) {
+  const Place path = path_of(chunk);
+  if (std::shared_ptr<const ByteSource> file = path.open_if_there(max_packed_bytes(wanted))) {
     const bool gzip = is_gzip(*file);
     const bool right_size = !scale_.block && file->size() == wanted;
     return {.bytes = std::move(file), .is_gzip = gzip, .may_be_raw = right_size};
   }
-  if (std::shared_ptr<const ByteSource> file = open_if_there(path.string() + ".gz")) {
+  const Place packed = path + ".gz";
+  if (std::shared_ptr<const ByteSource> file = packed.open_if_there(max_packed_bytes(wanted))) {
     return {.bytes = std::move(file), .is_gzip = true};
   }
-  refuse_packed_otherwise(path);
+  if (path.is_near()) refuse_packed_otherwise(path);
   return {};
 }
 
@@ -125,23 +127,26 @@ std::optional<Chunk> PrecomputedChunks::load(Index3 chunk, const Box3& box,
 
 std::optional<std::uint64_t> PrecomputedChunks::streaming_bytes() const {
   if (scale_.block) return std::nullopt;
-  return *max_streamed(Codec::kGzip) + (shards_ ? shards_->scratch_bytes() : 0);
+  const std::uint64_t held = folder_.held_bytes(max_packed_bytes(max_encoded(scale_.chunk)));
+  return *max_streamed(Codec::kGzip) + (shards_ ? shards_->scratch_bytes() : held);
 }
 
 std::uint64_t PrecomputedChunks::scratch_bytes() const {
   const std::uint64_t encoded = max_encoded(scale_.chunk);
-  const std::uint64_t unpacking = max_packed_bytes(encoded) + max_scratch(Codec::kGzip, encoded);
-  return unpacking + (scale_.block ? encoded : 0) + (shards_ ? shards_->scratch_bytes() : 0);
+  const std::uint64_t packed = max_packed_bytes(encoded);
+  const std::uint64_t unpacking = packed + max_scratch(Codec::kGzip, encoded);
+  return unpacking + (scale_.block ? encoded : 0) +
+         (shards_ ? shards_->scratch_bytes() : folder_.held_bytes(packed));
 }
 
 namespace {
 
-std::filesystem::path folder_of(const std::filesystem::path& info, const PrecomputedScale& scale,
-                                bool is_trusted) {
-  std::filesystem::path folder = named_path(info, scale.key_field, scale.key, is_trusted);
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(folder, ignored)) {
-    fail_input(info.string(), scale.key_field,
+Place folder_of(const Place& volume, const PrecomputedScale& scale, bool is_trusted) {
+  const std::string info = (volume / "info").string();
+  static_cast<void>(named_path(info, scale.key_field, scale.key, is_trusted));  // checks the name
+  Place folder = volume / scale.key;
+  if (!folder.is_folder().value_or(true)) {
+    fail_input(info, scale.key_field,
                text("the folder of the chunks, ", folder.string(), ", is missing"),
                "get a whole copy of the store, or choose a scale that is there with --scale");
   }
@@ -150,14 +155,12 @@ std::filesystem::path folder_of(const std::filesystem::path& info, const Precomp
 
 }  // namespace
 
-bool is_precomputed(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(folder / "info", ignored);
+bool is_precomputed(const Place& folder) {
+  return (folder / "info").is_file();
 }
 
-std::unique_ptr<LabelVolume> open_precomputed(const std::filesystem::path& folder,
-                                              const OpenOptions& options) {
-  const std::filesystem::path path = folder / "info";
+std::unique_ptr<LabelVolume> open_precomputed(const Place& folder, const OpenOptions& options) {
+  const Place path = folder / "info";
   PrecomputedScale scale = parse_precomputed_info(read_json(path), path.string(), options);
   VolumeInfo info{.shape = scale.shape,
                   .space = scale.space,
@@ -165,10 +168,16 @@ std::unique_ptr<LabelVolume> open_precomputed(const std::filesystem::path& folde
                   .format = "precomputed",
                   .chunk = scale.chunk};
   const VoxelCoding coding{.type = scale.type, .order = ByteOrder::kLittle};
-  auto chunks = std::make_unique<PrecomputedChunks>(folder_of(path, scale, options.trust_paths),
+  auto chunks = std::make_unique<PrecomputedChunks>(folder_of(folder, scale, options.trust_paths),
                                                     std::move(scale));
   return std::make_unique<ChunkedVolume>(std::move(info), coding, 0, std::move(chunks),
                                          options.cache_bytes);
+}
+
+std::size_t count_precomputed_scales(const Place& folder, const OpenOptions& /*options*/) {
+  const Place path = folder / "info";
+  const Json info = read_json(path);
+  return JsonFields(info, path.string()).count("scales");
 }
 
 }  // namespace mw::io

@@ -3,7 +3,6 @@
 // One scale of a precomputed volume, from its `info` file.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "io/chunks/chunk.h"
 #include "io/json/json.h"
+#include "io/store/place.h"
 #include "io/volume/open_options.h"
 #include "io/volume/precomputed/compressed_segmentation.h"
 #include "io/volume/precomputed/sharding.h"
@@ -43,7 +43,7 @@ struct PrecomputedScale {
 class PrecomputedChunks : public ChunkSource {
  public:
   /// folder: the one of the scale's chunks.
-  PrecomputedChunks(std::filesystem::path folder, PrecomputedScale scale);
+  PrecomputedChunks(Place folder, PrecomputedScale scale);
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
   [[nodiscard]] std::string name_of(Index3 chunk) const override;
@@ -61,27 +61,30 @@ class PrecomputedChunks : public ChunkSource {
     bool may_be_raw = false;  ///< though it begins like gzip
   };
 
-  [[nodiscard]] std::filesystem::path path_of(Index3 chunk) const;
+  [[nodiscard]] Place path_of(Index3 chunk) const;
   [[nodiscard]] SegmentationLayout layout_of(Index3 shape) const;
   [[nodiscard]] std::uint64_t max_encoded(Index3 shape) const;
   [[nodiscard]] Stored find_file(Index3 chunk, std::uint64_t wanted) const;
   [[nodiscard]] Stored find_shard(Index3 chunk, std::uint64_t wanted) const;
   [[nodiscard]] Chunk read(const Stored& stored, std::uint64_t wanted, ChunkPlace place) const;
 
-  std::filesystem::path folder_;
+  Place folder_;
   PrecomputedScale scale_;
   Index3 grid_;
   std::optional<ShardFolder> shards_;
 };
 
 /// Whether the folder has an `info` file.
-[[nodiscard]] bool is_precomputed(const std::filesystem::path& folder);
+[[nodiscard]] bool is_precomputed(const Place& folder);
 
 /// Chunks raw or in compressed_segmentation, in files of their own or in shards, each also gzipped;
 /// what is not there has label 0.  Coordinates are in nm.  options.scale or options.dataset (a key)
 /// chooses among the scales.
 /// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such scale.
-[[nodiscard]] std::unique_ptr<LabelVolume> open_precomputed(const std::filesystem::path& folder,
+[[nodiscard]] std::unique_ptr<LabelVolume> open_precomputed(const Place& folder,
                                                             const OpenOptions& options);
+
+/// Returns how many scales the volume has.  ERRORS: those of open_precomputed().
+[[nodiscard]] std::size_t count_precomputed_scales(const Place& folder, const OpenOptions& options);
 
 }  // namespace mw::io

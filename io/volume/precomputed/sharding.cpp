@@ -161,10 +161,11 @@ std::optional<ShardEntry> entry_of(const Chunk& index, std::uint64_t chunk) {
 }
 
 /// Before 2019 a shard was two files, <shard>.index and <shard>.data.
-void refuse_old_shard(std::filesystem::path path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path.replace_extension(".index"), ignored)) return;
-  fail_input(path.string(), {}, "the shard is of an old form, an index and data apart",
+void refuse_old_shard(const Place& folder, std::string shard) {
+  shard.replace(shard.rfind(".shard"), shard.npos, ".index");
+  const Place index = folder / shard;
+  if (!index.is_file()) return;
+  fail_input(index.string(), {}, "the shard is of an old form, an index and data apart",
              "join the two to a file with .shard instead of .index");
 }
 
@@ -176,20 +177,20 @@ std::vector<std::byte> read_part(const ByteSource& file, std::uint64_t offset, s
 
 }  // namespace
 
-ShardFolder::ShardFolder(std::filesystem::path folder, const Sharding& sharding, Index3 grid)
+ShardFolder::ShardFolder(Place folder, const Sharding& sharding, Index3 grid)
     : folder_(std::move(folder)),
       sharding_(sharding),
       max_index_bytes_(sizeof(ShardEntry) * max_in_minishard(sharding, grid)),
       indices_(kKeptIndexBytes) {}
 
-std::filesystem::path ShardFolder::path_of(std::uint64_t chunk) const {
+Place ShardFolder::path_of(std::uint64_t chunk) const {
   return folder_ / shard_file_name(sharding_, position_of(sharding_, chunk).shard);
 }
 
 std::shared_ptr<const ByteSource> ShardFolder::find(std::uint64_t chunk, std::string name,
                                                     std::uint64_t max) const {
   const ShardPosition position = position_of(sharding_, chunk);
-  const std::filesystem::path path = path_of(chunk);
+  const Place path = path_of(chunk);
   const std::uint64_t number =
       position.shard << static_cast<unsigned>(sharding_.minishard_bits) | position.minishard;
   const auto index = indices_.get(number, [&] { return load_index(path, position.minishard); });
@@ -202,16 +203,13 @@ std::shared_ptr<const ByteSource> ShardFolder::find(std::uint64_t chunk, std::st
                "get a whole copy of the store");
   }
   // The index was compared with the file's size when it was read.
-  return std::make_shared<BytesPart>(std::make_shared<FileSource>(path),
-                                     shard_index_bytes(sharding_) + entry->offset, entry->size,
-                                     std::move(name));
+  return path.open_part(shard_index_bytes(sharding_) + entry->offset, entry->size, std::move(name));
 }
 
-std::optional<Chunk> ShardFolder::load_index(const std::filesystem::path& path,
-                                             std::uint64_t minishard) const {
-  const auto file = open_if_there(path);
+std::optional<Chunk> ShardFolder::load_index(const Place& path, std::uint64_t minishard) const {
+  const auto file = path.open_parts_if_there();
   if (!file) {
-    refuse_old_shard(path);
+    refuse_old_shard(folder_, path.last_part());
     return std::nullopt;
   }
   const std::uint64_t start = shard_index_bytes(sharding_);

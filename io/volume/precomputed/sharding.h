@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "io/chunks/chunked_volume.h"
+#include "io/store/place.h"
 #include "kernels/core/index.h"
 
 namespace mw::io {
@@ -71,7 +71,7 @@ struct ShardEntry {
 /// Thread safety: all members may be called from many threads.
 class ShardFolder {
  public:
-  ShardFolder(std::filesystem::path folder, const Sharding& sharding, Index3 grid);
+  ShardFolder(Place folder, const Sharding& sharding, Index3 grid);
 
   /// The chunk's bytes as the shard has them, maybe gzipped; null: there is no such chunk.
   /// name: what errors call them; max: the most that they may be.
@@ -79,15 +79,14 @@ class ShardFolder {
   [[nodiscard]] std::shared_ptr<const ByteSource> find(std::uint64_t chunk, std::string name,
                                                        std::uint64_t max) const;
   /// The shard that a chunk is in, if it is there.
-  [[nodiscard]] std::filesystem::path path_of(std::uint64_t chunk) const;
+  [[nodiscard]] Place path_of(std::uint64_t chunk) const;
   /// The most that find() takes in memory, indices that are kept included.
   [[nodiscard]] std::uint64_t scratch_bytes() const;
 
  private:
-  [[nodiscard]] std::optional<Chunk> load_index(const std::filesystem::path& path,
-                                                std::uint64_t minishard) const;
+  [[nodiscard]] std::optional<Chunk> load_index(const Place& path, std::uint64_t minishard) const;
 
-  std::filesystem::path folder_;
+  Place folder_;
   Sharding sharding_;
   std::uint64_t max_index_bytes_;  ///< of one minishard, unpacked
   mutable ChunkCache indices_;     ///< as arrays of ShardEntry, by shard and minishard

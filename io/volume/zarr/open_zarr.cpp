@@ -34,13 +34,21 @@ std::string way_out_of_image(const std::vector<std::string>& labels) {
   return "its labels are images of their own: --dataset " + listed(labels);
 }
 
+/// Whether chunks are in folders of their axes; where folders cannot be seen, the first chunk
+/// tells.
+bool has_nested_chunks(const ZarrNode& node, const ZarrArray& array) {
+  if (const auto is_folder = (node.folder / "0").is_folder()) return *is_folder;
+  if (array.shape.size() < 2) return false;
+  Place first = node.folder;
+  for (std::size_t axis = 0; axis < array.shape.size(); ++axis) first = first / "0";
+  return first.is_file();
+}
+
 ZarrArray parse_array(const ZarrNode& node) {
   if (node.version == 3) return parse_zarr_v3(node.metadata, node.metadata_file);
   ZarrArray array = parse_zarr_v2(node.metadata, node.metadata_file);
   // Early writers of OME-NGFF left the separator out; "." would find no chunk and read fill values.
-  std::error_code ignored;
-  if (!node.metadata.contains("dimension_separator") &&
-      std::filesystem::is_directory(node.folder / "0", ignored)) {
+  if (!node.metadata.contains("dimension_separator") && has_nested_chunks(node, array)) {
     array.keys.separator = '/';
   }
   return array;
@@ -121,15 +129,15 @@ std::unique_ptr<LabelVolume> open_image(const ZarrNode& group, const OpenOptions
 
 /// The level that an array is, when its parent is a multiscale image that has it.
 std::optional<Level> level_of(const ZarrNode& array) {
-  const std::filesystem::path folder =
-      std::filesystem::absolute(array.folder / "").lexically_normal().parent_path();
-  const auto parent = read_zarr_node(folder.parent_path());
+  const auto above = array.folder.parent();
+  if (!above) return std::nullopt;
+  const auto parent = read_zarr_node(above->first);
   if (!parent || parent->is_array || !has_multiscale(parent->attributes)) return std::nullopt;
   Level level{.multiscale = parse_multiscale(parent->attributes, parent->attributes_file),
               .file = parent->attributes_file};
   const auto& levels = level.multiscale.levels;
   const auto found = std::find_if(levels.begin(), levels.end(), [&](const MultiscaleLevel& one) {
-    return one.path == folder.filename().string();
+    return one.path == above->second;
   });
   if (found == levels.end()) return std::nullopt;
   level.number = static_cast<std::size_t>(found - levels.begin());
@@ -149,6 +157,10 @@ std::unique_ptr<LabelVolume> open_node(const ZarrNode& node, const OpenOptions& 
   if (node.is_array) return open_lone_array(node, options);
   if (has_multiscale(node.attributes)) return open_image(node, options);
   const std::vector<std::string> volumes = volumes_below(node.folder);
+  if (!node.folder.folders()) {
+    fail_input(node.folder.string(), {}, "is a group, and a server does not list what is in it",
+               "name the array with --dataset, or give its own address");
+  }
   if (volumes.empty()) {
     fail_input(node.folder.string(), {}, "the group has no array below it",
                "get a whole copy of the store");
@@ -160,19 +172,19 @@ std::unique_ptr<LabelVolume> open_node(const ZarrNode& node, const OpenOptions& 
   return open_node(*read_zarr_node(node.folder / volumes[0]), options);
 }
 
-std::string contents(const std::filesystem::path& folder) {
+std::string contents(const Place& folder) {
+  if (!folder.folders()) return "what the server does not list";
   const std::vector<std::string> names = volumes_below(folder);
   return names.empty() ? "no volume below it" : listed(names);
 }
 
 }  // namespace
 
-bool is_zarr(const std::filesystem::path& folder) {
-  return is_zarr_node(folder) || folder.extension() == ".zarr";
+bool is_zarr(const Place& folder) {
+  return is_zarr_node(folder) || std::filesystem::path(folder.string()).extension() == ".zarr";
 }
 
-std::unique_ptr<LabelVolume> open_zarr(const std::filesystem::path& folder,
-                                       const OpenOptions& options) {
+std::unique_ptr<LabelVolume> open_zarr(const Place& folder, const OpenOptions& options) {
   const auto path = path_in_store(folder, options.dataset);
   const auto node = path ? read_zarr_node(*path) : std::nullopt;
   if (node) return open_node(*node, options);
@@ -182,6 +194,13 @@ std::unique_ptr<LabelVolume> open_zarr(const std::filesystem::path& folder,
   }
   fail_usage(text("--dataset ", options.dataset, ": ", folder.string(),
                   " has none of this name; it has ", contents(folder)));
+}
+
+std::size_t count_zarr_scales(const Place& folder, const OpenOptions& options) {
+  const auto path = path_in_store(folder, options.dataset);
+  const auto node = path ? read_zarr_node(*path) : std::nullopt;
+  if (!node || node->is_array || !has_multiscale(node->attributes)) return 1;
+  return parse_multiscale(node->attributes, node->attributes_file).levels.size();
 }
 
 }  // namespace mw::io

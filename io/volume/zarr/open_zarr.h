@@ -3,21 +3,24 @@
 // Opens an array or a multiscale image of a Zarr store as a volume.
 #pragma once
 
-#include <filesystem>
-
+#include "io/store/place.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {
 
 /// Whether the folder is a node of a store, or is called .zarr.
-[[nodiscard]] bool is_zarr(const std::filesystem::path& folder);
+[[nodiscard]] bool is_zarr(const Place& folder);
 
 /// The folder: an array; or a group, which is a multiscale image of OME-NGFF, or holds the node
 /// that options.dataset names, or else only one array or image.  options.scale is the level of an
 /// image. Axes are z, y, x unless the metadata name them; levels of images are placed by their
 /// transformations, also when they are opened as arrays.
 /// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such dataset or scale.
-[[nodiscard]] std::unique_ptr<LabelVolume> open_zarr(const std::filesystem::path& folder,
+[[nodiscard]] std::unique_ptr<LabelVolume> open_zarr(const Place& folder,
                                                      const OpenOptions& options);
+
+/// Returns how many levels the image at the folder, or at options.dataset in it, has; 1 for what is
+/// no image.  ERRORS: mw::Error(kInput) when its metadata are damaged.
+[[nodiscard]] std::size_t count_zarr_scales(const Place& folder, const OpenOptions& options);
 
 }  // namespace mw::io

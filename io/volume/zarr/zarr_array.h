@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 #include "io/chunks/chunk.h"
 #include "io/codec/codec.h"
 #include "io/file/byte_order.h"
+#include "io/store/place.h"
 #include "io/volume/label_volume.h"
 #include "io/volume/zarr/multiscale.h"
 
@@ -105,7 +105,7 @@ void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
 /// A missing file, and a chunk that a shard does not have, are fill values: an error when those are
 /// no labels.  An index of a shard is read once and kept with the last used others.
 /// REQUIRES: the array is checked, and axes are its.
-[[nodiscard]] std::unique_ptr<ChunkSource> zarr_chunks(const std::filesystem::path& folder,
-                                                       const ZarrArray& array, const AxisMap& axes);
+[[nodiscard]] std::unique_ptr<ChunkSource> zarr_chunks(const Place& folder, const ZarrArray& array,
+                                                       const AxisMap& axes);
 
 }  // namespace mw::io

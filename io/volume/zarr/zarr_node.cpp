@@ -12,9 +12,8 @@
 namespace mw::io {
 namespace {
 
-bool has_file(const std::filesystem::path& folder, const char* name) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(folder / name, ignored);
+bool has_file(const Place& folder, const char* name) {
+  return (folder / name).is_file();
 }
 
 Json object_or_none(const Json& document, const std::string& file, const char* key) {
@@ -24,8 +23,8 @@ Json object_or_none(const Json& document, const std::string& file, const char* k
   return document[key];
 }
 
-ZarrNode read_v3(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / "zarr.json";
+ZarrNode read_v3(const Place& folder) {
+  const Place path = folder / "zarr.json";
   ZarrNode node{.folder = folder, .version = 3};
   node.metadata_file = node.attributes_file = path.string();
   node.metadata = read_json(path);
@@ -40,45 +39,44 @@ ZarrNode read_v3(const std::filesystem::path& folder) {
   return node;
 }
 
-ZarrNode read_v2(const std::filesystem::path& folder) {
+ZarrNode read_v2(const Place& folder) {
   ZarrNode node{.folder = folder, .version = 2};
   node.is_array = has_file(folder, ".zarray");
   node.metadata_file = (folder / ".zarray").string();
   node.attributes_file = (folder / ".zattrs").string();
   node.attributes = Json::object();
   if (node.is_array) {
-    node.metadata = read_json(node.metadata_file);
+    node.metadata = read_json(folder / ".zarray");
     return node;
   }
   if (!has_file(folder, ".zattrs")) return node;
-  node.attributes = read_json(node.attributes_file);
+  node.attributes = read_json(folder / ".zattrs");
   static_cast<void>(JsonFields(node.attributes, node.attributes_file));  // checks that it is one
   return node;
 }
 
 }  // namespace
 
-bool is_zarr_node(const std::filesystem::path& folder) {
+bool is_zarr_node(const Place& folder) {
   constexpr std::array kFiles{"zarr.json", ".zarray", ".zgroup", ".zattrs"};
   return std::any_of(kFiles.begin(), kFiles.end(),
                      [&](const char* file) { return has_file(folder, file); });
 }
 
-std::optional<ZarrNode> read_zarr_node(const std::filesystem::path& folder) {
+std::optional<ZarrNode> read_zarr_node(const Place& folder) {
   if (has_file(folder, "zarr.json")) return read_v3(folder);
   if (is_zarr_node(folder)) return read_v2(folder);
   return std::nullopt;
 }
 
-std::optional<std::filesystem::path> path_in_store(const std::filesystem::path& folder,
-                                                   std::string_view path) {
-  std::filesystem::path out = folder;
+std::optional<Place> path_in_store(const Place& folder, std::string_view path) {
+  Place out = folder;
   while (!path.empty()) {
     const std::size_t end = std::min(path.find('/'), path.size());
     const std::string_view part = path.substr(0, end);
     path.remove_prefix(std::min(end + 1, path.size()));
     if (part == ".." || part.find('\0') != part.npos) return std::nullopt;
-    if (!part.empty() && part != ".") out /= part;
+    if (!part.empty() && part != ".") out = out / part;
   }
   return out;
 }
@@ -88,26 +86,15 @@ namespace {
 constexpr std::size_t kMaxVolumes = 100;
 constexpr int kMaxDepth = 5;
 
-/// Folders below, sorted.
-std::vector<std::string> folders_in(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code failed;
-  for (std::filesystem::directory_iterator at(folder, failed), end; !failed && at != end;
-       at.increment(failed)) {
-    std::error_code ignored;
-    if (at->is_directory(ignored)) names.push_back(at->path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 /// Chunks are in no group, so that their folders are never listed.
-void search(const std::filesystem::path& group, const std::string& prefix, int depth,
+void search(const Place& group, const std::string& prefix, int depth,
             std::vector<std::string>& found) {
   if (depth == 0) return;
-  for (const std::string& name : folders_in(group)) {
+  const auto names = group.folders();
+  if (!names) return;
+  for (const std::string& name : *names) {
     if (found.size() >= kMaxVolumes) return;
-    const std::filesystem::path folder = group / name;
+    const Place folder = group / name;
     const auto node = read_zarr_node(folder);
     if (!node) continue;
     if (node->is_array || has_multiscale(node->attributes)) {
@@ -120,13 +107,13 @@ void search(const std::filesystem::path& group, const std::string& prefix, int d
 
 }  // namespace
 
-std::vector<std::string> volumes_below(const std::filesystem::path& group) {
+std::vector<std::string> volumes_below(const Place& group) {
   std::vector<std::string> found;
   search(group, "", kMaxDepth, found);
   return found;
 }
 
-std::vector<std::string> labels_of_image(const std::filesystem::path& group) {
+std::vector<std::string> labels_of_image(const Place& group) {
   try {
     const auto node = read_zarr_node(group / "labels");
     if (!node) return {};

@@ -3,19 +3,19 @@
 // Groups and arrays of a Zarr store, and which volumes it holds.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/json/json.h"
+#include "io/store/place.h"
 
 namespace mw::io {
 
 /// What is in a folder, with its metadata read but not looked at.
 struct ZarrNode {
-  std::filesystem::path folder;
+  Place folder;
   int version = 2;
   bool is_array = false;
   Json metadata;  ///< of an array: .zarray or zarr.json
@@ -27,26 +27,26 @@ struct ZarrNode {
 };
 
 /// Whether there is metadata of a group or an array.
-[[nodiscard]] bool is_zarr_node(const std::filesystem::path& folder);
+[[nodiscard]] bool is_zarr_node(const Place& folder);
 
 /// Version 3 where there is metadata of both; attributes without any other metadata are a group.
 /// ENSURES: empty when the folder is no node.
 /// ERRORS: mw::Error(kInput) naming the file when metadata are damaged.
-[[nodiscard]] std::optional<ZarrNode> read_zarr_node(const std::filesystem::path& folder);
+[[nodiscard]] std::optional<ZarrNode> read_zarr_node(const Place& folder);
 
 /// A folder of the store; empty, "." and "/" in front are the store itself.  Not looked up.
 /// ENSURES: empty for a path that leads out of the store.
-[[nodiscard]] std::optional<std::filesystem::path> path_in_store(
-    const std::filesystem::path& folder, std::string_view path);
+[[nodiscard]] std::optional<Place> path_in_store(const Place& folder, std::string_view path);
 
 /// Paths, below the group, of arrays and of multiscale images (whose levels are not named): sorted,
 /// the first 100, at most 5 groups deep.
+/// ENSURES: empty where the store cannot list its folders.
 /// ERRORS: mw::Error(kInput) when metadata on the way are damaged.
-[[nodiscard]] std::vector<std::string> volumes_below(const std::filesystem::path& group);
+[[nodiscard]] std::vector<std::string> volumes_below(const Place& group);
 
 /// The labels of a multiscale image, as --dataset wants them: "labels/cells".  Damaged metadata of
 /// theirs are none.
-[[nodiscard]] std::vector<std::string> labels_of_image(const std::filesystem::path& group);
+[[nodiscard]] std::vector<std::string> labels_of_image(const Place& group);
 
 /// "a, b, c", and "..." behind the first 20.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);

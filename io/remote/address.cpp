@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Addresses as text (RFC 3986).
+#include "io/remote/address.h"
+
+#include <algorithm>
+#include <array>
+
+#include "io/file/errors.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::array<std::string_view, 4> kSchemes{"https://", "http://", "gs://", "s3://"};
+
+std::string_view scheme_of(std::string_view text) {
+  for (const std::string_view scheme : kSchemes) {
+    if (text.starts_with(scheme)) return scheme;
+  }
+  return {};
+}
+
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+void append_encoded(std::string& out, char c) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  const auto byte = static_cast<unsigned char>(c);
+  out += '%';
+  out += kDigits[byte >> 4U];
+  out += kDigits[byte & 15U];
+}
+
+/// A name in a path, all but what may stand there unencoded.
+std::string encoded(std::string_view name) {
+  std::string out;
+  for (const char c : name) {
+    if (is_letter_or_digit(c) || std::string_view("-._~:@!$&'()*+,;=").find(c) != name.npos) {
+      out += c;
+    } else {
+      append_encoded(out, c);
+    }
+  }
+  return out;
+}
+
+/// What a user gave may be encoded already.
+std::string mended(std::string_view address) {
+  std::string out;
+  for (const char c : address) {
+    if (c > ' ' && c < '\x7f' &&
+        std::string_view("\"<>\\^`{|}").find(c) == std::string_view::npos) {
+      out += c;
+    } else {
+      append_encoded(out, c);
+    }
+  }
+  return out;
+}
+
+int digit_of(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::string decoded(std::string_view name) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool is_code = name[i] == '%' && i + 2 < name.size() && digit_of(name[i + 1]) >= 0 &&
+                         digit_of(name[i + 2]) >= 0;
+    out +=
+        is_code ? static_cast<char>(16 * digit_of(name[i + 1]) + digit_of(name[i + 2])) : name[i];
+    if (is_code) i += 2;
+  }
+  return out;
+}
+
+/// Where the path begins.
+std::size_t end_of_host(std::string_view address) {
+  return std::min(address.find('/', scheme_of(address).size()), address.size());
+}
+
+[[noreturn]] void fail_address(std::string_view scheme, std::string_view reason) {
+  throw Error(ErrorKind::kUsage, text("the address ", scheme, "...: ", reason));
+}
+
+/// Names with a dot in them are not covered by the certificate of BUCKET.s3.amazonaws.com.
+std::string amazon_address(std::string_view bucket, std::string_view path) {
+  if (bucket.find('.') != bucket.npos) return text("https://s3.amazonaws.com/", bucket, path);
+  return text("https://", bucket, ".s3.amazonaws.com", path);
+}
+
+}  // namespace
+
+bool is_remote_address(std::string_view address) {
+  return !scheme_of(address).empty();
+}
+
+std::string web_address(std::string_view address) {
+  const std::string_view scheme = scheme_of(address);
+  while (address.size() > scheme.size() && address.back() == '/') address.remove_suffix(1);
+  const std::size_t end = end_of_host(address);
+  const std::string_view host = address.substr(scheme.size(), end - scheme.size());
+  const std::string_view path = address.substr(end);
+  if (host.empty())
+    fail_address(scheme, "has no host or bucket; expected, such as gs://BUCKET/PATH");
+  if (host.find('@') != host.npos) {
+    fail_address(scheme,
+                 "has a user or a password in it; put them in the file .netrc of your home "
+                 "folder, or in the variable MW_HTTP_AUTHORIZATION");
+  }
+  if (address.find_first_of("?#") != address.npos) {
+    fail_address(scheme,
+                 "has a query (?) or a fragment (#), to which no names of chunks can be "
+                 "appended; give the address of the folder alone");
+  }
+  if (scheme == "gs://") return mended(text("https://storage.googleapis.com/", host, path));
+  if (scheme == "s3://") return mended(amazon_address(host, path));
+  return mended(address);
+}
+
+std::string address_below(const std::string& address, std::string_view path) {
+  std::string out = address;
+  while (!path.empty()) {
+    const std::size_t end = std::min(path.find('/'), path.size());
+    const std::string_view part = path.substr(0, end);
+    path.remove_prefix(std::min(end + 1, path.size()));
+    if (part == "..") {
+      if (const auto above = split_address(out)) out = above->first;
+    } else if (!part.empty() && part != ".") {
+      out += "/" + encoded(part);
+    }
+  }
+  return out;
+}
+
+std::optional<std::pair<std::string, std::string>> split_address(const std::string& address) {
+  const std::size_t host = end_of_host(address);
+  const std::size_t slash = address.rfind('/');
+  if (host == address.size() || slash < host) return std::nullopt;
+  return std::pair(address.substr(0, slash), decoded(address.substr(slash + 1)));
+}
+
+bool is_open_to_all(const std::string& address) {
+  if (!address.starts_with("http://")) return false;
+  const std::size_t scheme = scheme_of(address).size();
+  const std::string_view host =
+      std::string_view(address).substr(scheme, end_of_host(address) - scheme);
+  if (host == "[::1]" || host.starts_with("[::1]:")) return false;
+  const std::string_view name = host.substr(0, host.find(':'));
+  const bool is_number = name.find_first_not_of("0123456789.") == name.npos;
+  return name != "localhost" && !(is_number && name.starts_with("127."));
+}
+
+}  // namespace mw::io

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Addresses of remote volumes, and what is below and above them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace mw::io {
+
+/// Whether the text begins like one: https://, http://, gs:// or s3://.
+[[nodiscard]] bool is_remote_address(std::string_view text);
+
+/// The address of the web that it stands for, without '/' at its end: gs://BUCKET/PATH and
+/// s3://BUCKET/PATH become those at which Google and Amazon serve public buckets.  Blanks and
+/// letters beyond ASCII are percent-encoded. REQUIRES: is_remote_address(address). ERRORS:
+/// mw::Error(kUsage) without a host or a bucket, and for a user, a password, a query or a fragment
+/// in it: such parts may be secret, and addresses stand in messages and reports.
+[[nodiscard]] std::string web_address(std::string_view address);
+
+/// Appends a path, percent-encoded; its parts "." and ".." mean what they do in paths, and do not
+/// lead above the host.  REQUIRES: address is of web_address().
+[[nodiscard]] std::string address_below(const std::string& address, std::string_view path);
+
+/// The address of the folder and the name in it, decoded; nothing for the host itself.
+[[nodiscard]] std::optional<std::pair<std::string, std::string>> split_address(
+    const std::string& address);
+
+/// Whether what is sent there can be read on the way: http:// to another machine.
+[[nodiscard]] bool is_open_to_all(const std::string& address);
+
+}  // namespace mw::io

@@ -1,0 +1,546 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Requests by libcurl, and judging what comes back.
+#include "io/remote/http_client.h"
+
+#include <curl/curl.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <semaphore>
+#include <thread>
+#include <vector>
+
+#include "io/file/errors.h"
+#include "io/remote/address.h"
+
+namespace mw::io {
+/// What an attempt came to.
+struct HttpClient::Verdict {
+  enum class Kind { kDone, kRetry, kFail } kind = Kind::kDone;
+  ErrorKind error = ErrorKind::kInput;
+  std::string reason;
+  std::string way_out;
+  bool is_hopeless = false;  ///< a retry that hardly ever helps
+
+  static Verdict retry(ErrorKind error, std::string reason, std::string way_out) {
+    return {Kind::kRetry, error, std::move(reason), std::move(way_out)};
+  }
+  static Verdict failure(std::string reason, std::string way_out) {
+    return {Kind::kFail, ErrorKind::kInput, std::move(reason), std::move(way_out)};
+  }
+};
+
+namespace {
+
+constexpr long kOk = 200;
+constexpr long kPartial = 206;
+constexpr long kRangeBeyondEnd = 416;
+/// What is read of the body of an error before the connection is closed.
+constexpr std::uint64_t kMaxErrorBody = 64U << 10U;
+/// What is read in front of a part where the server sends whole files only.
+constexpr std::uint64_t kMaxUnasked = 64ULL << 20U;
+constexpr const char* kTryLater = "try again later; a run that was saved goes on with --resume";
+constexpr const char* kBrokenServer = "ask those who run the server, or copy the volume to a disk";
+
+bool is_same_letters(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return small(x) == small(y); });
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && std::strchr(" \t\r\n", text.front()) != nullptr) text.remove_prefix(1);
+  while (!text.empty() && std::strchr(" \t\r\n", text.back()) != nullptr) text.remove_suffix(1);
+  return text;
+}
+
+/// Takes a number off the front.
+bool take_number(std::string_view& text, std::uint64_t& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+bool take_letter(std::string_view& text, char letter) {
+  if (text.empty() || text.front() != letter) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+/// "bytes 0-15/1024"
+struct ContentRange {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+  std::uint64_t file_bytes = 0;
+};
+
+std::optional<ContentRange> parse_content_range(std::string_view text) {
+  constexpr std::string_view kUnit = "bytes ";
+  if (!text.starts_with(kUnit)) return std::nullopt;
+  text.remove_prefix(kUnit.size());
+  ContentRange out;
+  const bool is_whole = take_number(text, out.first) && take_letter(text, '-') &&
+                        take_number(text, out.last) && take_letter(text, '/') &&
+                        take_number(text, out.file_bytes) && text.empty();
+  const bool is_sound = out.first <= out.last && out.last < out.file_bytes;
+  return is_whole && is_sound ? std::optional(out) : std::nullopt;
+}
+
+/// Headers of an answer; those of the last one behind redirects.
+struct Headers {
+  long status = 0;
+  std::string content_range;
+  std::string content_encoding;
+  std::string content_length;
+  std::string etag;
+  std::string last_modified;
+
+  void add(std::string_view line) {
+    if (line.starts_with("HTTP/")) {
+      *this = {};
+      const std::size_t blank = std::min(line.find(' '), line.size() - 1);
+      std::from_chars(line.data() + blank + 1, line.data() + line.size(), status);
+      return;
+    }
+    const std::size_t colon = line.find(':');
+    if (colon == line.npos) return;
+    const std::string_view name = line.substr(0, colon);
+    const std::string value(trimmed(line.substr(colon + 1)));
+    if (is_same_letters(name, "content-range")) content_range = value;
+    if (is_same_letters(name, "content-encoding")) content_encoding = value;
+    if (is_same_letters(name, "content-length")) content_length = value;
+    if (is_same_letters(name, "etag")) etag = value;
+    if (is_same_letters(name, "last-modified")) last_modified = value;
+  }
+  [[nodiscard]] std::string version() const {
+    return etag.empty() || etag.starts_with("W/") ? last_modified : etag;
+  }
+  [[nodiscard]] bool is_packed() const {
+    return !content_encoding.empty() && !is_same_letters(content_encoding, "identity");
+  }
+};
+
+/// Starts the library once, before it is used by threads.
+void start_library() {
+  static const CURLcode kStarted = curl_global_init(CURL_GLOBAL_DEFAULT);
+  if (kStarted != CURLE_OK) throw Error(ErrorKind::kResource, "libcurl cannot be started");
+}
+
+/// The header with the value of the environment.
+std::string authorization_header() {
+  const char* value = std::getenv(kAuthorizationVariable);  // NOLINT(concurrency-mt-unsafe)
+  if (value == nullptr || *value == '\0') return {};
+  if (std::strpbrk(value, "\r\n") != nullptr) {
+    throw Error(ErrorKind::kUsage, text(kAuthorizationVariable, ": has more than one line"));
+  }
+  return text("Authorization: ", value);
+}
+
+/// Certificates of authorities, where the library's own path (Debian's) is not on this system.
+std::string certificates() {
+  std::error_code ignored;
+  const char* chosen = std::getenv("SSL_CERT_FILE");  // NOLINT(concurrency-mt-unsafe)
+  if (chosen != nullptr && *chosen != '\0') return chosen;
+  const char* own = curl_version_info(CURLVERSION_NOW)->cainfo;
+  if (own != nullptr && std::filesystem::exists(own, ignored)) return {};
+  for (const char* path : {"/etc/ssl/certs/ca-certificates.crt", "/etc/pki/tls/certs/ca-bundle.crt",
+                           "/etc/ssl/ca-bundle.pem", "/etc/ssl/cert.pem"}) {
+    if (std::filesystem::exists(path, ignored)) return path;
+  }
+  return {};
+}
+
+struct FreeHandle {
+  void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
+};
+struct FreeList {
+  void operator()(curl_slist* list) const { curl_slist_free_all(list); }
+};
+using Handle = std::unique_ptr<CURL, FreeHandle>;
+using HeaderList = std::unique_ptr<curl_slist, FreeList>;
+
+void append_header(HeaderList& list, const std::string& header) {
+  curl_slist* longer = curl_slist_append(list.get(), header.c_str());
+  if (longer == nullptr) throw std::bad_alloc();
+  static_cast<void>(list.release());
+  list.reset(longer);
+}
+
+}  // namespace
+
+/// Handles of the library, each of which keeps its connection open between requests.
+class HttpClient::Connections {
+ public:
+  explicit Connections(int count) : free_(count) { idle_.reserve(static_cast<std::size_t>(count)); }
+
+  /// A handle until the loan ends; waits while all are lent.
+  class Loan {
+   public:
+    explicit Loan(Connections& from) : from_(from), handle_(from.take()) {}
+    ~Loan() { from_.give_back(std::move(handle_)); }
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    [[nodiscard]] CURL* handle() const { return handle_.get(); }
+
+   private:
+    Connections& from_;
+    Handle handle_;
+  };
+
+ private:
+  [[nodiscard]] Handle take() {
+    free_.acquire();
+    const std::lock_guard lock(mutex_);
+    Handle handle;
+    if (idle_.empty()) {
+      handle.reset(curl_easy_init());
+    } else {
+      handle = std::move(idle_.back());
+      idle_.pop_back();
+    }
+    if (handle) return handle;
+    free_.release();
+    throw Error(ErrorKind::kResource, "libcurl has no memory for a connection");
+  }
+  void give_back(Handle handle) {
+    {
+      const std::lock_guard lock(mutex_);
+      idle_.push_back(std::move(handle));
+    }
+    free_.release();
+  }
+
+  std::counting_semaphore<> free_;
+  std::mutex mutex_;
+  std::vector<Handle> idle_;
+};
+
+/// A request, and what came of it last.
+struct HttpClient::Exchange {
+  const std::string& address;
+  // Of whole files.
+  std::uint64_t max = 0;
+  BodySink* sink = nullptr;
+  // Of parts.
+  std::uint64_t offset = 0;
+  std::span<std::byte> out{};
+
+  Headers headers{};
+  std::uint64_t received = 0;  ///< of the body
+  std::uint64_t taken = 0;     ///< of a part
+  bool is_too_large = false;
+  bool is_enough = false;                     ///< the rest of the body is not wanted
+  const char* lie = nullptr;                  ///< what is wrong with the answer
+  std::exception_ptr thrown{};                ///< by the sink
+  std::array<char, CURL_ERROR_SIZE> words{};  ///< the library's, about an error
+  std::chrono::seconds wanted_wait{0};        ///< by the server
+
+  [[nodiscard]] bool is_part() const { return sink == nullptr; }
+  /// The whole file's size, as the answer tells; nothing: it does not.
+  [[nodiscard]] std::optional<std::uint64_t> file_bytes() const;
+  [[nodiscard]] Verdict perform(CURL* curl, const HttpLimits& limits,
+                                const std::string& authorization);
+
+ private:
+  static std::size_t on_body(char* bytes, std::size_t one, std::size_t count,
+                             void* target) noexcept;
+  void begin();
+  [[nodiscard]] bool take(std::span<const std::byte> bytes);
+  [[nodiscard]] Verdict judge(CURLcode code) const;
+  [[nodiscard]] bool take_whole(std::span<const std::byte> bytes);
+  [[nodiscard]] bool take_part(std::span<const std::byte> bytes);
+  [[nodiscard]] bool take_unasked(std::span<const std::byte> bytes);
+  [[nodiscard]] Verdict judge_failure(CURLcode code) const;
+  [[nodiscard]] Verdict judge_status() const;
+  [[nodiscard]] Verdict judge_part() const;
+};
+
+void HttpClient::Exchange::begin() {
+  headers = {};
+  received = taken = 0;
+  is_too_large = is_enough = false;
+  lie = nullptr;
+  words[0] = '\0';
+  wanted_wait = {};
+  if (sink != nullptr) sink->restart();
+}
+
+/// False to end the transfer.
+bool HttpClient::Exchange::take(std::span<const std::byte> bytes) {
+  const std::uint64_t before = received;
+  received += bytes.size();
+  if (headers.status == kOk && !is_part()) return take_whole(bytes);
+  if (headers.status == kPartial && is_part()) return take_part(bytes);
+  if (headers.status == kOk && is_part()) {
+    received = before;
+    return take_unasked(bytes);
+  }
+  return received <= kMaxErrorBody;
+}
+
+bool HttpClient::Exchange::take_whole(std::span<const std::byte> bytes) {
+  is_too_large = received > max;
+  if (is_too_large) return false;
+  try {
+    sink->take(bytes);
+  } catch (...) {
+    thrown = std::current_exception();
+    return false;
+  }
+  return true;
+}
+
+bool HttpClient::Exchange::take_part(std::span<const std::byte> bytes) {
+  if (taken == 0) {
+    const auto range = parse_content_range(headers.content_range);
+    const std::uint64_t last = offset + out.size() - 1;
+    if (headers.is_packed()) lie = "the part is packed (Content-Encoding)";
+    if (!range) lie = "the answer does not say which part it is (Content-Range)";
+    if (range && (range->first != offset || range->last != std::min(last, range->file_bytes - 1))) {
+      lie = "the answer is another part than the one asked for (Content-Range)";
+    }
+  }
+  if (bytes.size() > out.size() - taken) lie = "the body is longer than the part asked for";
+  if (lie != nullptr) return false;
+  std::copy(bytes.begin(), bytes.end(), out.begin() + static_cast<std::ptrdiff_t>(taken));
+  taken += bytes.size();
+  return true;
+}
+
+/// Of a server that sends whole files.
+bool HttpClient::Exchange::take_unasked(std::span<const std::byte> bytes) {
+  if (headers.is_packed() || !file_bytes() || offset + out.size() > kMaxUnasked) {
+    lie = "the server sends whole files only, not parts of them (status 200 instead of 206)";
+    return false;
+  }
+  const std::uint64_t skipped = std::min<std::uint64_t>(
+      bytes.size(), received < offset ? offset - received : std::uint64_t{0});
+  received += bytes.size();
+  bytes = bytes.subspan(skipped);
+  bytes = bytes.first(std::min<std::size_t>(bytes.size(), out.size() - taken));
+  std::copy(bytes.begin(), bytes.end(), out.begin() + static_cast<std::ptrdiff_t>(taken));
+  taken += bytes.size();
+  is_enough = taken == out.size();
+  return !is_enough;
+}
+
+std::optional<std::uint64_t> HttpClient::Exchange::file_bytes() const {
+  if (headers.status == kPartial) {
+    const auto range = parse_content_range(headers.content_range);
+    return range ? std::optional(range->file_bytes) : std::nullopt;
+  }
+  std::uint64_t length = 0;
+  std::string_view text = headers.content_length;
+  if (!take_number(text, length) || !text.empty()) return std::nullopt;
+  return length;
+}
+
+HttpClient::Verdict HttpClient::Exchange::judge(CURLcode code) const {
+  if (thrown) std::rethrow_exception(thrown);
+  if (lie != nullptr) return Verdict::retry(ErrorKind::kInput, lie, kBrokenServer);
+  if (is_too_large || is_enough) return {};
+  // What follows a status that is an error does not matter.
+  if (code != CURLE_OK && !(code == CURLE_WRITE_ERROR && headers.status >= 300)) {
+    return judge_failure(code);
+  }
+  if (headers.status != kOk && headers.status != kPartial) return judge_status();
+  return is_part() ? judge_part() : Verdict{};
+}
+
+HttpClient::Verdict HttpClient::Exchange::judge_failure(CURLcode code) const {
+  const std::string reason = words[0] != '\0' ? words.data() : curl_easy_strerror(code);
+  switch (code) {
+    case CURLE_TOO_MANY_REDIRECTS:
+      return Verdict::failure("the server redirects again and again", "check the address");
+    case CURLE_UNSUPPORTED_PROTOCOL:
+    case CURLE_URL_MALFORMAT:
+      return Verdict::failure(reason, "check the address, and where it redirects");
+    case CURLE_PEER_FAILED_VERIFICATION:
+    case CURLE_SSL_CACERT_BADFILE:
+      return Verdict::failure(reason,
+                              "let SSL_CERT_FILE name the certificates that are to be trusted");
+    case CURLE_PARTIAL_FILE:
+    case CURLE_BAD_CONTENT_ENCODING:
+      return Verdict::retry(ErrorKind::kInput, reason, kBrokenServer);
+    case CURLE_COULDNT_RESOLVE_HOST:
+    case CURLE_COULDNT_RESOLVE_PROXY: {
+      Verdict verdict =
+          Verdict::retry(ErrorKind::kResource, reason, "check the address and the network");
+      verdict.is_hopeless = true;
+      return verdict;
+    }
+    default:
+      return Verdict::retry(ErrorKind::kResource, reason, kTryLater);
+  }
+}
+
+HttpClient::Verdict HttpClient::Exchange::judge_status() const {
+  const long status = headers.status;
+  const std::string reason = text("the server answers with status ", status);
+  if (status == 404 || status == 410) return {};
+  if (status == 401 || status == 403 || status == 407) {
+    return Verdict::failure(
+        reason + (status == 401 ? " (unauthorized)" : " (forbidden)"),
+        text("let ", kAuthorizationVariable,
+             " be the value of its header, such as 'Bearer TOKEN', or name the host in "
+             ".netrc; some stores say so of what is not there, too"));
+  }
+  if (status == 408 || status == 425 || status == 429 || status >= 500) {
+    return Verdict::retry(ErrorKind::kResource, reason, kTryLater);
+  }
+  if (status == kRangeBeyondEnd) {
+    Verdict verdict = Verdict::retry(ErrorKind::kInput, text("the file ends before byte ", offset),
+                                     "get a whole copy of the store");
+    verdict.is_hopeless = true;
+    return verdict;
+  }
+  return Verdict::failure(reason, "check the address");
+}
+
+HttpClient::Verdict HttpClient::Exchange::judge_part() const {
+  const auto size = file_bytes();
+  // An empty body has not been looked at.
+  if (!size || taken == 0) {
+    return Verdict::retry(ErrorKind::kInput,
+                          "the answer has no body, or does not say of which part", kBrokenServer);
+  }
+  const std::uint64_t wanted =
+      std::min<std::uint64_t>(out.size(), *size > offset ? *size - offset : 0);
+  if (taken == wanted) return {};
+  return Verdict::retry(ErrorKind::kInput,
+                        text("the body ends after ", taken, " of ", wanted, " bytes of the part"),
+                        kBrokenServer);
+}
+
+namespace {
+
+/// For libcurl: what C++ throws must not pass it.
+std::size_t on_header(char* bytes, std::size_t /*one*/, std::size_t count, void* target) noexcept {
+  try {
+    static_cast<Headers*>(target)->add({bytes, count});
+    return count;
+  } catch (...) {
+    return 0;
+  }
+}
+
+}  // namespace
+
+HttpClient::HttpClient(const HttpLimits& limits)
+    : limits_(limits), authorization_(authorization_header()) {
+  start_library();
+  connections_ = std::make_unique<Connections>(limits_.connections);
+}
+
+HttpClient::~HttpClient() = default;
+
+namespace {
+
+/// The settings of all requests.  REQUIRES: address outlives the transfer.
+void set_up(CURL* curl, const HttpLimits& limits, const std::string& address) {
+  static const std::string kCertificates = certificates();
+  const bool is_safe = address.starts_with("https://");
+  curl_easy_reset(curl);
+  curl_easy_setopt(curl, CURLOPT_URL, address.c_str());
+  curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
+  curl_easy_setopt(curl, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
+  curl_easy_setopt(curl, CURLOPT_FOLLOWLOCATION, 1L);
+  curl_easy_setopt(curl, CURLOPT_MAXREDIRS, limits.redirects);
+  curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
+  curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT, limits.connect_seconds);
+  curl_easy_setopt(curl, CURLOPT_LOW_SPEED_LIMIT, 1024L);
+  curl_easy_setopt(curl, CURLOPT_LOW_SPEED_TIME, limits.stalled_seconds);
+  curl_easy_setopt(curl, CURLOPT_USERAGENT, "mwmesh");
+  curl_easy_setopt(curl, CURLOPT_NETRC, static_cast<long>(CURL_NETRC_OPTIONAL));
+  if (!kCertificates.empty()) curl_easy_setopt(curl, CURLOPT_CAINFO, kCertificates.c_str());
+}
+
+}  // namespace
+
+std::size_t HttpClient::Exchange::on_body(char* bytes, std::size_t /*one*/, std::size_t count,
+                                          void* target) noexcept {
+  const auto arrived = std::as_bytes(std::span<const char>(bytes, count));
+  return static_cast<Exchange*>(target)->take(arrived) ? count : 0;
+}
+
+/// One attempt.  ERRORS: what the sink throws.
+HttpClient::Verdict HttpClient::Exchange::perform(CURL* curl, const HttpLimits& limits,
+                                                  const std::string& authorization) {
+  begin();
+  HeaderList lines;
+  if (!authorization.empty()) append_header(lines, authorization);
+  if (is_part()) append_header(lines, "Accept-Encoding: identity");
+  const std::string range = is_part() ? text(offset, "-", offset + out.size() - 1) : std::string();
+  set_up(curl, limits, address);
+  curl_easy_setopt(curl, CURLOPT_HTTPHEADER, lines.get());
+  curl_easy_setopt(curl, is_part() ? CURLOPT_RANGE : CURLOPT_ACCEPT_ENCODING, range.c_str());
+  curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, words.data());
+  curl_easy_setopt(curl, CURLOPT_HEADERFUNCTION, &on_header);
+  curl_easy_setopt(curl, CURLOPT_HEADERDATA, &headers);
+  curl_easy_setopt(curl, CURLOPT_WRITEFUNCTION, &on_body);
+  curl_easy_setopt(curl, CURLOPT_WRITEDATA, this);
+  const CURLcode code = curl_easy_perform(curl);
+  curl_off_t wait = 0;
+  curl_easy_getinfo(curl, CURLINFO_RETRY_AFTER, &wait);
+  wanted_wait = std::chrono::seconds(std::clamp<curl_off_t>(wait, 0, 3600));
+  // The library must not keep pointers to what goes now.
+  curl_easy_setopt(curl, CURLOPT_HTTPHEADER, nullptr);
+  curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, nullptr);
+  return judge(code);
+}
+
+HttpClient::Verdict HttpClient::attempt(Exchange& exchange) const {
+  const Connections::Loan loan(*connections_);
+  return exchange.perform(loan.handle(), limits_, authorization_);
+}
+
+void HttpClient::run(Exchange& exchange) const {
+  if (!authorization_.empty() && is_open_to_all(exchange.address)) {
+    throw Error(ErrorKind::kUsage,
+                text(exchange.address, ": ", kAuthorizationVariable,
+                     " is set, and http:// would show it on the way; use https://, or unset it"));
+  }
+  std::chrono::milliseconds wait = limits_.first_wait;
+  for (int done = 1;; ++done) {
+    const Verdict verdict = attempt(exchange);
+    if (verdict.kind == Verdict::Kind::kDone) return;
+    const int attempts = verdict.is_hopeless ? std::min(3, limits_.attempts) : limits_.attempts;
+    if (verdict.kind == Verdict::Kind::kFail || done >= attempts) {
+      const std::string tried = done > 1 ? text(" (", done, " attempts)") : "";
+      throw Error(verdict.error,
+                  text(exchange.address, ": ", verdict.reason, tried, "; ", verdict.way_out));
+    }
+    const std::chrono::milliseconds asked = std::min(exchange.wanted_wait, limits_.max_wait);
+    std::this_thread::sleep_for(std::max(wait, asked));
+    wait = std::min<std::chrono::milliseconds>(2 * wait, limits_.max_wait);
+  }
+}
+
+Presence HttpClient::get(const std::string& address, std::uint64_t max, BodySink& sink) const {
+  Exchange exchange{.address = address, .max = max, .sink = &sink};
+  run(exchange);
+  if (exchange.is_too_large) return Presence::kTooLarge;
+  return exchange.headers.status == kOk ? Presence::kThere : Presence::kAbsent;
+}
+
+std::optional<RemotePart> HttpClient::get_part(const std::string& address, std::uint64_t offset,
+                                               std::span<std::byte> out) const {
+  if (out.empty()) return RemotePart{};
+  Exchange exchange{.address = address, .offset = offset, .out = out};
+  run(exchange);
+  const long status = exchange.headers.status;
+  if (status != kOk && status != kPartial) return std::nullopt;
+  return RemotePart{.bytes = exchange.taken,
+                    .file_bytes = *exchange.file_bytes(),
+                    .version = exchange.headers.version()};
+}
+
+}  // namespace mw::io

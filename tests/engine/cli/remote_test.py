@@ -1,0 +1,256 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Remote volumes: the same meshes as from files, whatever the server does, or a clear error."""
+import gzip
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+try:
+    import numpy as np
+    import remote_stores
+except ImportError:
+    raise SystemExit(77)
+from program import PROGRAM, enter_folder, run, start
+from remote_server import Server
+
+SECRET = "Bearer 5ecret-0f-the-test"
+
+
+def mesh(volume, output="remote.vtkhdf", *more, code=0):
+    return run("mesh", volume, "-o", output, "--force", *more, code=code)
+
+
+class Remote(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        enter_folder(cls)
+        run("synth", "voronoi", "--shape", "41,36,40", "--labels", "7", "--seed", "3", "-o", "v.npy")
+        labels = np.load("v.npy").astype("<u8") + 1
+        labels[:16, :16, :16] = 0  # a chunk that is missing
+        np.save("v.npy", labels)
+        cls.digests = {}
+        for name, write in remote_stores.KINDS.items():
+            write(f"stores/{name}", labels)
+            mesh(f"stores/{name}", f"{name}.vtkhdf")
+            cls.digests[name] = run("digest", f"{name}.vtkhdf")
+        cls.labels = labels
+
+    def check(self, server, name, *more):
+        mesh(f"{server.address}/{name}", "remote.vtkhdf", *more)
+        self.assertEqual(run("digest", "remote.vtkhdf"), self.digests[name], name)
+
+    def fails(self, code, address, *pieces, command="info"):
+        done = start(command, address, "--scale", "0")
+        self.assertEqual(done.returncode, code, done.stderr)
+        for piece in pieces:
+            self.assertIn(piece, done.stderr)
+
+    def test_each_store_gives_the_mesh_of_its_files(self):
+        mesh("v.npy", "npy.vtkhdf", "--spacing", "4")
+        self.assertEqual(run("digest", "npy.vtkhdf"), self.digests["precomputed"])
+        with Server("stores") as server:
+            for name in remote_stores.KINDS:
+                with self.subTest(name):
+                    self.check(server, name)
+                    run("verify", f"{server.address}/{name}/", "remote.vtkhdf")
+
+    def test_a_fifth_of_the_requests_fails(self):
+        failed = 0
+        for seed in range(5):
+            for name in remote_stores.KINDS:
+                with self.subTest(name, seed=seed), Server("stores", 0.2, seed) as server:
+                    self.check(server, name)
+                    failed += server.failed
+        self.assertGreater(failed, 200)
+
+    def test_gzipped_files_of_a_copied_bucket(self):
+        remote_stores.precomputed("stores/packed", self.labels, ".gz")
+        with Server("stores") as server:
+            self.digests["packed"] = self.digests["precomputed"]
+            self.check(server, "packed")
+
+    def test_bodies_that_the_server_packs(self):
+        with Server("stores") as server:
+            for folder, _, files in os.walk("stores/precomputed"):
+                for file in files:
+                    path = os.path.join(folder, file)
+
+                    def packed(handler, path=path):
+                        with open(path, "rb") as content:
+                            handler.answer(200, gzip.compress(content.read()),
+                                           Content_Encoding="gzip")
+                    server.handlers[path[len("stores"):]] = packed
+            self.check(server, "precomputed")
+
+    def test_missing_metadata_and_groups(self):
+        with Server("stores") as server:
+            self.fails(3, f"{server.address}/nothing", "/nothing: format", "no metadata")
+        os.makedirs("stores/group", exist_ok=True)
+        with open("stores/group/.zgroup", "w", encoding="utf-8") as file:
+            file.write('{"zarr_format": 2}')
+        with Server("stores") as server:
+            self.fails(3, f"{server.address}/group", "--dataset")
+            done = run("info", f"{server.address}/group", "--dataset", "../zarr3", code=2)
+            self.assertEqual(done, "")
+
+    def test_a_server_that_refuses(self):
+        with Server("stores") as server:
+            server.handlers["/precomputed/info"] = lambda handler: handler.answer(403)
+            self.fails(3, f"{server.address}/precomputed", "status 403", "MW_HTTP_AUTHORIZATION",
+                       "/precomputed/info")
+
+    def test_redirects(self):
+        with Server("stores") as server:
+            def again(handler):
+                handler.answer(302, Location="/loop/info")
+
+            def there(handler):
+                handler.answer(307, Location="/precomputed/info")
+            server.handlers.update({"/loop/info": again, "/moved/info": there})
+            self.fails(3, f"{server.address}/loop", "redirects again and again")
+            self.assertLess(len(server.requests), 10)
+            self.assertIn("precomputed", run("info", f"{server.address}/moved"))
+
+    def test_bombs(self):
+        """256 MiB in a quarter of one, for a chunk that can have 48 KiB, and as metadata."""
+        bomb = gzip.compress(bytes(2**28))
+        chunk = "/precomputed/4_4_4/16-32_0-16_0-16"
+        with Server("stores") as server:
+            for path in (chunk, "/n5/attributes.json"):
+                def burst(handler):
+                    handler.answer(200, bomb, Content_Encoding="gzip")
+                server.handlers[path] = burst
+            self.fails(3, f"{server.address}/precomputed", chunk, "sends more than")
+            self.fails(3, f"{server.address}/n5", "attributes.json", "sends more than")
+
+    def test_files_that_change_between_parts(self):
+        with Server("stores") as server:
+            def ever_new(handler):
+                server.version = getattr(server, "version", 0) + 1
+                with open("stores/zarr3/c/0/0/1", "rb") as file:
+                    content = file.read()
+                first, last = map(int, handler.headers["Range"][len("bytes="):].split("-"))
+                last = min(last, len(content) - 1)
+                handler.answer(206, content[first:last + 1], ETag=f'"{server.version}"',
+                               Content_Range=f"bytes {first}-{last}/{len(content)}")
+            server.handlers["/zarr3/c/0/0/1"] = ever_new
+            self.fails(3, f"{server.address}/zarr3", "/zarr3/c/0/0/1", "changed on the server")
+
+    def test_info_lists_scales_and_reads_no_labels(self):
+        with Server("stores") as server:
+            facts = json.loads(run("info", f"{server.address}/sharded", "--json"))
+            self.assertFalse([path for path, _ in server.requests if path.endswith(".shard")])
+        self.assertEqual([row["shape_xyz"] for row in facts["scales"]],
+                         [[41, 36, 40], [21, 18, 20]])
+        self.assertEqual(facts["scales"][1]["spacing_xyz"], [8, 8, 8])
+        local = json.loads(run("info", "stores/precomputed", "--json"))
+        self.assertEqual(local["scales"], facts["scales"])
+        self.assertEqual(local["labels"]["count"], len(np.unique(self.labels)))
+
+    def test_no_server(self):
+        with Server("stores") as server:
+            address = server.address
+        done = start("info", f"{address}/zarr2", "--scale", "0")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("attempts", done.stderr)
+
+    def test_addresses_that_are_none(self):
+        for address, piece in (("https://user:pass@h/v", ".netrc"), ("https://h/v?key=1", "query"),
+                               ("gs://", "bucket"), ("s3:///", "bucket")):
+            self.fails(2, address, piece)
+            self.assertNotIn("pass@", start("info", address).stderr)
+
+    def test_authorization(self):
+        """It goes to the host of the address alone, and is not in anything that is written."""
+        environment = {**os.environ, "MW_HTTP_AUTHORIZATION": SECRET}
+        with Server("stores") as server, Server("stores") as other:
+            def guarded(handler):
+                if handler.headers.get("Authorization") != SECRET:
+                    return handler.answer(401)
+                return handler.serve("stores/precomputed/info", None)
+            moved = "/precomputed/4_4_4/16-32_0-16_0-16"
+
+            def elsewhere(handler):
+                handler.answer(302, Location=other.address + moved)
+            server.handlers.update({"/precomputed/info": guarded, moved: elsewhere})
+            done = subprocess.run(
+                [PROGRAM, "mesh", f"{server.address}/precomputed", "-o", "a.vtkhdf", "--report",
+                 "a.json", "--html", "a.html", "--keep", "a.kept", "--force"],
+                env=environment, capture_output=True, text=True, check=True)
+            self.assertTrue(all(h.get("Authorization") == SECRET for _, h in server.requests))
+            self.assertTrue(other.requests)
+            self.assertFalse(any("Authorization" in h for _, h in other.requests))
+        self.assertEqual(run("digest", "a.vtkhdf"), self.digests["precomputed"])
+        written = [done.stdout.encode(), done.stderr.encode()]
+        for path in ["a.vtkhdf", "a.json", "a.html"] + [
+                os.path.join(folder, file) for folder, _, files in os.walk("a.kept")
+                for file in files]:
+            with open(path, "rb") as file:
+                written.append(file.read())
+        self.assertFalse(any(b"5ecret" in content for content in written))
+        done = subprocess.run([PROGRAM, "info", "http://192.0.2.1/v"], env=environment,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertNotIn("5ecret", done.stderr)
+
+    def test_netrc(self):
+        os.makedirs("home", exist_ok=True)
+        with open("home/.netrc", "w", encoding="utf-8") as file:
+            file.write("machine 127.0.0.1 login me password 5ecret\n")
+        with Server("stores") as server:
+            subprocess.run([PROGRAM, "info", f"{server.address}/n5"], check=True,
+                           env={**os.environ, "HOME": os.path.abspath("home")},
+                           capture_output=True)
+            self.assertTrue(server.requests[0][1]["Authorization"].startswith("Basic "))
+
+    def long_run(self, server):
+        """A run of a few seconds that saves all the time, of a volume with no two voxels alike."""
+        return [PROGRAM, "mesh", f"{server.address}/noise", "-o", "noise.vtkhdf", "--force",
+                "--workdir", "work", "--resume", "--window", "8", "--save-every", "0", "--report",
+                "noise.json"]
+
+    def write_noise(self):
+        labels = np.random.default_rng(1).integers(1, 4, (30, 30, 30)).astype("<u8")
+        shutil.rmtree("stores/noise", ignore_errors=True)
+        shutil.rmtree("work", ignore_errors=True)
+        remote_stores.zarr3("stores/noise", labels)
+        return labels
+
+    def test_killed_and_resumed(self):
+        self.write_noise()
+        with Server("stores", 0.1) as server:
+            command = self.long_run(server)
+            for pause in (0.1, 0.3, 0.6, 0.8, 1, 1):
+                running = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+                time.sleep(pause)
+                running.kill()
+                running.wait()
+            subprocess.run(command, check=True, capture_output=True)
+        with open("noise.json", encoding="utf-8") as file:
+            self.assertGreater(json.load(file)["engine"]["windows_resumed"], 0)
+        mesh("stores/noise", "noise_file.vtkhdf", "--window", "8")
+        self.assertEqual(run("digest", "noise.vtkhdf"), run("digest", "noise_file.vtkhdf"))
+
+    def test_labels_that_changed_are_not_resumed(self):
+        labels = self.write_noise()
+        with Server("stores") as server:
+            command = self.long_run(server)
+            running = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+            time.sleep(1.2)
+            running.send_signal(signal.SIGINT)
+            self.assertEqual(running.wait(), 75)
+            labels[29, 29, 29] += 1
+            shutil.rmtree("stores/noise")
+            remote_stores.zarr3("stores/noise", labels)
+            done = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("label fingerprint was", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

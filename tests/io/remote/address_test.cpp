@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/remote/address.h"
+
+#include "tests/expect_error.h"
+#include "tests/testing.h"
+
+namespace mw::io {
+namespace {
+
+TEST(AddressTest, BucketsBecomeTheirWebAddresses) {
+  EXPECT_EQ(web_address("gs://b/p/q/"), "https://storage.googleapis.com/b/p/q");
+  EXPECT_EQ(web_address("s3://b/p q"), "https://b.s3.amazonaws.com/p%20q");
+  EXPECT_EQ(web_address("s3://b.c/p"), "https://s3.amazonaws.com/b.c/p");
+  EXPECT_EQ(web_address("https://h:8/a%20b//"), "https://h:8/a%20b");
+}
+
+TEST(AddressTest, OnlyKnownSchemesAreAddresses) {
+  for (const char* text : {"https://h", "http://h", "gs://b", "s3://b"}) {
+    EXPECT_TRUE(is_remote_address(text)) << text;
+  }
+  for (const char* text : {"", "v.npy", "https:/h", "ftp://h", "/a/https://h", "HTTP"}) {
+    EXPECT_FALSE(is_remote_address(text)) << text;
+  }
+}
+
+TEST(AddressTest, SecretsAndQueriesAreRefusedAndNotRepeated) {
+  for (const char* text :
+       {"https://u:secret@h/p", "https://h/p?key=secret", "https://h/p#secret"}) {
+    try {
+      static_cast<void>(web_address(text));
+      FAIL() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      EXPECT_EQ(std::string(error.what()).find("secret"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(AddressTest, PathsGoDownAndUpButNotAboveTheHost) {
+  EXPECT_EQ(address_below("https://h/a", "b/./c d"), "https://h/a/b/c%20d");
+  EXPECT_EQ(address_below("https://h/a", "/b?c#d%"), "https://h/a/b%3Fc%23d%25");
+  EXPECT_EQ(address_below("https://h/a/b", "../c"), "https://h/a/c");
+  EXPECT_EQ(address_below("https://h/a", "../../../c"), "https://h/c");
+  const auto above = split_address("https://h/a/c%20d");
+  ASSERT_TRUE(above.has_value());
+  EXPECT_EQ(above->first, "https://h/a");
+  EXPECT_EQ(above->second, "c d");
+  EXPECT_FALSE(split_address("https://h").has_value());
+}
+
+TEST(AddressTest, PlainHttpIsOpenBeyondThisMachine) {
+  for (const char* text : {"http://h/p", "http://127.example.org", "http://127.0.0.1.org/a"}) {
+    EXPECT_TRUE(is_open_to_all(text)) << text;
+  }
+  for (const char* text : {"https://h/p", "http://127.0.0.1:80/p", "http://localhost/p",
+                           "http://[::1]:8000/p", "http://[::1]"}) {
+    EXPECT_FALSE(is_open_to_all(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace mw::io
