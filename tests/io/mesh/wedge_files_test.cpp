@@ -81,7 +81,7 @@ TEST(WedgeFiles, AreTheSameBytesWhetherWedgesAreExpectedOrFound) {
     const auto path = dir.path() / name;
     save(mesh, path);
     const std::string found = content_of(path);
-    const auto sink = open_mesh_sink(path, Element::kTet4, Encoding::kUsual, Wedges::kSome);
+    const auto sink = open_mesh_sink(path, Element::kTet4, {.wedges = true});
     EXPECT_GE(sink->buffer_bytes(), 64U << 20) << name;
     write_mesh(mesh, *sink);
     EXPECT_TRUE(content_of(path) == found) << name;
