@@ -226,10 +226,10 @@ class HttpClient::Connections {
 /// A request, and what came of it last.
 struct HttpClient::Exchange {
   const std::string& address;
-  // Of whole files.
+  // What belongs to a request for a whole file.
   std::uint64_t max = 0;
   BodySink* sink = nullptr;
-  // Of parts.
+  // What belongs to a request for a part.
   std::uint64_t offset = 0;
   std::span<std::byte> out{};
 
@@ -315,7 +315,7 @@ bool HttpClient::Exchange::take_part(std::span<const std::byte> bytes) {
   return true;
 }
 
-/// Of a server that sends whole files.
+/// Takes the part out of a whole file, which some servers send instead.
 bool HttpClient::Exchange::take_unasked(std::span<const std::byte> bytes) {
   if (headers.is_packed() || !file_bytes() || offset + out.size() > kMaxUnasked) {
     lie = "the server sends whole files only, not parts of them (status 200 instead of 206)";

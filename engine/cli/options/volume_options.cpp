@@ -160,7 +160,7 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
 void add_input_option(OptionSet& options, std::filesystem::path& path) {
   options.add({.name = "input",
                .value = "INPUT",
-               .help = "labelled volume: a file or a folder; raw with --shape and --dtype",
+               .help = "labelled volume: file, folder or address; raw with --shape and --dtype",
                .group = kInputGroup,
                .flags = "INPUT,--input",
                .required = true,
