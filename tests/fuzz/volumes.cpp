@@ -23,14 +23,14 @@ namespace {
 
 using Opened = std::unique_ptr<io::LabelVolume>;
 using OpenFile = Opened (*)(std::unique_ptr<io::ByteSource>, const io::OpenOptions&);
-using OpenFolder = Opened (*)(const std::filesystem::path&, const io::OpenOptions&);
+using OpenStore = Opened (*)(const io::Place&, const io::OpenOptions&);
 
 template <OpenFile open>
 void file(Bytes bytes) {
   ends_well([&] { look_at(*open(std::make_unique<ByteFile>(bytes), {})); });
 }
 
-template <OpenFolder open>
+template <OpenStore open>
 void folder(Bytes bytes) {
   const FileTree files(bytes);
   ends_well([&] { look_at(*open(files.path(), {.cache_bytes = 1 << 20})); });

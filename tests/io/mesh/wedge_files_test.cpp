@@ -117,7 +117,7 @@ TEST(WedgeFiles, OfOtherFormatsAreRefusedAndLeaveNothing) {
       ++refused;
     }
   }
-  EXPECT_EQ(refused, 4 + 7);
+  EXPECT_EQ(refused, 6 + 9);
   const TempDir dir;
   expect_error(ErrorKind::kUsage, {"m.pvtu", "no place for cohesive wedges"},
                [&] { write_mesh(mesh, *open_mesh_pieces(dir.path() / "m.pvtu", 2)); });
