@@ -232,7 +232,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.materials, engine::parse_materials)});
   options.add({.name = "deck",
-               .help = "static: a job for CalculiX (.inp) or FEBio (.feb) that pulls the mesh",
+               .help = "static: a job for CalculiX or FEBio that pulls the mesh",
                .group = kOutputGroup,
                .fallback = "none",
                .choices = {"none", "static"},

@@ -160,7 +160,7 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
 void add_input_option(OptionSet& options, std::filesystem::path& path) {
   options.add({.name = "input",
                .value = "INPUT",
-               .help = "labelled volume: file, folder or address; raw with --shape and --dtype",
+               .help = "labelled volume: file, folder, address; raw with --shape, --dtype",
                .group = kInputGroup,
                .flags = "INPUT,--input",
                .required = true,
@@ -173,7 +173,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
   add_array_options(options, request);
   options.add({.name = "overlap",
                .value = "RULE",
-               .help = "which label a voxel of several masks gets; all: one for each set of masks",
+               .help = "the label of a voxel in several masks; all: one for each set",
                .group = kInputGroup,
                .choices = {"first", "last", "all"},
                .listed = Listed::kInHelpAll,
