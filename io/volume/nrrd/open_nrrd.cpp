@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/file/errors.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
