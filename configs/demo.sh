@@ -54,18 +54,29 @@ print_table() {
     | map(tostring) | @tsv' "$1" "$2" | awk -F '\t' '{ printf "%-26s %s\n", $1, $2 }'
 }
 
+# Shows three commands to go on with.  usage: try_next VOLUME NAME
+try_next() {
+  local mwmesh="build/release/mwmesh" volume mesh
+  volume="$(printf '%q' "$1")" mesh="$(printf '%q' "$2")"
+  echo
+  echo "Try next, in $PWD:"
+  echo "  $mwmesh surface $mesh.vtu -o 'demo/{label}.stl'   # the closed surface of each label"
+  echo "  $mwmesh mesh $volume --size 4 -o $mesh.inp   # edges of 4 voxels, for CalculiX"
+  echo "  $mwmesh mesh YOUR_VOLUME -o yours.vtu --background 0   # yours, without its label 0"
+}
+
 main() {
   local input name verdict=0 names=()
   bash "$root/configs/setup.sh" program
   input="${1:-$(find_atlas)}"
   name="demo/$(stem "$input")"
   mkdir -p demo
-  echo "demo: meshing $input"
+  echo "demo: meshing $input (half a minute for the atlas)"
   # Names of labels, where they lie beside the volume as those of the atlas do.
   [[ -f "${input%.gz}.txt" ]] && names=(--names "${input%.gz}.txt")
   "$program" mesh "$input" "${names[@]}" -o "$name.vtu" --report "$name.run.json" \
     --html "$name.html" >"$name.log"
-  echo "demo: verifying $name.vtu"
+  echo "demo: verifying $name.vtu (some seconds)"
   "$program" verify "$input" "$name.vtu" "${names[@]}" --report "$name.verify.json" \
     >>"$name.log" || verdict=$?
   [[ -s "$name.verify.json" ]] || die "verify gave no result (exit $verdict)"
@@ -77,6 +88,7 @@ main() {
   echo "reports   $PWD/$name.run.json, $PWD/$name.verify.json"
   echo "picture   $PWD/$name.png"
   echo "page      $PWD/$name.html"
+  try_next "$input" "$name"
   ((verdict == 0)) || grep '^FAIL' "$name.log" >&2
   return "$verdict"
 }

@@ -62,7 +62,7 @@ install_packages() {
   if ((EUID != 0)) && ! command -v sudo >/dev/null; then
     die "neither root nor sudo; as root: apt-get install ${missing[*]}"
   fi
-  echo "setup: installing ${missing[*]}"
+  echo "setup: installing ${missing[*]} (about a minute)"
   quietly as_root apt-get update ||
     die "apt-get update failed (no network?); these packages are missing: ${missing[*]}"
   quietly as_root apt-get install --yes --no-install-recommends "${missing[@]}" ||
@@ -73,7 +73,9 @@ build() {
   local tests=ON
   [[ "$what" == program ]] && tests=OFF
   cd "$root"
-  echo "setup: building build/release"
+  local minutes=12
+  [[ $tests == OFF ]] && minutes=3
+  echo "setup: building build/release (about $minutes minutes on two cores, when it is built anew)"
   quietly cmake --preset release -DMW_BUILD_TESTS=$tests -DMW_BUILD_BENCH=$tests || die "cmake failed (see above)"
   quietly cmake --build --preset release --parallel 2 || die "the build failed (see above)"
 }
