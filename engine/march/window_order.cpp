@@ -120,12 +120,24 @@ std::vector<Index3> WindowOrder::successors(Index3 window) const {
                                   : colour_successors(window, grid_.windows());
 }
 
-std::vector<Index3> WindowOrder::later_neighbours(Index3 window) const {
+std::vector<Index3> WindowOrder::neighbours(Index3 window) const {
   std::vector<Index3> out;
   const Box3 around{window - Index3{1, 1, 1}, window + Index3{2, 2, 2}};
   for_each_index(intersection(around, {{0, 0, 0}, grid_.windows()}), [&](Index3 w) {
-    if (rank(w) > rank(window)) out.push_back(w);
+    if (w != window) out.push_back(w);
   });
+  return out;
+}
+
+std::vector<Index3> WindowOrder::earlier_neighbours(Index3 window) const {
+  std::vector<Index3> out = neighbours(window);
+  std::erase_if(out, [&](Index3 w) { return rank(w) > rank(window); });
+  return out;
+}
+
+std::vector<Index3> WindowOrder::later_neighbours(Index3 window) const {
+  std::vector<Index3> out = neighbours(window);
+  std::erase_if(out, [&](Index3 w) { return rank(w) < rank(window); });
   return out;
 }
 

@@ -42,7 +42,8 @@ class WindowOrder {
   [[nodiscard]] std::vector<Index3> predecessors(Index3 window) const;
   [[nodiscard]] std::vector<Index3> successors(Index3 window) const;
 
-  /// Neighbours (windows that share a block) that come after this one.
+  /// Neighbours (windows that share a block) that come before and after this one.
+  [[nodiscard]] std::vector<Index3> earlier_neighbours(Index3 window) const;
   [[nodiscard]] std::vector<Index3> later_neighbours(Index3 window) const;
 
   /// Length of the longest path that ends at the window: the step at which it runs at the earliest
@@ -52,6 +53,8 @@ class WindowOrder {
   [[nodiscard]] std::int64_t steps() const;
 
  private:
+  [[nodiscard]] std::vector<Index3> neighbours(Index3 window) const;
+
   WindowGrid grid_;
   Order order_;
 };

@@ -74,7 +74,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
 void WindowVisitor::polish(const WindowOrder& order) {
   // What no later window sees is worth more sweeps, and flips of tets that are not bad
   // (bench/parameters.md, "Constants").
-  constexpr int kSweeps = 3, kSmoothSweeps = 6;
+  constexpr int kSweeps = 3, kSmoothSweeps = 5;
   constexpr double kFlipBelow = 0.7;
   optimise_.sweeps *= optimise_.surface ? kSmoothSweeps : kSweeps;
   optimise_.flip_below = kFlipBelow;
@@ -137,14 +137,15 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
     const auto voxels = static_cast<double>(grid_.window_box(window).voxels());
     options.enough_vertices = static_cast<std::size_t>(*target_reduction_ * voxels);
   }
+  OptimiseOptions polish = optimise_;
+  polish.earlier = earlier_boxes(window);
+  polish.later = later_boxes(window);
   if (optimise_.sweeps > 0) {
-    stats.optimise.moves += fit_interfaces(content.mesh, metric_, optimise_, keep_distance);
+    stats.optimise.moves += fit_interfaces(content.mesh, metric_, polish, keep_distance);
   }
   watch.lap(stats.optimise_seconds);
   stats.simplify += simplify(content.mesh, metric_, options, keep_distance);
   watch.lap(stats.simplify_seconds);
-  OptimiseOptions polish = optimise_;
-  polish.later = later_boxes(window);
   stats.optimise += optimise(content.mesh, metric_, polish, keep_distance);
   watch.lap(stats.optimise_seconds);
   if (!triangulate_ && optimise_.demands.inner == nullptr) return;
@@ -157,15 +158,23 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   watch.lap(stats.optimise_seconds);
 }
 
-/// Empty but in the last march of smooth surfaces.
-std::vector<LatticeBox> WindowVisitor::later_boxes(Index3 window) const {
+std::vector<LatticeBox> WindowVisitor::boxes_of(const std::vector<Index3>& windows) const {
   std::vector<LatticeBox> out;
-  if (!order_) return out;
-  for (const Index3 w : order_->later_neighbours(window)) {
-    const Box3 box = grid_.window_box(w);
+  for (const Index3 window : windows) {
+    const Box3 box = grid_.window_box(window);
     out.push_back({lattice_corner(box.lo), lattice_corner(box.hi)});
   }
   return out;
+}
+
+std::vector<LatticeBox> WindowVisitor::earlier_boxes(Index3 window) const {
+  if (!order_) return {};
+  return boxes_of(order_->earlier_neighbours(window));
+}
+
+std::vector<LatticeBox> WindowVisitor::later_boxes(Index3 window) const {
+  if (!order_) return {};
+  return boxes_of(order_->later_neighbours(window));
 }
 
 SteinerIds WindowVisitor::ids_of(Index3 window) const {

@@ -39,7 +39,8 @@ struct VisitStats {
 struct VisitPlan {
   /// The last march: shape is all that is left to gain, so visits optimise longer and flip more,
   /// smooth fitted interfaces, and add the inner vertices that labels demand.  The order of its
-  /// windows tells which vertices no later window will see: only these get more than one sweep.
+  /// windows tells which vertices an earlier window has seen, which wait for changes, and which
+  /// no later window will see: only these get more than one sweep.
   std::optional<WindowOrder> last = std::nullopt;
   /// Optional: adds constrained ODT with this triangulation, which many threads may ask at once.
   /// Local optimisation stays around it when there is a quality floor: tets of a Delaunay
@@ -72,6 +73,10 @@ class WindowVisitor {
 
  private:
   void polish(const WindowOrder& order);
+  [[nodiscard]] std::vector<LatticeBox> boxes_of(const std::vector<Index3>& windows) const;
+  /// The boxes of windows that come before and after this one; none unless it is the last march of
+  /// smooth surfaces.
+  [[nodiscard]] std::vector<LatticeBox> earlier_boxes(Index3 window) const;
   [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;

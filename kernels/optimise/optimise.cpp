@@ -20,41 +20,55 @@ namespace {
 /// (bench/parameters.md, "Constants").
 constexpr int kFirstNewtonSteps = 2;
 
-/// Which vertices have a turn in a sweep: all, until those of later calls are left out.
+LatticeBox box_of_star(const TetMesh& mesh, LocalVertex v) {
+  LatticeBox box{mesh.position(v), mesh.position(v)};
+  for (const LinkTriangle& t : mesh.star(v)) {
+    for (const LocalVertex w : {t.a, t.b, t.c}) {
+      if (w == mesh.infinity()) continue;
+      const Point p = mesh.position(w);
+      box.lo = {std::min(box.lo.x, p.x), std::min(box.lo.y, p.y), std::min(box.lo.z, p.z)};
+      box.hi = {std::max(box.hi.x, p.x), std::max(box.hi.y, p.y), std::max(box.hi.z, p.z)};
+    }
+  }
+  return box;
+}
+
+bool is_within(const LatticeBox& inner, const LatticeBox& outer) {
+  return inner.lo.x >= outer.lo.x && inner.lo.y >= outer.lo.y && inner.lo.z >= outer.lo.z &&
+         inner.hi.x <= outer.hi.x && inner.hi.y <= outer.hi.y && inner.hi.z <= outer.hi.z;
+}
+
+bool star_is_in_one(const TetMesh& mesh, LocalVertex v, const std::vector<LatticeBox>& boxes) {
+  const LatticeBox star = box_of_star(mesh, v);
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const LatticeBox& box) { return is_within(star, box); });
+}
+
+/// Which vertices have a turn in a sweep.
 class Turns {
  public:
-  void leave_out(const TetMesh& mesh, const std::vector<LatticeBox>& later) {
-    if (later.empty()) return;
-    has_.assign(mesh.vertex_count(), 1);
-    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
-      if (!mesh.is_alive(v)) continue;
-      const LatticeBox box = box_of_star(mesh, v);
-      const bool waits = std::any_of(later.begin(), later.end(),
-                                     [&](const LatticeBox& b) { return is_within(box, b); });
-      if (waits) has_[v] = 0;
-    }
+  /// All except those that earlier calls have seen as they are.
+  static Turns of_first_sweep(const TetMesh& mesh, const OptimiseOptions& options) {
+    return Turns(mesh, options.earlier, [&](LocalVertex v) { return mesh.version(v) == 0; });
+  }
+  /// All except those of later calls.
+  static Turns of_later_sweeps(const TetMesh& mesh, const OptimiseOptions& options) {
+    return Turns(mesh, options.later, [](LocalVertex) { return true; });
   }
   [[nodiscard]] bool has(LocalVertex v) const { return has_.empty() || has_[v] != 0; }
 
  private:
-  static LatticeBox box_of_star(const TetMesh& mesh, LocalVertex v) {
-    LatticeBox box{mesh.position(v), mesh.position(v)};
-    for (const LinkTriangle& t : mesh.star(v)) {
-      for (const LocalVertex w : {t.a, t.b, t.c}) {
-        if (w == mesh.infinity()) continue;
-        const Point p = mesh.position(w);
-        box.lo = {std::min(box.lo.x, p.x), std::min(box.lo.y, p.y), std::min(box.lo.z, p.z)};
-        box.hi = {std::max(box.hi.x, p.x), std::max(box.hi.y, p.y), std::max(box.hi.z, p.z)};
-      }
+  /// Leaves out vertices that may wait and whose stars lie in a box.
+  template <typename MayWait>
+  Turns(const TetMesh& mesh, const std::vector<LatticeBox>& boxes, MayWait may_wait) {
+    if (boxes.empty()) return;
+    has_.assign(mesh.vertex_count(), 1);
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      if (mesh.is_alive(v) && may_wait(v) && star_is_in_one(mesh, v, boxes)) has_[v] = 0;
     }
-    return box;
-  }
-  static bool is_within(const LatticeBox& inner, const LatticeBox& outer) {
-    return inner.lo.x >= outer.lo.x && inner.lo.y >= outer.lo.y && inner.lo.z >= outer.lo.z &&
-           inner.hi.x <= outer.hi.x && inner.hi.y <= outer.hi.y && inner.hi.z <= outer.hi.z;
   }
 
-  std::vector<std::uint8_t> has_;
+  std::vector<std::uint8_t> has_;  ///< empty: all have
 };
 
 /// Flips edges, but not one again that failed and did not change since.
@@ -180,10 +194,10 @@ OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOption
                        DistanceGuard* guard) {
   OptimiseStats stats;
   VolumeDebts debts;
-  Turns turns;
+  Turns turns = Turns::of_first_sweep(mesh, options);
   const bool unfolds = guard != nullptr && options.surface && options.surface->bend > 0.0;
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    if (sweep == 1) turns.leave_out(mesh, options.later);
+    if (sweep == 1) turns = Turns::of_later_sweeps(mesh, options);
     stats.flips += flip_sweep(mesh, metric, options, guard, turns);
     if (unfolds) stats.flips += unfold_sweep(mesh, metric, options, *guard, turns);
     const int newton_steps = sweep == 0 ? kFirstNewtonSteps : 1;
@@ -211,8 +225,10 @@ std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const Optimise
                      .newton_steps = 1,
                      .sizes = options.demands.sizes},
                     guard);
+  const Turns turns = Turns::of_first_sweep(mesh, options);
   std::uint64_t moves = 0;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (!turns.has(v)) continue;
     if (!mesh.is_alive(v) || !mesh.is_free(v) || !mesh.on_interface(v)) continue;
     moves += smoother.smooth(v) ? 1U : 0U;
   }

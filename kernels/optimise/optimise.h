@@ -22,6 +22,10 @@ struct LatticeBox {
 
 struct OptimiseOptions {
   int sweeps = 1;
+  /// What earlier calls of this march have seen.  The first sweep, and fit_interfaces(), leave
+  /// vertices alone whose stars lie in one of these boxes and were not changed since this window's
+  /// mesh was made: those calls have done it.
+  std::vector<LatticeBox> earlier;
   /// What later calls will see.  Sweeps after the first leave vertices alone whose stars lie in one
   /// of these boxes: those calls can do it, when more of what is around is as it will stay.
   std::vector<LatticeBox> later;

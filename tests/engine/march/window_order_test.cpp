@@ -90,19 +90,24 @@ TEST(WindowOrder, PathsAreThoseOfSharedBlocks) {
   });
 }
 
-/// Later neighbours are the windows that share a block with this one and come after it.
-TEST(WindowOrder, LaterNeighboursAreThoseOfHigherRank) {
+/// Earlier and later neighbours are the windows that share a block with this one and come before
+/// and after it.
+TEST(WindowOrder, NeighboursAreThoseOfLowerAndHigherRank) {
   for_small_orders([](const WindowOrder& order) {
     const Relation shares = by_blocks(order);
+    const auto ranks = [&](const std::vector<Index3>& windows) {
+      std::multiset<std::uint64_t> out;
+      for (Index3 v : windows) out.insert(order.rank(v));
+      return out;
+    };
     for (std::uint64_t w = 0; w < order.size(); ++w) {
-      std::set<std::uint64_t> expected, listed;
-      for (std::uint64_t v = w + 1; v < order.size(); ++v) {
-        if (shares[v][w]) expected.insert(v);
+      std::multiset<std::uint64_t> earlier, later;
+      for (std::uint64_t v = 0; v < order.size(); ++v) {
+        if (v < w && shares[w][v]) earlier.insert(v);
+        if (v > w && shares[v][w]) later.insert(v);
       }
-      const std::vector<Index3> later = order.later_neighbours(order.window(w));
-      for (Index3 v : later) listed.insert(order.rank(v));
-      EXPECT_EQ(listed, expected);
-      EXPECT_EQ(later.size(), listed.size());
+      EXPECT_EQ(ranks(order.earlier_neighbours(order.window(w))), earlier);
+      EXPECT_EQ(ranks(order.later_neighbours(order.window(w))), later);
     }
   });
 }
