@@ -47,6 +47,7 @@ Volume Volume::open(const VolumeFile& file) {
                             .dataset = file.dataset,
                             .scale = file.scale,
                             .overlap = overlap_rule(file.overlap),
+                            .object = file.object,
                             .trust_paths = file.trust_paths};
     if (file.crop) options.crop = mw::api::io_box(*file.crop);
     if (file.scale && *file.scale < 0) {

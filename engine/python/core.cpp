@@ -169,23 +169,25 @@ void add_volume(py::module_& module) {
   });
   module.def("volume_of_array", &volume_of_array);
   module.def("volume_of_region", &volume_of_region);
-  module.def("open_volume",
-             [](const std::string& path, const std::string& dataset, std::optional<int> scale,
-                std::optional<Vector> spacing, std::optional<Vector> origin,
-                const std::string& frame, std::optional<std::pair<Index, Index>> crop,
-                const std::string& overlap, bool trust_paths) {
-               VolumeFile file{.path = path,
-                               .dataset = dataset,
-                               .scale = scale,
-                               .spacing = spacing,
-                               .origin = origin,
-                               .frame = frame,
-                               .overlap = overlap,
-                               .trust_paths = trust_paths};
-               if (crop) file.crop = Box{crop->first, crop->second};
-               const py::gil_scoped_release no_gil;
-               return HeldVolume{Volume::open(file), nullptr};
-             });
+  module.def(
+      "open_volume",
+      [](const std::string& path, const std::string& dataset, std::optional<int> scale,
+         std::optional<Vector> spacing, std::optional<Vector> origin, const std::string& frame,
+         std::optional<std::pair<Index, Index>> crop, const std::string& overlap,
+         const std::vector<std::uint64_t>& object, bool trust_paths) {
+        VolumeFile file{.path = path,
+                        .dataset = dataset,
+                        .scale = scale,
+                        .spacing = spacing,
+                        .origin = origin,
+                        .frame = frame,
+                        .overlap = overlap,
+                        .trust_paths = trust_paths,
+                        .object = object};
+        if (crop) file.crop = Box{crop->first, crop->second};
+        const py::gil_scoped_release no_gil;
+        return HeldVolume{Volume::open(file), nullptr};
+      });
 }
 
 void add_options(py::module_& module) {

@@ -6,7 +6,6 @@
 #include "io/file/errors.h"
 
 namespace mw::io {
-namespace {
 
 void check_crop(std::string_view file, const Box3& crop, Index3 shape) {
   const Index3 &lo = crop.lo, &hi = crop.hi;
@@ -18,8 +17,6 @@ void check_crop(std::string_view file, const Box3& crop, Index3 shape) {
                    " x ", shape.y, " x ", shape.z,
                    " voxels; give the first voxel and the one past the last, 0 <= first < last"));
 }
-
-}  // namespace
 
 CroppedVolume::CroppedVolume(std::unique_ptr<LabelVolume> volume, const Box3& box,
                              bool moves_origin)

@@ -26,9 +26,13 @@ class CroppedVolume : public VolumeView {
   VolumeInfo info_;
 };
 
+/// ERRORS: mw::Error(kUsage) naming `file` and its shape when the box of --crop is empty or reaches
+/// outside.
+void check_crop(std::string_view file, const Box3& crop, Index3 shape);
+
 /// The part that options.crop asks for, if it does.  The origin of the options, if given, is that
 /// of the part.
-/// ERRORS: mw::Error(kUsage) naming `file` and its shape when the box is empty or reaches outside.
+/// ERRORS: those of check_crop().
 [[nodiscard]] std::unique_ptr<LabelVolume> cropped(std::unique_ptr<LabelVolume> volume,
                                                    std::string_view file,
                                                    const OpenOptions& options);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/file/byte_order.h"
 #include "io/volume/label_volume.h"
@@ -55,6 +56,9 @@ struct OpenOptions {
   std::optional<int> scale;             ///< resolution level, 0 the finest; empty: the finest
   Overlap overlap = Overlap::kRefused;  ///< of masks
   std::optional<Box3> crop;             ///< part of the volume, voxels
+  /// Labels that alone matter: all others become 0, and the volume ends around these
+  /// (open_object()), within `crop`.  Empty: all matter.
+  std::vector<RawLabel> object;
   /// Whether files that headers and metadata name may be anywhere, not only in their folder.
   bool trust_paths = false;
   std::uint64_t cache_bytes = 64ULL << 20U;  ///< of decoded chunks that a chunked volume may keep

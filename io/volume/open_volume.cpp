@@ -25,6 +25,7 @@
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/npy/open_npy.h"
 #include "io/volume/nrrd/open_nrrd.h"
+#include "io/volume/object/open_object.h"
 #include "io/volume/png/open_png.h"
 #include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw_array.h"
@@ -287,12 +288,6 @@ void check_place(const std::optional<Vector3>& spacing, const std::optional<Vect
   }
 }
 
-std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
-                                         const OpenOptions& options) {
-  check_place(options.spacing, options.origin);
-  return cropped(open_whole(path, options), path.string(), options);
-}
-
 namespace {
 
 std::size_t count_scales(const std::filesystem::path& path, const OpenOptions& options) {
@@ -319,6 +314,42 @@ std::vector<VolumeScale> scales_of(const std::filesystem::path& path, const Open
     }
   }
   return out;
+}
+
+namespace {
+
+/// The object of the options, in a box around it.
+std::unique_ptr<LabelVolume> open_object_of(const std::filesystem::path& path,
+                                            const OpenOptions& options) {
+  std::vector<VolumeScale> coarser = scales_of(path, options);
+  std::erase_if(
+      coarser, [&](const VolumeScale& scale) { return scale.number <= options.scale.value_or(0); });
+  ScaledVolume scaled{.name = path.string(),
+                      .volume = open_whole(path, options),
+                      .copies = static_cast<int>(coarser.size())};
+  scaled.open_copy = [&](int copy) {
+    OpenOptions one = options;
+    one.scale = coarser[coarser.size() - 1 - static_cast<std::size_t>(copy)].number;
+    return open_whole(path, one);
+  };
+  Box3 bounds{{0, 0, 0}, scaled.volume->info().shape};
+  if (options.crop) {
+    check_crop(path.string(), *options.crop, bounds.hi);
+    bounds = *options.crop;
+  }
+  ObjectView view = open_object(std::move(scaled), options.object, bounds);
+  OpenOptions around = options;
+  around.crop = view.box;
+  return cropped(std::move(view.volume), path.string(), around);
+}
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
+                                         const OpenOptions& options) {
+  check_place(options.spacing, options.origin);
+  if (!options.object.empty()) return open_object_of(path, options);
+  return cropped(open_whole(path, options), path.string(), options);
 }
 
 }  // namespace mw::io

@@ -284,6 +284,10 @@ void settle_keep(MeshRequest& request) {
     throw Error(ErrorKind::kUsage, std::string(keep.changed.empty() ? "--delta" : "--changed") +
                                        ": says what changed since a run, give --from as well");
   }
+  if (!keep.changed.empty() && !request.volume.object.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "--changed: says nothing where --object finds the box anew, leave it out");
+  }
   request.job.wants_delta = !request.delta.empty();
   const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
   for (Box3& box : keep.changed) box = {box.lo - first, box.hi - first};
@@ -301,6 +305,8 @@ void settle_job(MeshRequest& request) {
   store.memory = request.memory ? *request.memory : engine::default_memory_budget();
   request.volume.cache_bytes = cache_bytes(store.memory);
   job.steps = request.volume.steps;
+  const bool has_choice = job.choice.labels || job.choice.background;
+  if (!request.volume.object.empty() && !has_choice) job.choice.labels = request.volume.object;
   job.folder = request.output.parent_path();
   job.is_measured = !request.report.empty() || !request.html.empty();
   job.finds_parts = true;

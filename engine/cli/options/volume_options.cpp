@@ -186,6 +186,13 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .group = kInputGroup,
                .kind = ValueKind::kBox,
                .assign = into(request.crop, parse_box)});
+  options.add({.name = "object",
+               .value = "LIST",
+               .help = "only these labels, found by coarser scales; all others become 0",
+               .group = kInputGroup,
+               .kind = ValueKind::kLabels,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.object, parse_labels)});
   options.add({.name = "trust-paths",
                .help = "files that headers name may be outside of their folder",
                .group = kInputGroup,
@@ -219,6 +226,7 @@ io::OpenOptions open_options(const VolumeRequest& request) {
                           .scale = request.scale,
                           .overlap = request.overlap,
                           .crop = request.crop,
+                          .object = request.object,
                           .trust_paths = request.trust_paths,
                           .cache_bytes = request.cache_bytes};
   if (request.shape) {
@@ -235,7 +243,9 @@ std::uint64_t cache_bytes(std::uint64_t memory) {
 }
 
 io::LabelNames names_of(const VolumeRequest& request) {
-  return open(request)->info().names;
+  VolumeRequest all = request;
+  all.object.clear();
+  return open(all)->info().names;
 }
 
 std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request) {

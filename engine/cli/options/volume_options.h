@@ -24,6 +24,7 @@ struct VolumeRequest {
   std::optional<int> scale;
   io::Overlap overlap = io::Overlap::kRefused;
   std::optional<Box3> crop;
+  std::vector<RawLabel> object;  ///< labels that alone matter; empty: all do
   bool trust_paths = false;
   io::InputSteps steps;  ///< what is done with the labels that were opened
   /// How many bytes of unpacked chunks a chunked volume may keep.
@@ -35,7 +36,7 @@ struct VolumeRequest {
 void add_input_option(OptionSet& options, std::filesystem::path& path);
 
 /// Adds --spacing --origin --frame; --shape --dtype for raw files; --dataset --scale for files of
-/// several arrays; --overlap; --crop.
+/// several arrays; --overlap; --crop; --object.
 void add_volume_options(OptionSet& options, VolumeRequest& request);
 
 /// Adds --merge --drop-specks, which are done with the labels before all else (io::PreparedInput),

@@ -122,6 +122,21 @@ class SameMesh(InFolder):
         self.assertEqual(mwmesh.read(self.path("f.msh")).digest, self.report["digest"])
         self.assertEqual(mwmesh.read(self.path("v.vtu")).digest, self.report["digest"])
 
+    def test_meshes_an_object_alone(self):
+        wanted = int(self.labels.max())
+        alone = mwmesh.mesh(self.path("v.npy"), object=wanted)
+        self.assertEqual(list(alone.volumes()), [wanted])
+        where = np.argwhere(self.labels == wanted)
+        lo = np.maximum(where.min(0) - 4, 0)
+        box = tuple(map(slice, lo, where.max(0) + 5))
+        by_hand = np.where(self.labels == wanted, self.labels, 0)[box]
+        by_hand = mwmesh.mesh(by_hand, labels=[wanted], origin=[int(v) for v in lo[::-1]])
+        self.assertEqual(alone.digest, by_hand.digest)
+        rest = mwmesh.mesh(self.path("v.npy"), object=[wanted], background=wanted)
+        self.assertEqual(list(rest.volumes()), [0])
+        with self.assertRaisesRegex(mwmesh.InputError, "no voxel has 99"):
+            mwmesh.mesh(self.path("v.npy"), object=99)
+
     def test_crops(self):
         part = mwmesh.mesh(self.path("v.npy"), crop=((2, 3, 4), (20, 15, 16)))
         self.assertEqual(part.digest,

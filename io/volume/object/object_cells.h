@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where in a volume an object is: the cells that have voxels of its labels.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <vector>
+
+#include "io/volume/label_volume.h"
+
+namespace mw::io {
+
+/// Labels of an object, ascending.
+using ObjectLabels = std::vector<RawLabel>;
+
+/// Cells of a volume, cell c being the voxels from c * size on.
+class ObjectCells {
+ public:
+  /// REQUIRES: size positive along each axis.
+  ObjectCells(Index3 shape, Index3 size);
+
+  [[nodiscard]] Index3 size() const { return size_; }
+  /// The voxels of a cell that are in the volume.
+  [[nodiscard]] Box3 voxels(Index3 cell) const;
+  /// The cells that a box of voxels meets.  REQUIRES: box.lo not negative.
+  [[nodiscard]] Box3 met_by(const Box3& box) const { return cells_of(box, size_); }
+
+  [[nodiscard]] bool has(Index3 cell) const { return cells_.contains(key(cell)); }
+  void add(Index3 cell) { cells_.insert(key(cell)); }
+  [[nodiscard]] std::size_t count() const { return cells_.size(); }
+  /// Takes the first cell out, in raster order.  REQUIRES: count() > 0.
+  Index3 take_first();
+
+ private:
+  [[nodiscard]] std::uint64_t key(Index3 cell) const;
+
+  Index3 shape_;
+  Index3 size_;
+  std::set<std::uint64_t> cells_;
+};
+
+/// An object in a volume.
+struct FoundObject {
+  ObjectCells cells;  ///< those that have voxels of it
+  Box3 box;           ///< of its voxels
+};
+
+/// Cells of a volume that are worth their reading: its chunks where these are of a handy size.
+[[nodiscard]] Index3 cell_size(const VolumeInfo& info);
+
+/// Follows an object from some cells on, through all voxels of its labels that touch each other by
+/// a face, an edge or a corner.  What touches none of the seeds' voxels is not found.
+/// bounds: nothing outside of it is looked at.  Cost: reads each cell of the object once, and each
+/// cell that the object touches.
+/// ERRORS: mw::Error(kInput) naming a label of which no voxel was found; what reading throws.
+[[nodiscard]] FoundObject follow_object(const LabelVolume& volume, const ObjectLabels& labels,
+                                        ObjectCells seeds, const Box3& bounds);
+
+/// Calls visit(box) for the boxes of one voxel each of a coarser copy of the volume, in voxels of
+/// the volume and with one voxel of the copy around, where the copy has a voxel of the labels.
+/// bounds: in voxels of the volume.  Returns the labels that were seen, ascending.
+ObjectLabels scan_for_object(const LabelVolume& copy, Index3 shape, const ObjectLabels& labels,
+                             const Box3& bounds, const std::function<void(const Box3&)>& visit);
+
+/// The voxels of a copy of the volume that scan_for_object() looks at.
+[[nodiscard]] Box3 bounds_in_copy(const VolumeInfo& copy, Index3 shape, const Box3& bounds);
+
+}  // namespace mw::io

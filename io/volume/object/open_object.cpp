@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// From the coarsest copy to the finest.
+#include "io/volume/object/open_object.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "io/file/errors.h"
+
+namespace mw::io {
+namespace {
+
+std::string listed(const ObjectLabels& labels) {
+  std::string out;
+  for (const RawLabel label : labels) out += (out.empty() ? "" : ", ") + text(label);
+  return out;
+}
+
+[[noreturn]] void fail_not_found(const std::string& name, const ObjectLabels& wanted,
+                                 const ObjectLabels& seen, const std::string& way_out) {
+  ObjectLabels missing;
+  std::set_difference(wanted.begin(), wanted.end(), seen.begin(), seen.end(),
+                      std::back_inserter(missing));
+  fail_input(name, "--object", text("no voxel has ", listed(missing)), way_out);
+}
+
+class SeedSearch {
+ public:
+  SeedSearch(const ScaledVolume& scaled, const ObjectLabels& labels, const Box3& bounds)
+      : scaled_(scaled), labels_(labels), bounds_(bounds) {}
+
+  /// Cells of the volume around what a copy, or the volume itself, shows of the labels.
+  ObjectCells find() {
+    for (int copy = 0; copy < scaled_.copies; ++copy) {
+      if (look_through(*scaled_.open_copy(copy))) return std::move(*seeds_);
+    }
+    if (look_through(*scaled_.volume)) return std::move(*seeds_);
+    fail_not_found(scaled_.name, labels_, seen_, "`mwmesh info` lists the labels of a volume");
+  }
+
+ private:
+  bool look_through(const LabelVolume& copy) {
+    const Index3 shape = scaled_.volume->info().shape;
+    const Box3 box = bounds_in_copy(copy.info(), shape, bounds_);
+    if (static_cast<std::uint64_t>(box.voxels()) > kMostScannedVoxels) {
+      fail_not_found(scaled_.name, labels_, seen_,
+                     text("in scales of up to ", kMostScannedVoxels,
+                          " voxels; give --crop around the object"));
+    }
+    ObjectCells& seeds = seeds_.emplace(shape, cell_size(scaled_.volume->info()));
+    seen_ = scan_for_object(copy, shape, labels_, bounds_, [&](const Box3& around) {
+      for_each_index(seeds.met_by(around), [&](Index3 cell) { seeds.add(cell); });
+    });
+    return seen_ == labels_;
+  }
+
+  const ScaledVolume& scaled_;
+  const ObjectLabels& labels_;
+  Box3 bounds_;
+  ObjectLabels seen_;
+  std::optional<ObjectCells> seeds_;
+};
+
+}  // namespace
+
+ObjectView open_object(ScaledVolume scaled, ObjectLabels labels, const Box3& bounds) {
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  if (std::binary_search(labels.begin(), labels.end(), kNotTheObject)) {
+    throw Error(ErrorKind::kUsage,
+                text("--object: label ", kNotTheObject, " stands for all that is not the object"));
+  }
+  ObjectCells seeds = SeedSearch(scaled, labels, bounds).find();
+  FoundObject found = follow_object(*scaled.volume, labels, std::move(seeds), bounds);
+  const Box3 box = intersection(grown(found.box, kObjectMargin), bounds);
+  scaled.volume->drop_buffers();
+  return {std::make_unique<ObjectVolume>(std::move(scaled.volume), std::move(labels),
+                                         std::move(found.cells)),
+          box};
+}
+
+}  // namespace mw::io

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Finds an object in a volume that has coarser copies, and shows it alone.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "io/volume/object/object_volume.h"
+
+namespace mw::io {
+
+/// Voxels of a copy that are looked through at most, to find where an object is.
+inline constexpr std::uint64_t kMostScannedVoxels = std::uint64_t{1} << 32;
+
+/// A volume and its copies of lower resolution.
+struct ScaledVolume {
+  std::string name;  ///< for messages
+  std::unique_ptr<LabelVolume> volume;
+  int copies = 0;
+  /// Opens a copy, 0 the coarsest.
+  std::function<std::unique_ptr<LabelVolume>(int)> open_copy = {};
+};
+
+/// What is seen of a volume when only an object matters.
+struct ObjectView {
+  std::unique_ptr<LabelVolume> volume;  ///< as large as the whole, all but the object one label
+  Box3 box;                             ///< of the object and kObjectMargin around, in bounds
+};
+
+/// Looks through the coarsest copy that has all labels, or the volume itself, and follows them from
+/// there in the volume (follow_object()).  So parts are not found that no copy shows and that touch
+/// no part that one does.
+/// bounds: nothing outside of it is looked at.  REQUIRES: labels not empty.
+/// ERRORS: mw::Error(kUsage) for the label kNotTheObject; kInput when a label is not found, also
+/// because finer copies have more than kMostScannedVoxels; what reading throws.
+[[nodiscard]] ObjectView open_object(ScaledVolume scaled, ObjectLabels labels, const Box3& bounds);
+
+}  // namespace mw::io
