@@ -59,7 +59,7 @@ void check_interfaces(const ConnectOptions& options, const io::LabelTable& table
 
 /// Parts of fewer tets are counted apart.
 inline constexpr std::uint64_t kSmallPartTets = 20;
-/// Parts, and hinges, of which a place is told.
+/// Parts and hinges of which a place is told, and labels that are told by number.
 inline constexpr std::size_t kMostPlaces = 20;
 
 struct PartPlace {
@@ -98,6 +98,9 @@ struct ConnectFacts {
   std::uint64_t parts_after = 0;   ///< parts of the mesh with its doubled vertices
   std::uint64_t wedges = 0;        ///< between the sides of cohesive interfaces
   std::uint64_t closed = 0;        ///< facets of these whose vertices all stayed one
+  std::uint64_t labels = 0;        ///< of the mesh, before parts were left out
+  std::uint64_t stiff_labels = 0;  ///< of these: labels of whose vertices none is inside
+  std::vector<RawLabel> stiff;     ///< the first of those
 };
 
 }  // namespace mw::engine

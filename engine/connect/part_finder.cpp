@@ -34,6 +34,14 @@ bool is_plain(std::span<const StarTet> star, std::size_t inner_faces) {
   return static_cast<std::size_t>(vertices) + tets == faces + (is_closed ? 2 : 1);
 }
 
+/// True for a vertex inside a label: all faces of its tets are shared, and the tets are of one
+/// label.
+bool is_inside(std::span<const StarTet> star, std::size_t inner_faces) {
+  return 2 * inner_faces == 3 * star.size() &&
+         std::all_of(star.begin(), star.end(),
+                     [&](const StarTet& tet) { return tet.label == star[0].label; });
+}
+
 bool are_cut(const SplitRule& split, std::span<const StarTet> star, const StarPair& pair) {
   return split.any() && split.cuts(star[pair[0]].label, star[pair[1]].label);
 }
@@ -47,7 +55,8 @@ PartFinder::PartFinder(ConnectOptions options, std::filesystem::path folder,
       folder_(std::move(folder)),
       memory_bytes_(memory_bytes),
       stars_(folder_, memory_bytes_),
-      pinched_(folder_, memory_bytes_ / 2),
+      pinched_(folder_, 3 * memory_bytes_ / 8),
+      insides_(folder_, memory_bytes_ / 8),
       copied_(folder_, memory_bytes_ / 4),
       cohesive_(folder_, memory_bytes_ / 4),
       copies_(folder_),
@@ -111,13 +120,22 @@ void PartFinder::close_chunk() {
       tet_pieces_.append(std::as_bytes(std::span(&piece, 1)));
     }
   }
+  note_labels();
   tets_.clear();
   labels_.clear();
+}
+
+/// Sorts the chunk's labels.
+void PartFinder::note_labels() {
+  std::sort(labels_.begin(), labels_.end());
+  const auto end = std::unique(labels_.begin(), labels_.end());
+  for (auto label = labels_.begin(); label != end; ++label) insides_.add({*label, 0});
 }
 
 void PartFinder::find() {
   if (!tets_.empty()) close_chunk();
   each_star(stars_, [&](std::uint64_t row, std::vector<StarTet>& star) { unite_star(row, star); });
+  count_stiff_labels();
   choose_parts();
   each_star(pinched_,
             [&](std::uint64_t row, std::vector<StarTet>& star) { look_at_pinched(row, star); });
@@ -153,10 +171,28 @@ void PartFinder::unite_star(std::uint64_t row, std::vector<StarTet>& star) {
     unite(&Piece::parent, one, other);
     if (!cuts) unite(&Piece::split_parent, one, other);
   });
+  if (is_inside(star, inner_faces)) insides_.add({star[0].label, 1});
   if (!is_cut && sets.count() == 1 && is_plain(star, inner_faces)) return;
   for (const StarTet& tet : star) {
     pinched_.add({row, tet.others[0], tet.others[1], tet.others[2], tet.tet, tet.label});
   }
+}
+
+void PartFinder::count_stiff_labels() {
+  std::array<std::uint64_t, 2> last{};  // the last record of a label is 1 if any is
+  const auto close = [&] {
+    ++facts_.labels;
+    if (last[1] != 0) return;
+    ++facts_.stiff_labels;
+    if (facts_.stiff.size() < kMostPlaces) facts_.stiff.push_back(last[0]);
+  };
+  bool is_first = true;
+  insides_.each([&](const std::array<std::uint64_t, 2>& record) {
+    if (!is_first && record[0] != last[0]) close();
+    is_first = false;
+    last = record;
+  });
+  if (!is_first) close();
 }
 
 void PartFinder::choose_parts() {

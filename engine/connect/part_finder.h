@@ -67,10 +67,12 @@ class PartFinder {
   using StarRecord = std::array<std::uint64_t, 6>;
 
   void close_chunk();
+  void note_labels();
   [[nodiscard]] std::vector<std::uint32_t> pieces_of_chunk();
   void each_star(io::ExternalSort<6>& records,
                  const std::function<void(std::uint64_t, std::vector<StarTet>&)>& visit);
   void unite_star(std::uint64_t row, std::vector<StarTet>& star);
+  void count_stiff_labels();
   void choose_parts();
   void count_parts();
   void look_at_pinched(std::uint64_t row, std::vector<StarTet>& star);
@@ -94,6 +96,7 @@ class PartFinder {
   std::vector<Piece> pieces_;
   io::ExternalSort<6> stars_;
   io::ExternalSort<6> pinched_;
+  io::ExternalSort<2> insides_;   ///< label; 1 for a vertex inside, 0 for a tet
   io::ExternalSort<3> copied_;    ///< tet, row, copy
   io::ExternalSort<4> cohesive_;  ///< rows of a facet, ascending; 1 if a vertex of it is doubled
   io::ScratchFile copies_;

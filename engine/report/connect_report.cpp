@@ -30,7 +30,8 @@ Json hinge_json(const engine::HingePlace& hinge, bool is_signed) {
 }  // namespace
 
 Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
-  Json others = Json::array(), hinges = Json::array();
+  Json others = Json::array(), hinges = Json::array(), stiff = Json::array();
+  for (const RawLabel label : facts.stiff) stiff.push_back(label_json(label, labels_signed));
   for (const engine::PartPlace& part : facts.others) {
     others.push_back(other_json(part, labels_signed));
   }
@@ -47,6 +48,8 @@ Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
           {"hinge_vertices", facts.hinge_vertices},
           {"hinge_edges", facts.hinge_edges},
           {"hinges", std::move(hinges)},
+          {"no_vertex_inside",
+           {{"labels", facts.stiff_labels}, {"of", facts.labels}, {"first", std::move(stiff)}}},
           {"doubled",
            {{"vertices", facts.doubled},
             {"copies", facts.copies},
@@ -80,6 +83,12 @@ std::string connect_text(const engine::ConnectFacts& facts) {
     if (facts.closed > 0) add(io::text("none on ", facts.closed, " facets that cannot open"));
   }
   return out;
+}
+
+std::string stiff_text(const engine::ConnectFacts& facts) {
+  if (facts.stiff_labels == 0) return "";
+  return io::text(facts.stiff_labels, " of ", facts.labels,
+                  " labels have no vertex inside and are too stiff when they bend: see --across");
 }
 
 }  // namespace mw::report

@@ -17,4 +17,7 @@ namespace mw::report {
 /// mesh.
 [[nodiscard]] std::string connect_text(const engine::ConnectFacts& facts);
 
+/// How many labels have no vertex inside; empty where all have one.
+[[nodiscard]] std::string stiff_text(const engine::ConnectFacts& facts);
+
 }  // namespace mw::report

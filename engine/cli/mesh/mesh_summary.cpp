@@ -71,8 +71,11 @@ void print_count(const report::FinishedRun& run) {
 }
 
 void print_parts(const report::FinishedRun& run) {
-  const std::string parts = run.connected ? report::connect_text(*run.connected) : "";
+  if (!run.connected) return;
+  const std::string parts = report::connect_text(*run.connected);
   if (!parts.empty()) std::cout << "parts       " << parts << "\n";
+  const std::string stiff = report::stiff_text(*run.connected);
+  if (!stiff.empty()) std::cout << "stiff       " << stiff << "\n";
 }
 
 void print_across(const report::FinishedRun& run) {

@@ -112,6 +112,53 @@ TEST(ConnectedSink, CountsPartsAndHinges) {
 }
 
 /// Parts that were left out hide no hinge of those that are left, and make none.
+/// Labels of the mesh, each with whether a vertex has tets of that label alone and lies on no face
+/// of a single tet.
+std::map<RawLabel, bool> labels_with_insides(const io::MeshData& mesh) {
+  std::map<std::set<std::uint64_t>, int> faces;
+  std::map<std::uint64_t, std::set<RawLabel>> around;
+  std::map<RawLabel, bool> out;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    out.try_emplace(mesh.labels[t], false);
+    for (const std::uint64_t row : mesh.tets[t]) {
+      around[row].insert(mesh.labels[t]);
+      std::set<std::uint64_t> face(mesh.tets[t].begin(), mesh.tets[t].end());
+      face.erase(row);
+      ++faces[face];
+    }
+  }
+  std::set<std::uint64_t> outside;
+  for (const auto& [face, tets] : faces) {
+    if (tets == 1) outside.insert(face.begin(), face.end());
+  }
+  for (const auto& [row, labels] : around) {
+    if (labels.size() == 1 && !outside.contains(row)) out[*labels.begin()] = true;
+  }
+  return out;
+}
+
+TEST(ConnectedSink, CountsLabelsWithoutAVertexInside) {
+  std::size_t all = 0, stiff = 0;
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    SCOPED_TRACE(seed);
+    const io::MeshData mesh = random_mesh(seed);
+    if (mesh.tets.empty()) continue;
+    std::vector<RawLabel> expected;
+    const std::map<RawLabel, bool> labels = labels_with_insides(mesh);
+    for (const auto& [label, has_inside] : labels) {
+      if (!has_inside) expected.push_back(label);
+    }
+    const ConnectFacts facts = connect(mesh, {}).facts;
+    EXPECT_EQ(facts.labels, labels.size());
+    EXPECT_EQ(facts.stiff_labels, expected.size());
+    EXPECT_EQ(facts.stiff, expected);
+    all += labels.size();
+    stiff += expected.size();
+  }
+  EXPECT_GT(stiff, 50U);
+  EXPECT_GT(all - stiff, 50U);
+}
+
 TEST(ConnectedSink, LeavesPartsOut) {
   std::size_t left_out = 0;
   for (unsigned seed = 0; seed < 80; ++seed) {

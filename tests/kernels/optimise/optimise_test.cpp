@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smoothing and whole sweeps: nothing gets worse, nothing leaves its place, and they end.
 #include "kernels/optimise/optimise.h"
+
+#include <algorithm>
+#include <array>
+
 #include "kernels/optimise/smooth.h"
 #include "kernels/optimise/unfold.h"
 #include "kernels/quality/mesh_quality.h"
@@ -162,6 +166,54 @@ TEST(Optimise, LeavesFittedVerticesWhereTheyAreWhenToldTo) {
     EXPECT_GT(moved[0], 20);
     EXPECT_EQ(moved[1] > 20, moves_fitted);
     EXPECT_EQ(moved[1] > 0, moves_fitted);
+  }
+}
+
+bool star_is_below(const TetMesh& mesh, LocalVertex v, std::int32_t z) {
+  const auto star = mesh.star(v);
+  return mesh.position(v).z <= z &&
+         std::all_of(star.begin(), star.end(), [&](const LinkTriangle& t) {
+           const std::array others{t.a, t.b, t.c};
+           return std::all_of(others.begin(), others.end(), [&](LocalVertex w) {
+             return w == mesh.infinity() || mesh.position(w).z <= z;
+           });
+         });
+}
+
+/// Where an earlier window has fitted and nothing was contracted since, the fit and the first sweep
+/// have nothing to do; a contraction gives them work again, and a second sweep leaves nothing out.
+TEST(Optimise, LeavesWhatAnEarlierWindowHasSeen) {
+  const SmallVolume volume = volume_from({12, 12, 12}, 2, [](auto x, auto y, auto z) {
+    const auto d = (x - 6) * (x - 6) + (y - 6) * (y - 6);
+    return d + (z - 6) * (z - 6) < 20 ? 1 : 0;
+  });
+  const std::int32_t half = 6 * kUnitsPerVoxel, end = 12 * kUnitsPerVoxel;
+  const OptimiseOptions options{.earlier = {{{0, 0, 0}, {end, end, half}}},
+                                .flip_below = 0.0,
+                                .smooth_below = 1.0,
+                                .surface = SurfaceWeights{.bend = 0.0}};
+  for (const bool is_contracted : {false, true}) {
+    for (const int sweeps : {0, 1, 2}) {
+      GuardedMesh guarded(volume, 1.5);
+      if (is_contracted) simplify(guarded.mesh, Metric(), {.enough_vertices = 900}, &guarded.guard);
+      const TetMesh before = guarded.mesh;
+      OptimiseOptions now = options;
+      now.sweeps = sweeps;
+      if (sweeps == 0) fit_interfaces(guarded.mesh, Metric(), now, &guarded.guard);
+      optimise(guarded.mesh, Metric(), now, &guarded.guard);
+      int seen = 0, others = 0;
+      for (LocalVertex v = 0; v < before.vertex_count(); ++v) {
+        if (!before.is_alive(v) || guarded.mesh.position(v) == before.position(v)) continue;
+        const bool is_seen = star_is_below(before, v, half) && before.version(v) == 0;
+        ++(is_seen ? seen : others);
+      }
+      EXPECT_GT(others, 20);
+      if (sweeps < 2) {
+        EXPECT_EQ(seen, 0);
+      } else if (!is_contracted) {
+        EXPECT_GT(seen, 20);
+      }
+    }
   }
 }
 
