@@ -17,10 +17,37 @@ std::uint64_t nodes_of_cells(const MeshHeader& header, Element element) {
   return node_count(element) * header.tets + wedge_node_count(element) * header.wedges.count;
 }
 
+// Lists of groups and data sets are filled one by one: when memory runs out within a braced list of
+// them, GCC 12 destroys members that were never made.
+
 /// A data set of one number.
 Hdf5DataSet one(Hdf5Output& output, const char* name, std::uint64_t count) {
   return output.add({.name = name, .kind = Hdf5Kind::kInt64, .shape = {1}},
                     std::as_bytes(std::span(&count, 1)));
+}
+
+/// Adds a data set that is in the file.
+void add_set(Hdf5Group& group, std::string name, Hdf5Kind kind, std::vector<std::uint64_t> shape,
+             std::uint64_t address) {
+  Hdf5DataSet& set = group.sets.emplace_back();
+  set.name = std::move(name);
+  set.kind = kind;
+  set.shape = std::move(shape);
+  set.address = address;
+}
+
+Hdf5Group cell_data(const ColumnPlaces& places, const MeshHeader& header) {
+  const std::uint64_t cells = cells_of(header);
+  Hdf5Group out{.name = "CellData"};
+  add_set(out, "label", header.labels_signed ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64, {cells},
+          places.labels);
+  for (std::size_t i = 0; i < header.values.size(); ++i) {
+    add_set(out, header.values[i], Hdf5Kind::kFloat64, {cells}, places.values[i]);
+  }
+  if (header.wedges.count > 0) {
+    add_set(out, kCohesive, Hdf5Kind::kUint64, {cells}, places.cohesive);
+  }
+  return out;
 }
 
 }  // namespace
@@ -43,25 +70,17 @@ ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, const MeshHeader& h
 void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element element,
                    const MeshHeader& header, std::uint64_t vertices) {
   const std::uint64_t cells = cells_of(header), corners = nodes_of_cells(header, element);
-  Hdf5Group grid{.name = "VTKHDF",
-                 .attributes = {{"Version", std::vector<std::int64_t>{1, 0}},
-                                {"Type", std::string("UnstructuredGrid")}}};
-  grid.sets = {{"Points", Hdf5Kind::kFloat64, {vertices, 3}, places.points},
-               {"Connectivity", Hdf5Kind::kInt64, {corners}, places.connectivity},
-               {"Offsets", Hdf5Kind::kInt64, {cells + 1}, places.offsets},
-               {"Types", Hdf5Kind::kUint8, {cells}, places.types},
-               one(output, "NumberOfPoints", vertices),
-               one(output, "NumberOfCells", cells),
-               one(output, "NumberOfConnectivityIds", corners)};
-  const Hdf5Kind label = header.labels_signed ? Hdf5Kind::kInt64 : Hdf5Kind::kUint64;
-  grid.groups = {{.name = "CellData", .sets = {{"label", label, {cells}, places.labels}}}};
-  for (std::size_t i = 0; i < header.values.size(); ++i) {
-    grid.groups[0].sets.push_back(
-        {header.values[i], Hdf5Kind::kFloat64, {cells}, places.values[i]});
-  }
-  if (header.wedges.count > 0) {
-    grid.groups[0].sets.push_back({kCohesive, Hdf5Kind::kUint64, {cells}, places.cohesive});
-  }
+  Hdf5Group grid{.name = "VTKHDF"};
+  grid.attributes.push_back({"Version", std::vector<std::int64_t>{1, 0}});
+  grid.attributes.push_back({"Type", std::string("UnstructuredGrid")});
+  add_set(grid, "Points", Hdf5Kind::kFloat64, {vertices, 3}, places.points);
+  add_set(grid, "Connectivity", Hdf5Kind::kInt64, {corners}, places.connectivity);
+  add_set(grid, "Offsets", Hdf5Kind::kInt64, {cells + 1}, places.offsets);
+  add_set(grid, "Types", Hdf5Kind::kUint8, {cells}, places.types);
+  grid.sets.push_back(one(output, "NumberOfPoints", vertices));
+  grid.sets.push_back(one(output, "NumberOfCells", cells));
+  grid.sets.push_back(one(output, "NumberOfConnectivityIds", corners));
+  grid.groups.push_back(cell_data(places, header));
   Hdf5Group root;
   add_vtkhdf_facts(output, header, root, grid);
   root.groups.push_back(std::move(grid));
