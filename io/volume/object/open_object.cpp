@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "io/file/errors.h"
 
@@ -33,18 +34,28 @@ class SeedSearch {
 
   /// Cells of the volume around what a copy, or the volume itself, shows of the labels.
   ObjectCells find() {
+    std::unique_ptr<LabelVolume> finer = open_copy(0);
     for (int copy = 0; copy < scaled_.copies; ++copy) {
-      if (look_through(*scaled_.open_copy(copy))) return std::move(*seeds_);
+      const std::unique_ptr<LabelVolume> current = std::exchange(finer, open_copy(copy + 1));
+      if (voxels_of(finer ? *finer : *scaled_.volume) <= scaled_.cheap_voxels) continue;
+      if (look_through(*current)) return std::move(*seeds_);
     }
     if (look_through(*scaled_.volume)) return std::move(*seeds_);
     fail_not_found(scaled_.name, labels_, seen_, "`mwmesh info` lists the labels of a volume");
   }
 
  private:
+  [[nodiscard]] std::unique_ptr<LabelVolume> open_copy(int copy) const {
+    return copy < scaled_.copies ? scaled_.open_copy(copy) : nullptr;
+  }
+  /// How many of its voxels are looked at.
+  [[nodiscard]] std::uint64_t voxels_of(const LabelVolume& copy) const {
+    const Index3 shape = scaled_.volume->info().shape;
+    return static_cast<std::uint64_t>(bounds_in_copy(copy.info(), shape, bounds_).voxels());
+  }
   bool look_through(const LabelVolume& copy) {
     const Index3 shape = scaled_.volume->info().shape;
-    const Box3 box = bounds_in_copy(copy.info(), shape, bounds_);
-    if (static_cast<std::uint64_t>(box.voxels()) > kMostScannedVoxels) {
+    if (voxels_of(copy) > kMostScannedVoxels) {
       fail_not_found(scaled_.name, labels_, seen_,
                      text("in scales of up to ", kMostScannedVoxels,
                           " voxels; give --crop around the object"));

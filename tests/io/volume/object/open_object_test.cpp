@@ -122,10 +122,12 @@ ScaledVolume scaled(const Sample& sample, const std::vector<std::int64_t>& facto
   return {.name = "sample",
           .volume = std::make_unique<MemoryVolume>(sample.shape, sample.voxels),
           .copies = static_cast<int>(factors.size()),
-          .open_copy = [&sample, factors](int copy) {
-            const Sample coarse = coarser(sample, factors[static_cast<std::size_t>(copy)]);
-            return std::make_unique<MemoryVolume>(coarse.shape, coarse.voxels);
-          }};
+          .open_copy =
+              [&sample, factors](int copy) {
+                const Sample coarse = coarser(sample, factors[static_cast<std::size_t>(copy)]);
+                return std::make_unique<MemoryVolume>(coarse.shape, coarse.voxels);
+              },
+          .cheap_voxels = 0};
 }
 
 TEST(OpenObject, IsTheVolumeWithOneObjectAlone) {
@@ -167,6 +169,22 @@ TEST(OpenObject, ReadsOnlyCellsAroundTheObject) {
     ASSERT_FALSE(voxels.is_read[static_cast<std::size_t>(sample.box().offset(v))])
         << v.x << " " << v.y << " " << v.z;
   });
+}
+
+/// A second part that only the finer copy shows is found where that copy is cheap.
+TEST(OpenObject, LooksThroughTheFinestCopyThatIsCheap) {
+  Sample sample;
+  sample.shape = {96, 96, 96};
+  sample.voxels.resize(static_cast<std::size_t>(sample.box().voxels()));
+  for_each_index({{8, 8, 8}, {40, 40, 40}}, [&](Index3 v) { sample.at(v) = kOne; });
+  for_each_index({{81, 81, 81}, {88, 88, 88}}, [&](Index3 v) { sample.at(v) = kOne; });
+  for (const bool is_cheap : {false, true}) {
+    ScaledVolume source = scaled(sample, {16, 4});
+    source.cheap_voxels = is_cheap ? 24 * 24 * 24 : 0;
+    const ObjectView view = open_object(std::move(source), {kOne}, sample.box());
+    EXPECT_EQ(view.box.lo, (Index3{4, 4, 4}));
+    EXPECT_EQ(view.box.hi, (is_cheap ? Index3{92, 92, 92} : Index3{44, 44, 44}));
+  }
 }
 
 TEST(OpenObject, EndsAtTheBounds) {
