@@ -81,13 +81,13 @@ CellContent look_at(const LabelVolume& volume, const Box3& cell, const ObjectLab
   return out;
 }
 
+}  // namespace
+
 std::string listed(const ObjectLabels& labels) {
   std::string out;
   for (const RawLabel label : labels) out += (out.empty() ? "" : ", ") + text(label);
   return out;
 }
-
-}  // namespace
 
 ObjectCells::ObjectCells(Index3 shape, Index3 size) : shape_(shape), size_(size) {}
 

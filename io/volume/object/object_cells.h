@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "io/volume/label_volume.h"
@@ -13,6 +14,8 @@ namespace mw::io {
 
 /// Labels of an object, ascending.
 using ObjectLabels = std::vector<RawLabel>;
+/// "1, 2, 3", for messages.
+[[nodiscard]] std::string listed(const ObjectLabels& labels);
 
 /// Cells of a volume, cell c being the voxels from c * size on.
 class ObjectCells {

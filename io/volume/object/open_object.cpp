@@ -13,12 +13,6 @@
 namespace mw::io {
 namespace {
 
-std::string listed(const ObjectLabels& labels) {
-  std::string out;
-  for (const RawLabel label : labels) out += (out.empty() ? "" : ", ") + text(label);
-  return out;
-}
-
 [[noreturn]] void fail_not_found(const std::string& name, const ObjectLabels& wanted,
                                  const ObjectLabels& seen, const std::string& way_out) {
   ObjectLabels missing;
