@@ -124,6 +124,9 @@ struct VolumeFile {
   /// Which label a voxel gets that is in several masks: "first" or "last", that of one of them, or
   /// "all", one for each set of masks; empty: it is an error.
   std::string overlap{};
+  /// What the numbers are: "labels"; "probabilities", one for each class; or "distances", signed,
+  /// one for each label, negative inside.
+  std::string values = "labels";
   std::optional<Box> crop{};  ///< voxels to keep; they stay in place unless origin is given
   bool trust_paths = false;   ///< files that headers name may be outside of their folder
 };

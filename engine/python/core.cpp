@@ -173,7 +173,7 @@ void add_volume(py::module_& module) {
              [](const std::string& path, const std::string& dataset, std::optional<int> scale,
                 std::optional<Vector> spacing, std::optional<Vector> origin,
                 const std::string& frame, std::optional<std::pair<Index, Index>> crop,
-                const std::string& overlap, bool trust_paths) {
+                const std::string& overlap, const std::string& values, bool trust_paths) {
                VolumeFile file{.path = path,
                                .dataset = dataset,
                                .scale = scale,
@@ -181,6 +181,7 @@ void add_volume(py::module_& module) {
                                .origin = origin,
                                .frame = frame,
                                .overlap = overlap,
+                               .values = values,
                                .trust_paths = trust_paths};
                if (crop) file.crop = Box{crop->first, crop->second};
                const py::gil_scoped_release no_gil;

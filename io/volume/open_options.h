@@ -45,6 +45,21 @@ enum class Overlap {
   return std::nullopt;
 }
 
+/// What the numbers in a file are.
+enum class VoxelValues {
+  kLabels,
+  kProbabilities,  ///< one number a voxel for each class; see io/volume/scores/scored_labels.h
+  kDistances,      ///< one signed distance a voxel for each label, negative inside
+};
+
+/// kLabels of "labels" and so on; none for other names.
+[[nodiscard]] inline std::optional<VoxelValues> parse_voxel_values(std::string_view name) {
+  if (name == "labels") return VoxelValues::kLabels;
+  if (name == "probabilities") return VoxelValues::kProbabilities;
+  if (name == "distances") return VoxelValues::kDistances;
+  return std::nullopt;
+}
+
 struct OpenOptions {
   std::optional<RawLayout> raw;                  ///< read as raw, whatever the content
   std::optional<std::array<double, 3>> spacing;  ///< instead of the file's, which is not looked at
@@ -54,7 +69,8 @@ struct OpenOptions {
   std::string dataset;
   std::optional<int> scale;             ///< resolution level, 0 the finest; empty: the finest
   Overlap overlap = Overlap::kRefused;  ///< of masks
-  std::optional<Box3> crop;             ///< part of the volume, voxels
+  VoxelValues values = VoxelValues::kLabels;
+  std::optional<Box3> crop;  ///< part of the volume, voxels
   /// Whether files that headers and metadata name may be anywhere, not only in their folder.
   bool trust_paths = false;
   std::uint64_t cache_bytes = 64ULL << 20U;  ///< of decoded chunks that a chunked volume may keep

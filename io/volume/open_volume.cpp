@@ -28,6 +28,7 @@
 #include "io/volume/png/open_png.h"
 #include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw_array.h"
+#include "io/volume/scores/open_scores.h"
 #include "io/volume/slices/slice_folder.h"
 #include "io/volume/tiff/open_tiff.h"
 #include "io/volume/zarr/open_zarr.h"
@@ -290,7 +291,13 @@ void check_place(const std::optional<Vector3>& spacing, const std::optional<Vect
 std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {
   check_place(options.spacing, options.origin);
-  return cropped(open_whole(path, options), path.string(), options);
+  if (options.values == VoxelValues::kLabels) {
+    return cropped(open_whole(path, options), path.string(), options);
+  }
+  const auto open = [](const std::filesystem::path& file, const OpenOptions& of_file) {
+    return open_whole(file, of_file);
+  };
+  return cropped(open_scores(path, options, open), path.string(), options);
 }
 
 namespace {

@@ -23,6 +23,7 @@ struct VolumeRequest {
   std::string dataset;
   std::optional<int> scale;
   io::Overlap overlap = io::Overlap::kRefused;
+  io::VoxelValues values = io::VoxelValues::kLabels;
   std::optional<Box3> crop;
   bool trust_paths = false;
   io::InputSteps steps;  ///< what is done with the labels that were opened
@@ -35,7 +36,7 @@ struct VolumeRequest {
 void add_input_option(OptionSet& options, std::filesystem::path& path);
 
 /// Adds --spacing --origin --frame; --shape --dtype for raw files; --dataset --scale for files of
-/// several arrays; --overlap; --crop.
+/// several arrays; --overlap; --values; --crop.
 void add_volume_options(OptionSet& options, VolumeRequest& request);
 
 /// Adds --merge --drop-specks, which are done with the labels before all else (io::PreparedInput),

@@ -15,7 +15,7 @@ from ._values import (name_rows, numbers, path_bytes, text, three, unexpected, w
 AXES = ("zyx", "xyz")
 #: The arguments that say which part of a source the volume is, and where it lies.
 PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
-         "overlap", "trust_paths")
+         "overlap", "values", "trust_paths")
 
 
 def _is_image(source):
@@ -85,7 +85,8 @@ def _array_volume(array, axes, space):
     return _core.volume_of_array(array.T if axes == "zyx" else array, space, [])
 
 
-def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, trust_paths):
+def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, values,
+                 trust_paths):
     box = None
     if crop is not None:
         corners = [whole(v, "crop") for v in np.ravel(np.asarray(crop, dtype=object))]
@@ -95,20 +96,21 @@ def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, 
     return _core.open_volume(
         path_bytes(source, "volume"), text(dataset, "dataset"),
         None if scale is None else whole(scale, "scale", 32), three(spacing, "spacing"),
-        three(origin, "origin"), frame or "file", box, text(overlap, "overlap"), bool(trust_paths))
+        three(origin, "origin"), frame or "file", box, text(overlap, "overlap"),
+        text(values, "values") or "labels", bool(trust_paths))
 
 
 def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop,
-            overlap, trust_paths):
+            overlap, values, trust_paths):
     frame, unit_text = text(frame, "frame"), text(unit, "unit")
     if isinstance(source, (str, os.PathLike)):
         if affine is not None or unit is not None or axes is not None:
             raise UsageError("affine, unit and axes are for arrays: files tell their own")
         return _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap,
-                            trust_paths)
-    if any(value is not None for value in (dataset, scale, crop, overlap)) or trust_paths:
+                            values, trust_paths)
+    if any(value is not None for value in (dataset, scale, crop, overlap, values)) or trust_paths:
         raise UsageError(
-            "dataset, scale, crop, overlap and trust_paths are for files: slice the array")
+            "dataset, scale, crop, overlap, values and trust_paths are for files: slice the array")
     if _is_image(source):
         if affine is None and spacing is None and origin is None:
             affine, frame = source.affine, frame or "ras"
