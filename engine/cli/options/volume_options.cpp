@@ -182,7 +182,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                })});
   options.add({.name = "values",
                .value = "KIND",
-               .help = "labels, or one probability a class, or one signed distance a label",
+               .help = "labels, a probability a class, or a distance a label",
                .group = kInputGroup,
                .fallback = "labels",
                .choices = {"labels", "probabilities", "distances"},

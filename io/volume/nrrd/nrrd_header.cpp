@@ -183,11 +183,13 @@ std::vector<bool> is_spatial(const FieldMap& fields) {
 std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, NrrdHeader& header,
                                         std::string_view file) {
   auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
+  constexpr std::size_t kAxesWithLayers = 4;
   const std::vector<bool> spatial = is_spatial(fields);
   for (std::size_t i = spatial.size(); i-- > 0;) {
     if (spatial[i] || spatial.size() != sizes.size()) continue;
     const bool is_end = i == 0 || i + 1 == sizes.size();
-    if (sizes[i] > 1 && is_end && header.layers == 1) {
+    const bool may_be_layers = !header.segments.empty() || spatial.size() == kAxesWithLayers;
+    if (sizes[i] > 1 && is_end && header.layers == 1 && may_be_layers) {
       header.layers = sizes[i];
       header.layers_first = i == 0;
     } else if (sizes[i] != 1) {
