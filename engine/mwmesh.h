@@ -126,6 +126,9 @@ struct VolumeFile {
   std::string overlap{};
   std::optional<Box> crop{};  ///< voxels to keep; they stay in place unless origin is given
   bool trust_paths = false;   ///< files that headers name may be outside of their folder
+  /// What the numbers are: "labels"; "probabilities", one for each class; or "distances", signed,
+  /// one for each label, negative inside.
+  std::string values = "labels";
   /// Labels that alone matter; empty: all do.  All others become 0, and the volume ends around
   /// these labels, which are found by coarser scales where there are some (io/README.md).
   std::vector<std::uint64_t> object{};

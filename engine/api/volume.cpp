@@ -22,6 +22,12 @@ io::Overlap overlap_rule(const std::string& name) {
   throw mw::Error(mw::ErrorKind::kUsage, "overlap: '" + name + "' is none of first, last and all");
 }
 
+io::VoxelValues voxel_values(const std::string& name) {
+  if (const auto values = io::parse_voxel_values(name)) return *values;
+  throw mw::Error(mw::ErrorKind::kUsage,
+                  "values: '" + name + "' is none of labels, probabilities and distances");
+}
+
 io::FrameChoice frame_choice(const std::string& name) {
   if (const auto choice = io::parse_frame_choice(name)) return *choice;
   throw mw::Error(mw::ErrorKind::kUsage, "frame " + name + ": expected file, ras, lps or voxel");
@@ -47,6 +53,7 @@ Volume Volume::open(const VolumeFile& file) {
                             .dataset = file.dataset,
                             .scale = file.scale,
                             .overlap = overlap_rule(file.overlap),
+                            .values = voxel_values(file.values),
                             .object = file.object,
                             .trust_paths = file.trust_paths};
     if (file.crop) options.crop = mw::api::io_box(*file.crop);

@@ -75,7 +75,8 @@ void Certifier::certify(const CertificatePlan& plan) {
                   .memory_bytes = kShared / 2,
                   .folder = folder_,
                   .between = stop_};
-  if (!why_no_volumes(promises).empty()) task.options.max_volume_error.reset();
+  const bool has_scores = volume_.raw().scores() != nullptr;
+  if (has_scores || !why_no_volumes(promises).empty()) task.options.max_volume_error.reset();
   task.options.kept = kept_;
   task.options.label_text = report::label_texts(volume_.table(), volume_.info().names);
   task.options.count_junctions = task.options.count_junctions && kept_.empty();

@@ -15,6 +15,7 @@
 #include "engine/keep/kept_labels.h"
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
+#include "engine/labels/score_crossings.h"
 #include "engine/labels/size_image.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/settings/number_text.h"
@@ -202,7 +203,7 @@ std::optional<SizeImage> size_image(const io::VolumeInfo& labels, const MeshJob&
 }
 
 /// What is there to read the volume, the program and the preparation of labels left out.
-ReadingRoom reading_room(const MeshJob& job) {
+ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
   const Processes* const processes = job.run.processes;
   const int sharers = processes == nullptr ? 1 : processes->count_here();
   const auto shares = static_cast<std::uint64_t>(sharers);
@@ -211,7 +212,27 @@ ReadingRoom reading_room(const MeshJob& job) {
                         ? MemoryBudget::kUnlimited
                         : shares * job.run.store.memory,
           .shares = shares,
-          .beside = program + preparation_bytes(job.settings)};
+          .beside = program + preparation_bytes(job.settings, has_scores)};
+}
+
+/// ERRORS: mw::Error(kUsage) for what does not go with labels that come from scores.
+void check_scored(const MeshJob& job) {
+  if (!job.steps.merge.empty()) {
+    throw Error(
+        ErrorKind::kUsage,
+        "--merge: merged labels have no probabilities or distances; merge these (the sum of "
+        "probabilities, the least distance) before they are meshed");
+  }
+  if (!job.run.keep.folder.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "--keep: what is kept is known by its labels alone, and interfaces depend on "
+                "probabilities and distances, too; mesh without it, or a volume of labels");
+  }
+  if (job.run.processes != nullptr && job.run.processes->count() > 1) {
+    throw Error(ErrorKind::kUsage,
+                "--values: probabilities and distances are meshed in one process only, run mwmesh "
+                "without mpirun");
+  }
 }
 
 ConnectTask connect_task(const MeshJob& job) {
@@ -253,7 +274,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   const report::ResourceMeter meter;
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
-  check_unpacking(opened, reading_room(job));
+  const io::LabelScores* const scores = opened.scores();
+  if (scores != nullptr) check_scored(job);
+  check_unpacking(opened, reading_room(job, scores != nullptr));
   for (const SampleImage& sample : job.samples) check_unpacking(*sample.image, reading_room(job));
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const StoppableVolume from_file(opened, job.stop);
@@ -271,6 +294,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   run.labels_seconds = meter.read().wall_seconds;
   run.fingerprint = volume.text();
   if (sizes) run.fingerprint += io::text(", sizes ", sizes->fingerprint());
+  if (scores != nullptr) run.fingerprint += io::text(", scores ", fingerprint(*scores));
   if (job.labels_known) job.labels_known(run.labels.size());
   const io::DenseVolume labels(input.volume(), run.labels);
   const std::uint64_t memory = job.run.store.memory - input.held_bytes();
@@ -316,7 +340,8 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   }
   if (sampler) run.samples = sampler->facts();
   run.why_no_certificate = plan.why_not;
-  run.why_no_volumes = why_no_volumes(promises_of(job.settings));
+  run.why_no_volumes =
+      scores != nullptr ? kVolumesOfScores : why_no_volumes(promises_of(job.settings));
   if (certifier) run.certificate = certifier->report();
   run.resources = meter.read();
   return run;

@@ -158,8 +158,12 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
                   .memory_bytes = job.memory / 2,
                   .folder = job.folder,
                   .between = job.between};
-  if (record.promises && !why_no_volumes(*record.promises).empty()) {
+  const bool has_scores = volume.scores() != nullptr;
+  if (has_scores || (record.promises && !why_no_volumes(*record.promises).empty())) {
     task.options.max_volume_error.reset();
+  }
+  if (has_scores && !job.asked.max_volume_error) {
+    add_words(verdict.bounds.told, "volumes are those of the values, not of voxels");
   }
   if (job.asked.max_volume_error) task.options.max_volume_error = *job.asked.max_volume_error;
   verdict.bounds.max_volume_error = task.options.max_volume_error;

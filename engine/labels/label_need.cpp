@@ -34,8 +34,8 @@ bool is_coarsened(const MeshSettings& settings) {
   return settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels;
 }
 
-bool wants_source(const MeshSettings& settings) {
-  return settings.sizes.rules.any() && settings.surface == Surface::kSmooth &&
+bool wants_source(const MeshSettings& settings, bool has_scores) {
+  return (settings.sizes.rules.any() || has_scores) && settings.surface == Surface::kSmooth &&
          settings.max_distance.has_value();
 }
 

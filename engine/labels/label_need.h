@@ -24,9 +24,9 @@ struct NeededBricks {
 /// True if start meshes take their shape from coarsened labels.
 [[nodiscard]] bool is_coarsened(const MeshSettings& settings);
 
-/// Whether interfaces are fitted to a SourceSurface: where edges have sizes.  Voxel faces are good
-/// enough for triangles that are large beside them.
-[[nodiscard]] bool wants_source(const MeshSettings& settings);
+/// Whether interfaces are fitted to a SourceSurface: where edges have sizes, or labels have scores
+/// (io::LabelScores).  Else voxel faces are good enough for triangles that are large beside them.
+[[nodiscard]] bool wants_source(const MeshSettings& settings, bool has_scores);
 
 [[nodiscard]] NeededBricks bricks_of(Index3 volume);
 /// Returns the bricks that are needed.  With limits on edges these are all: how far such a limit

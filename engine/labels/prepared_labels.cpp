@@ -11,6 +11,7 @@
 
 #include "engine/labels/bricks.h"
 #include "engine/labels/reading_tiles.h"
+#include "engine/labels/score_crossings.h"
 #include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
 #include "kernels/size/thickness.h"
@@ -26,6 +27,8 @@ namespace {
 constexpr std::int64_t kBricksPerTile = 4;
 /// Faces of a tile whose source surface is found at once.
 constexpr std::size_t kMostSourceFaces = 500'000;
+/// Faces of a tile whose crossings are found at once; each takes some 120 bytes.
+constexpr std::size_t kMostCrossings = 200'000;
 /// Bricks of a tile whose thin parts are found at once, and those that have a part of its halo.
 constexpr Index3 kTile{kBricksPerTile, kBricksPerTile, kBricksPerTile};
 constexpr std::int64_t kBricksInReach = (kThinHalo + kBrick - 1) / kBrick;
@@ -143,9 +146,12 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
   read_bricks(volume, threads);
   volume.raw().drop_buffers();  // it is not read again, unless a visit looks beyond what it needs
   if (sizes_.limits()) find_sizes(settings.sizes, image, threads);
-  if (wants_source(settings)) {
-    source_.emplace(original_.bricks(), folder);
+  const bool has_scores = volume.raw().scores() != nullptr;
+  if (wants_source(settings, has_scores)) {
+    source_.emplace(original_.bricks(), folder,
+                    has_scores ? SourceSurface::Kind::kCrossings : SourceSurface::Kind::kFiltered);
     find_source(threads);
+    volume.raw().drop_buffers();
   }
   if (is_coarsened(settings)) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder, bricks.shapes);
@@ -265,8 +271,24 @@ SourceSurface PreparedLabels::source(const Box3& box) const {
 void PreparedLabels::find_source(int threads) {
   tbb_for_each_index(threads, tiles_of(original_.bricks()), [&](Index3 t) {
     const Index3 lo = scaled(t, kBricksPerTile);
-    find_source_in(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, original_.bricks()));
+    const Box3 bricks = clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, original_.bricks());
+    if (source_->kind() == SourceSurface::Kind::kCrossings) return find_crossings_in(bricks);
+    find_source_in(bricks);
   });
+}
+
+/// In parts, as find_source_in().
+void PreparedLabels::find_crossings_in(const Box3& bricks) {
+  if (has_one_label(original_, grown(bricks, 1))) return;
+  const Box3 tile =
+      clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
+  const LabelBox labels = read(original_, grown(tile, 1));
+  if (bricks.voxels() > 1 && FaceGraph::count(labels) > kMostCrossings) {
+    for_each_index(bricks, [&](Index3 b) { find_crossings_in({b, b + Index3{1, 1, 1}}); });
+    return;
+  }
+  const SourceSurface surface = score_crossings(volume_, labels, tile);
+  for_each_index(bricks, [&](Index3 b) { source_->write(b, surface, original_.box_of(b)); });
 }
 
 /// In parts, when there are too many faces for the memory that is reckoned with.

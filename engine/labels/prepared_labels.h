@@ -62,6 +62,10 @@ class PreparedLabels {
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   /// The surface that interfaces are fitted to; they are fitted to voxel faces without one.
   [[nodiscard]] bool has_source() const { return source_.has_value(); }
+  /// Whether its places are where the scores of labels are equal.  REQUIRES: has_source().
+  [[nodiscard]] bool has_crossings() const {
+    return source_->kind() == SourceSurface::Kind::kCrossings;
+  }
   /// The faces of the box that are in the volume.  REQUIRES: has_source().
   [[nodiscard]] SourceSurface source(const Box3& box) const;
   /// Returns the only label of a brick, before and after coarsening; none where it has several.
@@ -94,6 +98,7 @@ class PreparedLabels {
   void read_tile(const io::DenseVolume& volume, const Box3& tile);
   void find_source(int threads);
   void find_source_in(const Box3& bricks);
+  void find_crossings_in(const Box3& bricks);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(const Box3& cubes, int threads);

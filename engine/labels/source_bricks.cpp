@@ -14,8 +14,10 @@ struct Head {
 
 }  // namespace
 
-SourceBricks::SourceBricks(Index3 bricks, const std::filesystem::path& folder)
+SourceBricks::SourceBricks(Index3 bricks, const std::filesystem::path& folder,
+                           SourceSurface::Kind kind)
     : bricks_(bricks),
+      kind_(kind),
       offsets_(static_cast<std::size_t>(bricks.product()), kNoFaces),
       file_(folder) {}
 
@@ -53,12 +55,14 @@ SourceSurface SourceBricks::read(const Box3& box) const {
   constexpr std::int64_t kEdge = io::BrickVolume::kEdge;
   const Box3 all{{0, 0, 0}, bricks_};
   const Box3 bricks = cells_of(box, {kEdge, kEdge, kEdge});
-  return {box, [&](auto visit) {
+  return {box,
+          [&](auto visit) {
             for_each_index(bricks, [&](Index3 brick) {
               const std::uint64_t offset = offsets_[static_cast<std::size_t>(all.offset(brick))];
               if (offset != kNoFaces) visit(part(offset));
             });
-          }};
+          },
+          kind_};
 }
 
 }  // namespace mw::engine

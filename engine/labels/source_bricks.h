@@ -19,8 +19,10 @@ namespace mw::engine {
 class SourceBricks {
  public:
   /// bricks: along each axis.  folder: where the temporary file goes.
-  SourceBricks(Index3 bricks, const std::filesystem::path& folder);
+  SourceBricks(Index3 bricks, const std::filesystem::path& folder,
+               SourceSurface::Kind kind = SourceSurface::Kind::kFiltered);
 
+  [[nodiscard]] SourceSurface::Kind kind() const { return kind_; }
   /// Stores what belongs to a brick's voxels.  A brick that is not written has no faces.
   void write(Index3 brick, const SourceSurface& surface, const Box3& voxels);
   /// REQUIRES: a box within the volume.
@@ -32,6 +34,7 @@ class SourceBricks {
   static constexpr std::uint64_t kNoFaces = ~std::uint64_t{0};
 
   Index3 bricks_;
+  SourceSurface::Kind kind_;
   std::vector<std::uint64_t> offsets_;
   std::atomic<std::uint64_t> file_size_ = 0;
   io::UnlinkedFile file_;

@@ -54,7 +54,9 @@ MemoryBudget::Reservation reserve_program(RunContext& run) {
   const std::uint64_t program = always_bytes(labels, run.hooks.threads);
   const std::uint64_t always =
       program + run.hooks.processes->least_bytes(run.layout, labels, run.settings);
-  const std::uint64_t reading = preparation_bytes(run.settings) + labels.raw().buffer_bytes(1);
+  const bool has_scores = labels.raw().scores() != nullptr;
+  const std::uint64_t reading =
+      preparation_bytes(run.settings, has_scores) + labels.raw().buffer_bytes(1);
   const std::uint64_t min = always + std::max(reading, run.output_buffer_bytes());
   if (min > run.budget.limit()) run.budget.fail(min);
   return run.budget.reserve(Purpose::kProgram, program);
@@ -111,13 +113,16 @@ std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& 
                              const LabelNeed* need) {
   const Index3 shape = volume.info().shape;
   const bool sized = settings.sizes.limits_edges();
-  if (need == nullptr) return prepared_label_bytes(shape, sized);
+  const bool has_source = volume.raw().scores() != nullptr && !sized;
+  if (need == nullptr) {
+    return prepared_label_bytes(shape, sized) + (has_source ? source_place_bytes(shape) : 0);
+  }
   return prepared_label_bytes(bricks_of(*need, shape, settings), shape, sized);
 }
 
 LabelReaders::LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings,
                            const RunHooks& hooks, RunStore& store) {
-  const std::uint64_t each = preparation_bytes(settings);
+  const std::uint64_t each = preparation_bytes(settings, volume.raw().scores() != nullptr);
   const auto max_threads = static_cast<std::uint64_t>(thread_count(hooks.threads));
   const auto at_once = std::clamp<std::uint64_t>(hooks.store.memory / 4 / each, 1, max_threads);
   threads = static_cast<int>(at_once);

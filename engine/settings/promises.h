@@ -12,6 +12,11 @@ namespace mw::engine {
 
 [[nodiscard]] io::MeshPromises promises_of(const MeshSettings& settings);
 
+/// Why volumes are not promised where labels come from scores (io::LabelScores): a crossing may be
+/// half a voxel from the face, and the volume of the scores is the better one.
+inline constexpr const char* kVolumesOfScores =
+    "--values: interfaces are where the values say, not at voxel faces";
+
 /// Why the volumes of labels are not promised (P8); empty when they are.
 [[nodiscard]] std::string why_no_volumes(const io::MeshPromises& promises);
 

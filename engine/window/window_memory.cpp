@@ -125,8 +125,12 @@ std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape, bool
          (sized ? SizeField::making_bytes(shape) + kSourceBytesPerBrick * held : 0);
 }
 
-std::uint64_t preparation_bytes(const MeshSettings& settings) {
-  if (wants_source(settings)) return kSourceBytes;
+std::uint64_t source_place_bytes(Index3 shape) {
+  return kSourceBytesPerBrick * static_cast<std::uint64_t>(bricks_of(shape).original.voxels());
+}
+
+std::uint64_t preparation_bytes(const MeshSettings& settings, bool has_scores) {
+  if (wants_source(settings, has_scores)) return kSourceBytes;
   const bool has_halo = settings.start == StartMesh::kCoarse || settings.sizes.across > 0;
   return has_halo ? kCoarseningBytes : kReadingBytes;
 }

@@ -51,8 +51,11 @@ struct WindowNeeds {
 /// What PreparedLabels holds when it prepares only these bricks of the volume.
 [[nodiscard]] std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape,
                                                  bool sized = false);
-/// What it takes in addition while it is made.
-[[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings);
+/// The places of a source surface in its file, which labels with scores have beside all that.
+[[nodiscard]] std::uint64_t source_place_bytes(Index3 shape);
+/// What it takes in addition while it is made.  has_scores: labels come from scores.
+[[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings,
+                                              bool has_scores = false);
 
 /// What it takes to write a block of the finished mesh.  `loaded`: its bytes in memory.
 [[nodiscard]] std::uint64_t written_block_bytes(std::uint64_t loaded);

@@ -22,6 +22,7 @@ CroppedVolume::CroppedVolume(std::unique_ptr<LabelVolume> volume, const Box3& bo
                              bool moves_origin)
     : VolumeView(std::move(volume)), first_(box.lo), info_(below().info()) {
   info_.shape = box.shape();
+  if (below().scores() != nullptr) scores_.emplace(*below().scores(), box);
   info_.first = info_.first + box.lo;
   if (moves_origin) info_.space = moved_to(info_.space, box.lo);
 }

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 
+#include "io/volume/label_scores.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {
@@ -20,10 +22,26 @@ class CroppedVolume : public VolumeView {
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   void read(const Box3& box, std::span<RawLabel> out) const override;
+  [[nodiscard]] const LabelScores* scores() const override { return scores_ ? &*scores_ : nullptr; }
 
  private:
+  class CroppedScores : public LabelScores {
+   public:
+    CroppedScores(const LabelScores& whole, const Box3& box) : whole_(whole), box_(box) {}
+    [[nodiscard]] Index3 shape() const override { return box_.shape(); }
+    [[nodiscard]] std::size_t labels() const override { return whole_.labels(); }
+    void read_scores(RawLabel label, const Box3& box, std::span<double> out) const override {
+      whole_.read_scores(label, {box.lo + box_.lo, box.hi + box_.lo}, out);
+    }
+
+   private:
+    const LabelScores& whole_;
+    Box3 box_;
+  };
+
   Index3 first_;
   VolumeInfo info_;
+  std::optional<CroppedScores> scores_;
 };
 
 /// ERRORS: mw::Error(kUsage) naming `file` and its shape when the box of --crop is empty or reaches

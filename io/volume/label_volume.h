@@ -17,6 +17,8 @@
 
 namespace mw::io {
 
+class LabelScores;
+
 enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 };
 
 [[nodiscard]] int byte_size(VoxelType type);
@@ -62,6 +64,9 @@ class LabelVolume {
   [[nodiscard]] virtual std::uint64_t buffer_bytes(int /*threads*/) const { return 0; }
   /// Frees what it holds between reads.
   virtual void drop_buffers() const {}
+  /// The scores that the labels come from (io/volume/label_scores.h), which live as long as the
+  /// volume; null where labels are all that there is.
+  [[nodiscard]] virtual const LabelScores* scores() const { return nullptr; }
 };
 
 /// Everything as the volume below has it; read() is the heir's.
@@ -77,6 +82,7 @@ class VolumeView : public LabelVolume {
     return volume_->buffer_bytes(threads);
   }
   void drop_buffers() const override { volume_->drop_buffers(); }
+  [[nodiscard]] const LabelScores* scores() const override { return volume_->scores(); }
 
  protected:
   [[nodiscard]] const LabelVolume& below() const { return *volume_; }

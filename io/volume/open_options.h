@@ -46,6 +46,21 @@ enum class Overlap {
   return std::nullopt;
 }
 
+/// What the numbers in a file are.
+enum class VoxelValues {
+  kLabels,
+  kProbabilities,  ///< one number a voxel for each class; see io/volume/scores/scored_labels.h
+  kDistances,      ///< one signed distance a voxel for each label, negative inside
+};
+
+/// kLabels of "labels" and so on; none for other names.
+[[nodiscard]] inline std::optional<VoxelValues> parse_voxel_values(std::string_view name) {
+  if (name == "labels") return VoxelValues::kLabels;
+  if (name == "probabilities") return VoxelValues::kProbabilities;
+  if (name == "distances") return VoxelValues::kDistances;
+  return std::nullopt;
+}
+
 struct OpenOptions {
   std::optional<RawLayout> raw;                  ///< read as raw, whatever the content
   std::optional<std::array<double, 3>> spacing;  ///< instead of the file's, which is not looked at
@@ -55,7 +70,8 @@ struct OpenOptions {
   std::string dataset;
   std::optional<int> scale;             ///< resolution level, 0 the finest; empty: the finest
   Overlap overlap = Overlap::kRefused;  ///< of masks
-  std::optional<Box3> crop;             ///< part of the volume, voxels
+  VoxelValues values = VoxelValues::kLabels;
+  std::optional<Box3> crop;  ///< part of the volume, voxels
   /// Labels that alone matter: all others become 0, and the volume ends around these
   /// (open_object()), within `crop`.  Empty: all matter.
   std::vector<RawLabel> object;

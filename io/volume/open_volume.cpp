@@ -29,6 +29,7 @@
 #include "io/volume/png/open_png.h"
 #include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw_array.h"
+#include "io/volume/scores/open_scores.h"
 #include "io/volume/slices/slice_folder.h"
 #include "io/volume/tiff/open_tiff.h"
 #include "io/volume/zarr/open_zarr.h"
@@ -348,8 +349,16 @@ std::unique_ptr<LabelVolume> open_object_of(const std::filesystem::path& path,
 std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {
   check_place(options.spacing, options.origin);
+  const bool has_scores = options.values != VoxelValues::kLabels;
+  if (has_scores && !options.object.empty()) {
+    throw Error(ErrorKind::kUsage, "--object: is for volumes of labels, not for --values");
+  }
   if (!options.object.empty()) return open_object_of(path, options);
-  return cropped(open_whole(path, options), path.string(), options);
+  if (!has_scores) return cropped(open_whole(path, options), path.string(), options);
+  const auto open = [](const std::filesystem::path& file, const OpenOptions& of_file) {
+    return open_whole(file, of_file);
+  };
+  return cropped(open_scores(path, options, open), path.string(), options);
 }
 
 }  // namespace mw::io

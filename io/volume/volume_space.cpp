@@ -3,6 +3,8 @@
 // From voxels to the world and back.
 #include "io/volume/volume_space.h"
 
+#include <cmath>
+
 namespace mw::io {
 namespace {
 
@@ -55,6 +57,19 @@ VolumeSpace moved_to(const VolumeSpace& space, Index3 first) {
   out.origin = to_world(space, {static_cast<double>(first.x), static_cast<double>(first.y),
                                 static_cast<double>(first.z)});
   return out;
+}
+
+bool is_same_place(const VolumeSpace& a, const VolumeSpace& b) {
+  constexpr double kTolerance = 1e-3;  // voxels
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double step = a.spacing[axis] * a.axes[axis][k] - b.spacing[axis] * b.axes[axis][k];
+      const double origin = a.origin[k] - b.origin[k];
+      if (!(std::abs(step) <= kTolerance * a.spacing[axis])) return false;
+      if (!(std::abs(origin) <= kTolerance * a.spacing[axis])) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace mw::io

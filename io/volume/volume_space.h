@@ -61,4 +61,7 @@ struct VolumeSpace {
 /// The space of a box of the volume: it begins at the corner `first`.
 [[nodiscard]] VolumeSpace moved_to(const VolumeSpace& space, Index3 first);
 
+/// Whether two places are one, up to what is lost when text and floats of 32 bits are written.
+[[nodiscard]] bool is_same_place(const VolumeSpace& a, const VolumeSpace& b);
+
 }  // namespace mw::io

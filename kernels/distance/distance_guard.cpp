@@ -29,9 +29,22 @@ double DistanceGuard::sign_of(FaceSamples samples, Label low) const {
 DistanceGuard::Piece DistanceGuard::piece(FaceSamples samples, Label low) const {
   Piece out = piece_of_face(samples, low);
   if (source_ == nullptr) return out;
-  const SourcePlane plane = unpack(source_->at(lower_voxel(samples), out.axis));
-  const Vec3 from_centre = out.middle - in_voxels(face_centre(samples));
-  out.middle += (plane.height - plane.normal.dot(from_centre)) * plane.normal;
+  out.middle = on_source(samples, out);
+  return out;
+}
+
+/// On a plane that was filtered out of labels the nearest point.  A crossing is a point of the
+/// surface itself, and the quarters beside it are put on its plane.
+Vec3 DistanceGuard::on_source(FaceSamples samples, const Piece& piece) const {
+  const PackedPlane packed = source_->at(lower_voxel(samples), piece.axis);
+  const Vec3 from_centre = piece.middle - in_voxels(face_centre(samples));
+  if (source_->kind() == SourceSurface::Kind::kFiltered) {
+    const SourcePlane plane = unpack(packed);
+    return piece.middle + (plane.height - plane.normal.dot(from_centre)) * plane.normal;
+  }
+  const SourcePlane crossing = unpack(packed, kCrossingBits);
+  Vec3 out = piece.middle - crossing.normal.dot(from_centre) * crossing.normal;
+  out[static_cast<int>(piece.axis)] += crossing.height;
   return out;
 }
 

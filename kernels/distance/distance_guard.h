@@ -118,6 +118,7 @@ class DistanceGuard {
   };
 
   [[nodiscard]] Piece piece(FaceSamples samples, Label low) const;
+  [[nodiscard]] Vec3 on_source(FaceSamples samples, const Piece& piece) const;
   [[nodiscard]] Piece piece_of_face(FaceSamples samples, Label low) const;
   [[nodiscard]] PieceGroup group_of(const FaceGroup& faces, Label low) const;
   [[nodiscard]] double sign_of(FaceSamples samples, Label low) const;

@@ -16,17 +16,32 @@ struct SourcePlane {
   double height = 0.0;         ///< of the plane over the face's centre, along the normal
 };
 
-/// A plane as it is stored: from the highest bit on the height (8 bits, signed), then two
-/// coordinates of the normal on the octahedron (12 bits each, signed).
+/// A plane as it is stored: from the highest bit on the height, then two coordinates of the normal
+/// on the octahedron, all signed.
 using PackedPlane = std::uint32_t;
+
+/// How the bits of a packed plane are shared out.
+struct PlaneBits {
+  unsigned height = 8;
+  unsigned normal = 12;  ///< for each coordinate
+
+  [[nodiscard]] constexpr double height_steps() const {  ///< in a voxel
+    return static_cast<double>((1U << height) - 2U);
+  }
+  [[nodiscard]] constexpr double normal_steps() const {
+    return static_cast<double>((1U << (normal - 1U)) - 1U);
+  }
+};
+/// Of planes that are filtered out of labels (SourceSurface).
+inline constexpr PlaneBits kFilteredBits{};
+/// Of crossings, whose heights are along the axis of the face and good to half a unit of the
+/// lattice.
+inline constexpr PlaneBits kCrossingBits{.height = 12, .normal = 10};
 
 /// The largest height, in voxels: a plane that is sampled by voxels is never farther from a face.
 inline constexpr double kMaxSourceHeight = 0.5;
 
 namespace packed_plane {
-inline constexpr double kHeightSteps = 254.0;  ///< in a voxel
-inline constexpr double kNormalSteps = 2047.0;
-
 [[nodiscard]] inline std::int32_t rounded(double x) {
   return static_cast<std::int32_t>(std::floor(x + 0.5));
 }
@@ -36,7 +51,7 @@ inline constexpr double kNormalSteps = 2047.0;
 }  // namespace packed_plane
 
 /// REQUIRES: height within kMaxSourceHeight.
-[[nodiscard]] inline PackedPlane pack(const SourcePlane& plane) {
+[[nodiscard]] inline PackedPlane pack(const SourcePlane& plane, PlaneBits bits = kFilteredBits) {
   using namespace packed_plane;
   const Vec3& n = plane.normal;
   const double sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
@@ -46,20 +61,22 @@ inline constexpr double kNormalSteps = 2047.0;
     v = (1.0 - std::abs(u)) * sign_of(v);
     u = folded;
   }
-  const auto bits = [](std::int32_t x, unsigned mask) {
-    return static_cast<std::uint32_t>(x) & mask;
+  const auto field = [](double x, unsigned width) {
+    return static_cast<std::uint32_t>(rounded(x)) & ((1U << width) - 1U);
   };
-  return bits(rounded(plane.height * kHeightSteps), 0xffU) << 24 |
-         bits(rounded(u * kNormalSteps), 0xfffU) << 12 | bits(rounded(v * kNormalSteps), 0xfffU);
+  return field(plane.height * bits.height_steps(), bits.height) << (2U * bits.normal) |
+         field(u * bits.normal_steps(), bits.normal) << bits.normal |
+         field(v * bits.normal_steps(), bits.normal);
 }
 
-[[nodiscard]] inline SourcePlane unpack(PackedPlane packed) {
+[[nodiscard]] inline SourcePlane unpack(PackedPlane packed, PlaneBits bits = kFilteredBits) {
   using namespace packed_plane;
   // A shift to the left moves a field's sign to the top, one to the right spreads it.
-  const auto field = [packed](unsigned from_top, unsigned bits) {
-    return static_cast<double>(static_cast<std::int32_t>(packed << from_top) >> (32U - bits));
+  const auto field = [packed](unsigned from_top, unsigned width) {
+    return static_cast<double>(static_cast<std::int32_t>(packed << from_top) >> (32U - width));
   };
-  double u = field(8, 12) / kNormalSteps, v = field(20, 12) / kNormalSteps;
+  double u = field(bits.height, bits.normal) / bits.normal_steps();
+  double v = field(bits.height + bits.normal, bits.normal) / bits.normal_steps();
   const double w = 1.0 - std::abs(u) - std::abs(v);
   if (w < 0.0) {
     const double folded = (1.0 - std::abs(v)) * sign_of(u);
@@ -67,7 +84,7 @@ inline constexpr double kNormalSteps = 2047.0;
     u = folded;
   }
   const Vec3 n(u, v, w);
-  return {n / n.norm(), field(0, 8) / kHeightSteps};
+  return {n / n.norm(), field(0, bits.height) / bits.height_steps()};
 }
 
 }  // namespace mw

@@ -262,6 +262,9 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   MeshFiles files(request, open_shared_output(request, is_certified));
   log_info("reading " + request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
+  if (volume->scores() != nullptr) {
+    log_warning(std::string(engine::kVolumesOfScores) + "; volumes are not promised (P8)");
+  }
   report::FinishedRun run = mesh_into(request, *volume, files);
   if (!run_processes().speaks()) return kExitDone;
   if (!run.connected && files.shared.mesh != nullptr) run.connected = parts_of_file(request);

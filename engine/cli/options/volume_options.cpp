@@ -180,6 +180,16 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.overlap, [](const std::string& text) {
                  return io::parse_overlap(text).value();
                })});
+  options.add({.name = "values",
+               .value = "KIND",
+               .help = "labels, a probability a class, or a distance a label",
+               .group = kInputGroup,
+               .fallback = "labels",
+               .choices = {"labels", "probabilities", "distances"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.values, [](const std::string& text) {
+                 return io::parse_voxel_values(text).value();
+               })});
   options.add({.name = "crop",
                .value = "X0,Y0,Z0,X1,Y1,Z1",
                .help = "the box from the first voxel to before the second",
@@ -225,6 +235,7 @@ io::OpenOptions open_options(const VolumeRequest& request) {
                           .dataset = request.dataset,
                           .scale = request.scale,
                           .overlap = request.overlap,
+                          .values = request.values,
                           .crop = request.crop,
                           .object = request.object,
                           .trust_paths = request.trust_paths,

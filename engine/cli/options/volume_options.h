@@ -23,6 +23,7 @@ struct VolumeRequest {
   std::string dataset;
   std::optional<int> scale;
   io::Overlap overlap = io::Overlap::kRefused;
+  io::VoxelValues values = io::VoxelValues::kLabels;
   std::optional<Box3> crop;
   std::vector<RawLabel> object;  ///< labels that alone matter; empty: all do
   bool trust_paths = false;
@@ -36,7 +37,7 @@ struct VolumeRequest {
 void add_input_option(OptionSet& options, std::filesystem::path& path);
 
 /// Adds --spacing --origin --frame; --shape --dtype for raw files; --dataset --scale for files of
-/// several arrays; --overlap; --crop; --object.
+/// several arrays; --overlap; --values; --crop; --object.
 void add_volume_options(OptionSet& options, VolumeRequest& request);
 
 /// Adds --merge --drop-specks, which are done with the labels before all else (io::PreparedInput),

@@ -15,7 +15,7 @@ from ._values import (name_rows, numbers, path_bytes, text, three, unexpected, w
 AXES = ("zyx", "xyz")
 #: The arguments that say which part of a source the volume is, and where it lies.
 PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
-         "overlap", "object", "trust_paths")
+         "overlap", "values", "object", "trust_paths")
 
 
 def _is_image(source):
@@ -85,7 +85,7 @@ def _array_volume(array, axes, space):
     return _core.volume_of_array(array.T if axes == "zyx" else array, space, [])
 
 
-def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, object,
+def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, values, object,
                  trust_paths):
     box = None
     if crop is not None:
@@ -93,25 +93,28 @@ def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, 
         if len(corners) != 6:
             raise unexpected("crop", "((x0, y0, z0), (x1, y1, z1))", crop)
         box = (corners[:3], corners[3:])
+    wanted = [] if object is None else whole_numbers(np.ravel(object), "object")
     return _core.open_volume(
         path_bytes(source, "volume"), text(dataset, "dataset"),
         None if scale is None else whole(scale, "scale", 32), three(spacing, "spacing"),
         three(origin, "origin"), frame or "file", box, text(overlap, "overlap"),
-        [] if object is None else whole_numbers(np.ravel(object), "object").view(np.uint64).tolist(),
+        text(values, "values") or "labels", np.asarray(wanted).view(np.uint64).tolist(),
         bool(trust_paths))
 
 
 def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop,
-            overlap, object, trust_paths):
+            overlap, values, object, trust_paths):
     frame, unit_text = text(frame, "frame"), text(unit, "unit")
     if isinstance(source, (str, os.PathLike)):
         if affine is not None or unit is not None or axes is not None:
             raise UsageError("affine, unit and axes are for arrays: files tell their own")
         return _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap,
-                            object, trust_paths)
-    if any(value is not None for value in (dataset, scale, crop, overlap, object)) or trust_paths:
+                            values, object, trust_paths)
+    for_files = (dataset, scale, crop, overlap, values, object)
+    if any(value is not None for value in for_files) or trust_paths:
         raise UsageError(
-            "dataset, scale, crop, overlap, object and trust_paths are for files: slice the array")
+            "dataset, scale, crop, overlap, values, object and trust_paths are for files: slice the "
+            "array")
     if _is_image(source):
         if affine is None and spacing is None and origin is None:
             affine, frame = source.affine, frame or "ras"

@@ -34,20 +34,6 @@ class SetVolume : public VolumeView {
   std::vector<RawLabel> labels_;
 };
 
-/// Whether two places are one, up to what is lost when text and floats of 32 bits are written.
-bool is_same_place(const VolumeSpace& a, const VolumeSpace& b) {
-  constexpr double kTolerance = 1e-3;  // voxels
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double step = a.spacing[axis] * a.axes[axis][k] - b.spacing[axis] * b.axes[axis][k];
-      const double origin = a.origin[k] - b.origin[k];
-      if (!(std::abs(step) <= kTolerance * a.spacing[axis])) return false;
-      if (!(std::abs(origin) <= kTolerance * a.spacing[axis])) return false;
-    }
-  }
-  return true;
-}
-
 /// Calls visit(box) on slabs of about kSlabVoxels voxels that cover a volume, in order.  A slab is
 /// a run of whole slices or, where slices are large, of whole rows of one.
 template <typename Visit>

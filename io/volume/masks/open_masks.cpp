@@ -41,6 +41,11 @@ std::filesystem::directory_iterator listed(const std::filesystem::path& folder) 
 
 }  // namespace
 
+std::string mask_name(const std::filesystem::path& file) {
+  const std::string without_ending = stem(file);
+  return without_ending.empty() ? file.filename().string() : without_ending;
+}
+
 bool is_mask_folder(const std::filesystem::path& folder) {
   const auto found = listed(folder);
   return std::any_of(begin(found), end(found), is_mask);
@@ -84,7 +89,7 @@ std::unique_ptr<LabelVolume> open_masks(const std::vector<std::filesystem::path>
     merger->add({.volume = mask.get(),
                  .value = {},
                  .file = file.string(),
-                 .name = stem(file).empty() ? file.filename().string() : stem(file),
+                 .name = mask_name(file),
                  .colour = {}});
   }
   return merger->finish();

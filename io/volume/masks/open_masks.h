@@ -11,6 +11,9 @@
 
 namespace mw::io {
 
+/// What a file with one mask is called: its name without the ending of a volume.
+[[nodiscard]] std::string mask_name(const std::filesystem::path& file);
+
 /// Whether the folder holds a NIfTI, NRRD or MetaImage file; hidden files do not count.
 [[nodiscard]] bool is_mask_folder(const std::filesystem::path& folder);
 

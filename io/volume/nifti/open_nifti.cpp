@@ -14,6 +14,7 @@
 #include "io/volume/checks.h"
 #include "io/volume/masks/mask_merger.h"
 #include "io/volume/raw_array.h"
+#include "io/volume/scores/number_stack.h"
 
 namespace mw::io {
 namespace {
@@ -324,18 +325,33 @@ LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header)
 
 namespace {
 
+/// Numbers of one of the volumes that lie one behind the other.
+std::shared_ptr<const LabelVolume> part(const std::shared_ptr<const ByteSource>& source,
+                                        const VolumeInfo& info, const NiftiHeader& header,
+                                        std::int64_t i) {
+  return std::make_shared<RawArrayVolume>(
+      source, info,
+      ArrayLayout{
+          .offset = header.data_offset + static_cast<std::uint64_t>(i) * payload_bytes(info),
+          .order = header.order,
+          .scaling = header.scaling});
+}
+
+std::unique_ptr<LabelVolume> open_stack(const std::shared_ptr<const ByteSource>& source,
+                                        const VolumeInfo& info, const NiftiHeader& header) {
+  std::vector<std::shared_ptr<const LabelVolume>> parts;
+  for (std::int64_t i = 0; i < header.masks; ++i) parts.push_back(part(source, info, header, i));
+  return std::make_unique<NumberStack>(std::move(parts));
+}
+
 /// Labels of masks that lie one behind the other.
 std::unique_ptr<LabelVolume> open_masks(const std::shared_ptr<const ByteSource>& source,
                                         const VolumeInfo& info, const NiftiHeader& header,
                                         Overlap overlap) {
   MaskMerger merger(info, overlap, source->name());
   for (std::int64_t i = 0; i < header.masks; ++i) {
-    const RawArrayVolume volume(
-        source, info,
-        {.offset = header.data_offset + static_cast<std::uint64_t>(i) * payload_bytes(info),
-         .order = header.order,
-         .scaling = header.scaling});
-    merger.add({.volume = &volume, .file = text(source->name(), ", volume ", i)});
+    const std::shared_ptr<const LabelVolume> volume = part(source, info, header, i);
+    merger.add({.volume = volume.get(), .file = text(source->name(), ", volume ", i)});
   }
   return merger.finish();
 }
@@ -352,6 +368,9 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
   info.names = read_nifti_names(*source, header);
   const auto masks = static_cast<std::uint64_t>(header.masks);
   check_payload(*source, info, header.data_offset, BytesBehind::kIgnored, masks);
+  if (masks > 1 && options.values != VoxelValues::kLabels) {
+    return open_stack(std::move(source), info, header);
+  }
   if (masks > 1) return open_masks(std::move(source), info, header, options.overlap);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),

@@ -13,6 +13,7 @@
 #include "io/volume/decode.h"
 #include "io/volume/file_space.h"
 #include "io/volume/raw_array.h"
+#include "io/volume/scores/number_stack.h"
 
 namespace mw::io {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 constexpr std::string_view kMagic{"\x93NUMPY", 6};
 constexpr std::string_view kSpaces = " \t\r\n";
 constexpr std::size_t kMaxDictBytes = 1 << 20;
+constexpr std::int64_t kMaxComponents = 65535;
 
 /// The text behind `'key':`.
 std::string_view value_of(std::string_view dict, std::string_view key, std::string_view file) {
@@ -81,17 +83,24 @@ std::vector<std::int64_t> parse_tuple(std::string_view value, std::string_view f
   return numbers;
 }
 
-Index3 parse_shape(std::string_view value, std::string_view file) {
+[[noreturn]] void fail_axes(std::size_t axes, std::string_view file) {
+  fail_input(file, "npy header 'shape'",
+             text("the array has ", axes, " axes, a volume has 3 [z, y, x]"),
+             "reshape or pick one channel");
+}
+
+/// Finds the components, too.
+Index3 parse_shape(std::string_view value, NpyHeader& header, std::string_view file) {
   std::vector<std::int64_t> axes = parse_tuple(value, file);
   if (axes.size() == 2) axes.insert(axes.begin(), 1);
   // One volume of a series, or one channel.
   while (axes.size() > 3 && axes.front() == 1) axes.erase(axes.begin());
   while (axes.size() > 3 && axes.back() == 1) axes.pop_back();
-  if (axes.size() != 3) {
-    fail_input(file, "npy header 'shape'",
-               text("the array has ", axes.size(), " axes, a volume has 3 [z, y, x]"),
-               "reshape or pick one channel");
+  if (axes.size() == 4 && axes.front() > 1 && axes.front() <= kMaxComponents) {
+    header.components = axes.front();
+    axes.erase(axes.begin());
   }
+  if (axes.size() != 3) fail_axes(axes.size(), file);
   return checked_shape(file, "npy header 'shape'", {axes[2], axes[1], axes[0]});
 }
 
@@ -132,7 +141,7 @@ NpyHeader parse_npy_dict(std::string_view dict, std::string_view file) {
   if (!header.fortran_order && !fortran.starts_with("False")) {
     fail_input(file, "npy header 'fortran_order'", "neither True nor False");
   }
-  header.shape = parse_shape(value_of(dict, "shape", file), file);
+  header.shape = parse_shape(value_of(dict, "shape", file), header, file);
   return header;
 }
 
@@ -148,6 +157,28 @@ std::string format_npy_header(const VolumeInfo& info) {
       {'\1', '\0', static_cast<char>(dict.size() % 256), static_cast<char>(dict.size() / 256)});
   return header + dict;
 }
+
+namespace {
+
+/// REQUIRES: the source holds all components.
+std::unique_ptr<LabelVolume> open_components(const std::shared_ptr<const ByteSource>& source,
+                                             const VolumeInfo& info, std::uint64_t offset,
+                                             const NpyHeader& header) {
+  std::vector<std::shared_ptr<const LabelVolume>> parts;
+  for (std::int64_t i = 0; i < header.components; ++i) {
+    ArrayLayout layout{.offset = offset, .order = header.order};
+    if (header.fortran_order) {
+      layout.numbers = header.components;
+      layout.number = i;
+    } else {
+      layout.offset += static_cast<std::uint64_t>(i) * payload_bytes(info);
+    }
+    parts.push_back(std::make_shared<RawArrayVolume>(source, info, layout));
+  }
+  return std::make_unique<NumberStack>(std::move(parts));
+}
+
+}  // namespace
 
 std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
                                       const OpenOptions& options) {
@@ -165,7 +196,12 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "npy", .is_placed = false};
   info.z_fastest = header.fortran_order;
   info.space = placed(source->name(), {}, options);
-  check_payload(*source, info, offset);
+  if (header.components > 1 && options.values == VoxelValues::kLabels) {
+    fail_axes(4, source->name());
+  }
+  check_payload(*source, info, offset, BytesBehind::kIgnored,
+                static_cast<std::uint64_t>(header.components));
+  if (header.components > 1) return open_components(std::move(source), info, offset, header);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
                                           ArrayLayout{.offset = offset, .order = header.order});
 }

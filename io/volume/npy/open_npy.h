@@ -24,12 +24,13 @@ struct NpyPrefix {
   std::size_t dict_length = 0;
 };
 
-/// The dictionary.  Array axes are [z, y, x] (or [y, x], one slice).
+/// The dictionary.  Array axes are [z, y, x] (or [y, x], one slice), or [component, z, y, x].
 struct NpyHeader {
   VoxelType type = VoxelType::kU8;
   ByteOrder order = ByteOrder::kLittle;
   bool fortran_order = false;
   Index3 shape;
+  std::int64_t components = 1;  ///< numbers of each voxel, along the first of four axes
 };
 
 [[nodiscard]] bool has_npy_magic(std::span<const std::byte> bytes);
@@ -42,7 +43,8 @@ struct NpyHeader {
 [[nodiscard]] std::string format_npy_header(const VolumeInfo& info);
 
 /// Axes of the array are [z, y, x]; both C and Fortran order.  The format knows neither spacing
-/// nor origin: 1 and 0.  Bytes behind the voxels are ignored, as numpy does.
+/// nor origin: 1 and 0.  Bytes behind the voxels are ignored, as numpy does.  An array of four axes
+/// is a NumberStack, which options.values must ask for.
 /// ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
                                                     const OpenOptions& options);

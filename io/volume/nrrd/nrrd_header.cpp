@@ -178,16 +178,18 @@ std::vector<bool> is_spatial(const FieldMap& fields) {
   return out;
 }
 
-/// The sizes of the axes in space.  Another one may have the layers of segments; further ones must
-/// have a single element, and go.
+/// The sizes of the axes in space.  Another one may have layers; further ones must have a single
+/// element, and go.
 std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, NrrdHeader& header,
                                         std::string_view file) {
   auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
+  constexpr std::size_t kAxesWithLayers = 4;
   const std::vector<bool> spatial = is_spatial(fields);
   for (std::size_t i = spatial.size(); i-- > 0;) {
     if (spatial[i] || spatial.size() != sizes.size()) continue;
     const bool is_end = i == 0 || i + 1 == sizes.size();
-    if (sizes[i] > 1 && is_end && header.layers == 1 && !header.segments.empty()) {
+    const bool may_be_layers = !header.segments.empty() || spatial.size() == kAxesWithLayers;
+    if (sizes[i] > 1 && is_end && header.layers == 1 && may_be_layers) {
       header.layers = sizes[i];
       header.layers_first = i == 0;
     } else if (sizes[i] != 1) {

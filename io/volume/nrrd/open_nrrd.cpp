@@ -12,6 +12,7 @@
 #include "io/volume/file_space.h"
 #include "io/volume/masks/mask_merger.h"
 #include "io/volume/raw_array.h"
+#include "io/volume/scores/number_stack.h"
 
 namespace mw::io {
 namespace {
@@ -30,6 +31,37 @@ std::unique_ptr<ByteSource> data_source(std::unique_ptr<ByteSource> source,
       named_beside(source->name(), "NRRD field 'data file'", header.data_file, is_trusted));
 }
 
+ArrayLayout layout_of(const NrrdHeader& header, const VolumeInfo& info, std::uint64_t offset,
+                      std::int64_t layer) {
+  ArrayLayout layout{.offset = offset, .order = header.order};
+  if (header.layers_first) {
+    layout.numbers = header.layers;
+    layout.number = layer;
+  } else {
+    layout.offset += static_cast<std::uint64_t>(layer) * payload_bytes(info);
+  }
+  return layout;
+}
+
+/// REQUIRES: the source holds all layers.
+std::unique_ptr<LabelVolume> open_numbers(std::unique_ptr<ByteSource> data, const VolumeInfo& info,
+                                          std::uint64_t offset, const NrrdHeader& header) {
+  const std::shared_ptr<const ByteSource> shared = std::move(data);
+  std::vector<std::shared_ptr<const LabelVolume>> parts;
+  for (std::int64_t i = 0; i < header.layers; ++i) {
+    parts.push_back(
+        std::make_shared<RawArrayVolume>(shared, info, layout_of(header, info, offset, i)));
+  }
+  return std::make_unique<NumberStack>(std::move(parts));
+}
+
+void check_segments(const NrrdHeader& header, const std::string& file) {
+  if (!header.segments.empty()) return;
+  fail_input(file, "NRRD fields 'dimension', 'space directions' and 'kinds'",
+             text("one of the axes is none of space and has ", header.layers, " elements"),
+             "pick one channel");
+}
+
 /// Labels of segments that lie in several layers.
 /// REQUIRES: the source holds them.
 std::unique_ptr<LabelVolume> open_layers(std::unique_ptr<ByteSource> data, const VolumeInfo& info,
@@ -38,14 +70,7 @@ std::unique_ptr<LabelVolume> open_layers(std::unique_ptr<ByteSource> data, const
   const std::shared_ptr<const ByteSource> shared = std::move(data);
   MaskMerger merger(info, overlap, shared->name());
   for (const Segment& segment : header.segments) {
-    ArrayLayout layout{.offset = offset, .order = header.order};
-    if (header.layers_first) {
-      layout.numbers = header.layers;
-      layout.number = segment.layer;
-    } else {
-      layout.offset += static_cast<std::uint64_t>(segment.layer) * payload_bytes(info);
-    }
-    const RawArrayVolume layer(shared, info, layout);
+    const RawArrayVolume layer(shared, info, layout_of(header, info, offset, segment.layer));
     merger.add({.volume = &layer,
                 .value = segment.name.label,
                 .file = text(shared->name(), ", segment '", segment.name.name, "'"),
@@ -71,6 +96,8 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
     data = std::make_unique<InflatedSource>(std::move(data), offset);
     offset = 0;
   }
+  const bool is_stack = header.layers > 1 && options.values != VoxelValues::kLabels;
+  if (header.layers > 1 && !is_stack) check_segments(header, file);
   const auto layers = static_cast<std::uint64_t>(header.layers);
   const std::uint64_t needed = saturating_product(payload_bytes(info), layers);
   if (header.byte_skip > 0) offset += static_cast<std::uint64_t>(header.byte_skip);
@@ -79,6 +106,7 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
     if (size >= offset + needed) offset = size - needed;
   }
   check_payload(*data, info, offset, BytesBehind::kIgnored, layers);
+  if (is_stack) return open_numbers(std::move(data), info, offset, header);
   if (header.layers > 1) return open_layers(std::move(data), info, offset, header, options.overlap);
   return std::make_unique<RawArrayVolume>(std::move(data), std::move(info),
                                           ArrayLayout{.offset = offset, .order = header.order});

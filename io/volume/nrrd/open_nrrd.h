@@ -31,8 +31,8 @@ struct NrrdHeader {
   /// By `space directions`, `space origin` and `space`, else `spacings`.  `space origin` is the
   /// centre of the first sample whatever the centering (format definition).
   FileSpace space;
-  /// Numbers at each voxel, more than one only where segments overlap; where layers_first, the
-  /// numbers of a voxel follow each other, else those of a layer.
+  /// Numbers at each voxel, more than one where segments overlap or there are no segments; where
+  /// layers_first, the numbers of a voxel follow each other, else those of a layer.
   std::int64_t layers = 1;
   bool layers_first = true;
   std::vector<Segment> segments;  ///< of a .seg.nrrd

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Where the scores of two labels are equal between two voxels.
+#pragma once
+
+#include <array>
+
+#include "kernels/core/index.h"
+#include "kernels/core/metric.h"
+#include "kernels/source/source_plane.h"
+
+namespace mw {
+
+/// The score of the label below a face less that of the label above it, at the centres of the
+/// voxels below and above; arrays have the lower one first.
+struct ScoreDifference {
+  std::array<double, 2> values{};
+  std::array<Vec3, 2> slopes{Vec3::Zero(), Vec3::Zero()};  ///< by central differences, per voxel
+};
+
+/// Finds the zero of the difference on the way from centre to centre, and the direction there in
+/// which it falls most.  Between the centres the difference is taken for the cubic with the values
+/// and slopes at both ends, slopes limited so that it falls all the way (Fritsch and Carlson,
+/// 1980): a straight line would be off by 1 / 12 of the second derivative, 0.35 % of the volume of
+/// a ball of radius 6. The height of the result is that of the crossing over the face, along the
+/// axis, in voxels. Scores that do not cross there (the label was changed since, or they are equal
+/// or infinite at both ends) give the face itself.
+[[nodiscard]] SourcePlane find_crossing(const ScoreDifference& difference, unsigned axis);
+
+/// A face of the lattice, where scores belong to voxels of several layers.
+struct LayeredFace {
+  unsigned axis = 0;
+  Index3 layers{1, 1, 1};  ///< voxels of the lattice in one of the scores
+  /// From the middle between the centres of the voxels of scores to the face's, in voxels of the
+  /// lattice.
+  Vec3 centre = Vec3::Zero();
+};
+
+/// Returns the crossing as it is seen from a face of the lattice: on the plane, over the face's
+/// centre.  ENSURES: a height within kMaxSourceHeight.
+[[nodiscard]] SourcePlane on_lattice(const SourcePlane& crossing, const LayeredFace& face);
+
+}  // namespace mw

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes of probabilities and signed distances (--values), from files that numpy and nibabel write,
+against the shapes that the values tell of."""
+import json
+import sys
+import unittest
+
+from program import enter_folder, run, start
+
+try:
+    import meshio
+    import nibabel
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+EDGE = 24
+CENTRE = np.array([12.3, 11.8, 12.1])
+RADIUS = 6.0
+
+
+def voxel_centres():
+    """Coordinates x, y, z, each indexed [z, y, x]."""
+    z, y, x = np.meshgrid(*[np.arange(EDGE) + 0.5] * 3, indexing="ij")
+    return np.stack([x, y, z])
+
+
+def ball():
+    return np.linalg.norm(voxel_centres() - CENTRE[:, None, None, None], axis=0) - RADIUS
+
+
+class Mesh:
+    def __init__(self, path):
+        mesh = meshio.read(path)
+        self.points = np.asarray(mesh.points, dtype=float)
+        self.tets = mesh.cells_dict["tetra"].astype(np.int64)
+        self.labels = np.asarray(mesh.cell_data["label"][0]).astype(np.int64).ravel()
+
+    def volume(self, label):
+        a, b, c, d = (self.points[self.tets[self.labels == label][:, i]] for i in range(4))
+        return np.abs(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)).sum() / 6
+
+    def interface(self):
+        """Points at which two labels meet."""
+        low = np.full(len(self.points), np.iinfo(np.int64).max)
+        high = np.full(len(self.points), -1)
+        for corner in self.tets.T:
+            np.minimum.at(low, corner, self.labels)
+            np.maximum.at(high, corner, self.labels)
+        return self.points[low != high]
+
+
+class Values(unittest.TestCase):
+    def setUp(self):
+        enter_folder(self)
+
+    def mesh(self, name, *options):
+        run("mesh", name, "-o", "m.vtu", *options)
+        return Mesh("m.vtu")
+
+    def digest(self, name, *options):
+        run("mesh", name, "-o", "d.vtu", *options)
+        return run("digest", "d.vtu").split()[0]
+
+    def test_a_ball_is_where_its_distances_say(self):
+        np.save("f.npy", ball())
+        true = 4 / 3 * np.pi * RADIUS**3
+        for size, volume_bound, mean_bound in BALL_BOUNDS:
+            with self.subTest(size=size):
+                made = self.mesh("f.npy", "--values", "distances", *size)
+                off = np.linalg.norm(made.interface() - CENTRE, axis=1) - RADIUS
+                self.assertLess(abs(made.volume(1) / true - 1), volume_bound)
+                self.assertLess(np.abs(off).mean(), mean_bound)
+                verdict = run("verify", "f.npy", "m.vtu", "--values", "distances")
+                self.assertIn("all checks hold", verdict)
+
+    def test_planes_are_nearer_to_their_distances_than_to_voxels(self):
+        random = np.random.default_rng(5)
+        squares = {"f.npy": [], "labels.npy": []}
+        for _ in range(6):
+            normal = random.normal(size=3)
+            normal /= np.linalg.norm(normal)
+            place = normal @ np.full(3, EDGE / 2) + random.uniform(-1, 1)
+            distances = np.tensordot(normal, voxel_centres(), 1) - place
+            np.save("f.npy", distances)
+            np.save("labels.npy", (distances < 0).astype(np.uint8))
+            for name, options in (("f.npy", ("--values", "distances")), ("labels.npy", ())):
+                made = self.mesh(name, "--size", "4", *options)
+                squares[name].extend((made.interface() @ normal - place) ** 2)
+        errors = {name: np.sqrt(np.mean(all_of)) for name, all_of in squares.items()}
+        self.assertLess(errors["f.npy"], PLANE_BOUND)
+        self.assertLess(errors["f.npy"], 0.7 * errors["labels.npy"], errors)
+
+    def test_probabilities_are_read_from_all_containers(self):
+        classes = np.stack([ball(), 2 - ball(), 0.3 * ball() + 1]).astype(np.float32)
+        np.save("p.npy", classes)
+        image = nibabel.Nifti1Image(classes.transpose(3, 2, 1, 0), np.eye(4))
+        nibabel.save(image, "p.nii.gz")
+        for i, one in enumerate(classes):
+            nibabel.save(nibabel.Nifti1Image(one.transpose(2, 1, 0), np.eye(4)), f"c{i}.nii")
+        np.save("labels.npy", classes.argmax(0).astype(np.uint8))
+        options = ("--values", "probabilities", "--frame", "voxel")
+        digests = {self.digest(name, *options)
+                   for name in ("p.npy", "p.nii.gz", "c0.nii,c1.nii,c2.nii")}
+        self.assertEqual(len(digests), 1)
+        self.assertNotEqual(digests, {self.digest("labels.npy", "--frame", "voxel")})
+        self.assertIn("all checks hold", run("verify", "labels.npy", "d.vtu", "--frame", "voxel"))
+
+    def test_without_smooth_surfaces_only_labels_count(self):
+        np.save("f.npy", ball())
+        np.save("labels.npy", (ball() < 0).astype(np.uint8))
+        for options in (("--surface", "voxel"), ("--max-distance", "none")):
+            self.assertEqual(self.digest("f.npy", "--values", "distances", *options),
+                             self.digest("labels.npy", *options))
+
+    def test_threads_and_crops_change_nothing_but_the_part(self):
+        np.save("f.npy", ball())
+        one = self.digest("f.npy", "--values", "distances", "--threads", "1")
+        self.assertEqual(self.digest("f.npy", "--values", "distances", "--threads", "2"), one)
+        np.save("part.npy", ball()[2:20, 1:23, 3:24])
+        self.assertEqual(self.digest("part.npy", "--values", "distances"),
+                         self.digest("f.npy", "--values", "distances", "--crop", "3,1,2,24,23,20",
+                                     "--origin", "0,0,0"))
+
+    def test_the_report_tells_values_apart_that_have_the_same_labels(self):
+        found = set()
+        for scale in (1.0, 1.5):
+            shifted = ball()
+            shifted[shifted > 0] *= scale
+            np.save("f.npy", shifted)
+            run("mesh", "f.npy", "-o", "m.vtu", "--values", "distances", "--certify", "on",
+                "--report", "r.json")
+            with open("r.json", encoding="utf-8") as file:
+                found.add(json.load(file)["certificate"]["label_fingerprint"])
+        self.assertEqual(len(found), 2)
+
+    def test_what_does_not_go_with_values_is_refused(self):
+        np.save("f.npy", ball())
+        for options in (("--merge", "1=5"), ("--keep", "kept", "--order", "colour"),
+                        ("--overlap", "first")):
+            done = start("mesh", "f.npy", "-o", "m.vtu", "--values", "distances", *options)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(options[0], done.stderr)
+        bad = ball()
+        bad[3, 4, 5] = np.nan
+        np.save("bad.npy", bad)
+        done = start("mesh", "bad.npy", "-o", "m.vtu", "--values", "distances")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("bad.npy: voxel (5, 4, 3)", done.stderr)
+
+
+# What was found, rounded up: options, relative error of the volume, mean distance in voxels.  The
+# corners of a coarse mesh of a ball are outside, as it keeps the volume.
+BALL_BOUNDS = (((), 0.008, 0.5), (("--size", "3"), 0.004, 0.15), (("--size", "2"), 0.003, 0.1))
+PLANE_BOUND = 0.05  # root of the mean square, voxels
+
+if __name__ == "__main__":
+    unittest.main()

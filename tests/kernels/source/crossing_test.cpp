@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Crossings of scores against the surfaces that scores are distances to.
+#include "kernels/source/crossing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace mw::test {
+namespace {
+
+using Field = std::function<double(const Vec3&)>;
+
+double from_minus_1_to_1(std::mt19937& random) {
+  return static_cast<double>(random()) / 2147483647.5 - 1.0;
+}
+
+Vec3 any_vector(std::mt19937& random) {
+  return {from_minus_1_to_1(random), from_minus_1_to_1(random), from_minus_1_to_1(random)};
+}
+
+/// What is known of a field at the ends of a way of length one that begins at `below`.
+ScoreDifference sampled(const Field& field, const Vec3& below, unsigned axis) {
+  ScoreDifference out;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Vec3 at = below + static_cast<double>(side) * Vec3::Unit(static_cast<int>(axis));
+    out.values[side] = field(at);
+    for (int k = 0; k < 3; ++k) {
+      out.slopes[side][k] = 0.5 * (field(at + Vec3::Unit(k)) - field(at - Vec3::Unit(k)));
+    }
+  }
+  return out;
+}
+
+bool has_crossing(const ScoreDifference& d) {
+  return d.values[0] >= 0.0 && d.values[1] <= 0.0 && d.values[0] > d.values[1];
+}
+
+TEST(Crossing, OfPlanesIsExact) {
+  std::mt19937 random(7);
+  int found = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const Vec3 normal = any_vector(random).normalized(), below = any_vector(random);
+    const double scale = 0.01 + std::abs(from_minus_1_to_1(random));
+    const Field field = [&](const Vec3& p) { return -scale * normal.dot(p); };
+    const auto axis = static_cast<unsigned>(trial % 3);
+    const auto k = static_cast<int>(axis);
+    const ScoreDifference difference = sampled(field, below, axis);
+    if (!has_crossing(difference)) continue;
+    const SourcePlane plane = find_crossing(difference, axis);
+    const Vec3 place = below + (0.5 + plane.height) * Vec3::Unit(k);
+    EXPECT_NEAR(normal.dot(place), 0.0, 1e-9);
+    EXPECT_NEAR(plane.normal.dot(normal), 1.0, 1e-9);
+    ++found;
+  }
+  EXPECT_GT(found, 500);
+}
+
+TEST(Crossing, OfBallsIsNearerThanAStraightLineCanBe) {
+  constexpr double kRadius = 6.0;
+  std::mt19937 random(8);
+  const Field field = [](const Vec3& p) { return kRadius - p.norm(); };
+  double sum = 0.0, squares = 0.0, largest = 0.0;
+  int found = 0;
+  for (int trial = 0; trial < 300000; ++trial) {
+    const Vec3 below = 7.0 * any_vector(random);
+    const auto axis = static_cast<unsigned>(trial % 3);
+    const auto k = static_cast<int>(axis);
+    const ScoreDifference difference = sampled(field, below, axis);
+    if (!has_crossing(difference)) continue;
+    const SourcePlane plane = find_crossing(difference, axis);
+    const Vec3 place = below + (0.5 + plane.height) * Vec3::Unit(k);
+    const double off = place.norm() - kRadius;
+    sum += off;
+    squares += off * off;
+    largest = std::max(largest, std::abs(off));
+    EXPECT_GT(plane.normal.dot(place.normalized()), std::cos(0.03));
+    ++found;
+  }
+  EXPECT_GT(found, 3000);
+  EXPECT_LT(largest, 0.02);  // where the way hardly enters the ball
+  EXPECT_LT(std::sqrt(squares / found), 0.0015);
+  EXPECT_LT(std::abs(sum / found), 0.0005);
+}
+
+TEST(Crossing, IsBetweenTheCentresWhateverTheSlopes) {
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 2000; ++trial) {
+    ScoreDifference d{
+        .values = {std::abs(from_minus_1_to_1(random)), -std::abs(from_minus_1_to_1(random))},
+        .slopes = {100.0 * any_vector(random), 100.0 * any_vector(random)}};
+    const SourcePlane plane = find_crossing(d, 1);
+    EXPECT_LE(std::abs(plane.height), kMaxSourceHeight);
+    EXPECT_GT(plane.normal[1], 0.0);
+    EXPECT_NEAR(plane.normal.norm(), 1.0, 1e-12);
+  }
+}
+
+TEST(Crossing, IsTheFaceWhereThereIsNone) {
+  const double inf = std::numeric_limits<double>::infinity(), nan = inf - inf;
+  for (const std::array<double, 2> values :
+       {std::array{0.0, 0.0}, std::array{1.0, 0.5}, std::array{-1.0, 1.0}, std::array{inf, -1.0},
+        std::array{nan, -1.0}, std::array{1.0, nan}}) {
+    const SourcePlane plane = find_crossing({.values = values}, 2);
+    EXPECT_EQ(plane.height, 0.0);
+    EXPECT_EQ(plane.normal, Vec3::Unit(2));
+  }
+}
+
+TEST(Crossing, IsSeenFromFacesOfLayers) {
+  // Three layers along z.  The plane x = z / 6 in voxels of scores is x = z / 18 in the lattice.
+  const Vec3 normal = Vec3(1.0, 0.0, -1.0 / 6.0).normalized();
+  const SourcePlane crossing{normal, 0.25};
+  for (int layer = -1; layer <= 1; ++layer) {
+    const SourcePlane seen =
+        on_lattice(crossing, {.axis = 0, .layers = {1, 1, 3}, .centre = Vec3(0.0, 0.0, layer)});
+    EXPECT_NEAR(seen.height, 0.25 + layer / 18.0, 1e-12);
+    EXPECT_NEAR(seen.normal[2] / seen.normal[0], -1.0 / 18.0, 1e-12);
+  }
+  const SourcePlane along = on_lattice({Vec3::Unit(2), 0.1}, {.axis = 2, .layers = {1, 1, 3}});
+  EXPECT_NEAR(along.height, 0.3, 1e-12);
+  const SourcePlane far = on_lattice({Vec3::Unit(2), -0.4}, {.axis = 2, .layers = {1, 1, 3}});
+  EXPECT_EQ(far.height, -kMaxSourceHeight);
+}
+
+TEST(Crossing, IsStoredToHalfAUnitOfTheLattice) {
+  std::mt19937 random(10);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const SourcePlane plane{any_vector(random).normalized(), 0.5 * from_minus_1_to_1(random)};
+    const SourcePlane again = unpack(pack(plane, kCrossingBits), kCrossingBits);
+    EXPECT_NEAR(again.height, plane.height, 0.5 / 1024);
+    EXPECT_LT((again.normal - plane.normal).norm(), 0.005);
+  }
+}
+
+}  // namespace
+}  // namespace mw::test
