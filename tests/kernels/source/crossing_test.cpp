@@ -24,7 +24,7 @@ Vec3 any_vector(std::mt19937& random) {
 }
 
 /// What is known of a field at the ends of a way of length one that begins at `below`.
-ScoreDifference sampled(const Field& field, const Vec3& below, unsigned axis) {
+ScoreDifference known_around(const Field& field, const Vec3& below, unsigned axis) {
   ScoreDifference out;
   for (std::size_t side = 0; side < 2; ++side) {
     const Vec3 at = below + static_cast<double>(side) * Vec3::Unit(static_cast<int>(axis));
@@ -49,7 +49,7 @@ TEST(Crossing, OfPlanesIsExact) {
     const Field field = [&](const Vec3& p) { return -scale * normal.dot(p); };
     const auto axis = static_cast<unsigned>(trial % 3);
     const auto k = static_cast<int>(axis);
-    const ScoreDifference difference = sampled(field, below, axis);
+    const ScoreDifference difference = known_around(field, below, axis);
     if (!has_crossing(difference)) continue;
     const SourcePlane plane = find_crossing(difference, axis);
     const Vec3 place = below + (0.5 + plane.height) * Vec3::Unit(k);
@@ -70,7 +70,7 @@ TEST(Crossing, OfBallsIsNearerThanAStraightLineCanBe) {
     const Vec3 below = 7.0 * any_vector(random);
     const auto axis = static_cast<unsigned>(trial % 3);
     const auto k = static_cast<int>(axis);
-    const ScoreDifference difference = sampled(field, below, axis);
+    const ScoreDifference difference = known_around(field, below, axis);
     if (!has_crossing(difference)) continue;
     const SourcePlane plane = find_crossing(difference, axis);
     const Vec3 place = below + (0.5 + plane.height) * Vec3::Unit(k);
