@@ -32,10 +32,10 @@ struct PlaneBits {
     return static_cast<double>((1U << (normal - 1U)) - 1U);
   }
 };
-/// Of planes that are filtered out of labels (SourceSurface).
+/// The bits of planes that are filtered out of labels (SourceSurface).
 inline constexpr PlaneBits kFilteredBits{};
-/// Of crossings, whose heights are along the axis of the face and good to half a unit of the
-/// lattice.
+/// The bits of crossings, whose heights are along the axis of the face and good to half a unit of
+/// the lattice.
 inline constexpr PlaneBits kCrossingBits{.height = 12, .normal = 10};
 
 /// The largest height, in voxels: a plane that is sampled by voxels is never farther from a face.
