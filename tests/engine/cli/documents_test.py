@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""What documents tell users to type works: commands and Python of README.md, options elsewhere."""
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import unittest
+
+try:
+    import nibabel
+    import numpy as np
+except ImportError:
+    raise SystemExit(77)
+from program import PROGRAM, enter_folder, start
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+DOCUMENTS = [ROOT / "README.md", *sorted(
+    path for folder in ("engine", "kernels", "io", "tests", "bench", "configs")
+    for path in (ROOT / folder).rglob("*.md"))]
+
+
+def blocks(document):
+    """(language, text) of the fenced blocks of a document."""
+    return re.findall(r"^```(\w*)\n(.*?)^```", document.read_text(), re.M | re.S)
+
+
+def commands(text):
+    """The words of each line of a block that starts our program."""
+    for line in text.replace("\\\n", " ").splitlines():
+        if re.match(r"(build/release/)?mwmesh ", line):
+            yield shlex.split(line, comments=True)[1:]
+
+
+def all_commands(document):
+    """Those of its blocks, and those within its sentences."""
+    for _, text in blocks(document):
+        yield from commands(text)
+    for text in re.findall(r"`mwmesh ([a-z]+ [^`]*)`", document.read_text()):
+        yield text.split()
+
+
+class Documents(unittest.TestCase):
+    def test_options_in_commands_exist(self):
+        helps, seen = {}, 0
+        for document in DOCUMENTS:
+            for command, *words in all_commands(document):
+                if command not in helps:
+                    done = start(command, "--help-all")
+                    done = done if done.returncode == 0 else start(command, "--help")
+                    helps[command] = done.stdout
+                for flag in re.findall(r"--[a-z][a-z-]*", " ".join(words)):
+                    with self.subTest(document=document.name, command=command, flag=flag):
+                        self.assertRegex(helps[command], re.escape(flag) + r"\b")
+                        seen += 1
+        self.assertGreater(seen, 20)
+
+    def make_volumes(self):
+        enter_folder(self)
+        labels = np.zeros((24, 20, 18), np.uint8)
+        labels[4:20, 4:16, 3:15] = 5
+        labels[8:16, 7:13, 6:12] = 17
+        edited = labels.copy()
+        edited[4:7, 4:7, 3:6] = 0
+        for name, array in (("brain", labels), ("edited", edited)):
+            nibabel.save(nibabel.Nifti1Image(array, np.diag([1.0, 1, 1, 1])), f"{name}.nii.gz")
+
+    def test_commands_of_the_readme_work(self):
+        self.make_volumes()
+        kept = start("mesh", "brain.nii.gz", "-o", "first.vtu", "--keep", "kept")
+        self.assertEqual(kept.returncode, 0, kept.stderr)
+        readme = (ROOT / "README.md").read_text()
+        section = readme[readme.index("## Commands"):]
+        text = re.search(r"^```\n(.*?)^```", section, re.M | re.S).group(1)
+        ran = 0
+        for words in commands(text):
+            done = start(*words)
+            self.assertEqual(done.returncode, 0, (words, done.stderr))
+            ran += 1
+        self.assertEqual(ran, 6)
+        for name in ("brain.vtu", "thalamus.stl", "brain.png"):
+            self.assertGreater(os.path.getsize(name), 500)
+
+    def test_python_of_the_readme_works(self):
+        package = pathlib.Path(PROGRAM).parent / "python"
+        if not (package / "mwmesh").is_dir():
+            self.skipTest("built without Python")
+        self.make_volumes()
+        snippets = [text for language, text in blocks(ROOT / "README.md") if language == "python"]
+        self.assertEqual(len(snippets), 1)
+        done = subprocess.run([sys.executable, "-c", snippets[0]], capture_output=True, text=True,
+                              env={**os.environ, "PYTHONPATH": str(package)})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("17:", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
