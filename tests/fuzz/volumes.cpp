@@ -25,9 +25,12 @@ using Opened = std::unique_ptr<io::LabelVolume>;
 using OpenFile = Opened (*)(std::unique_ptr<io::ByteSource>, const io::OpenOptions&);
 using OpenStore = Opened (*)(const io::Place&, const io::OpenOptions&);
 
+/// Named, as GCC 12 with precompiled headers cannot make one of `{}` within a template.
+const io::OpenOptions kPlain;
+
 template <OpenFile open>
 void file(Bytes bytes) {
-  ends_well([&] { look_at(*open(std::make_unique<ByteFile>(bytes), {})); });
+  ends_well([&] { look_at(*open(std::make_unique<ByteFile>(bytes), kPlain)); });
 }
 
 template <OpenStore open>
