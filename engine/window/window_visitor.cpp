@@ -30,10 +30,8 @@ constexpr double kMinInnerRatio = 0.1;
 /// The curvature of threads of a voxel (bench/parameters.md, "Constants").
 constexpr double kMaxCurvatureOfSource = 4.0;
 
-/// The fit to crossings, whose places are known and not guessed, and the area beside it.  Of planes
-/// at random angles, 24 voxels wide, vertices are then 0.003 to 0.05 voxels from the plane (root of
-/// the mean square), with the usual weights 0.014 to 0.07.  Larger weights spoil what they gain, as
-/// shapes then follow the surface into bad corners.
+/// The fit to crossings, whose places are known and not guessed, and the area beside it
+/// (bench/parameters.md, "Constants").
 constexpr double kFitOfCrossings = 50.0, kAreaOfCrossings = 0.05;
 
 std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,

@@ -39,6 +39,20 @@ void check_origin(std::string_view file, std::string_view field, double origin) 
              "give the right one with --origin");
 }
 
+void check_same_grid(std::string_view file, const VolumeInfo& info, const VolumeInfo& before,
+                     std::string_view what) {
+  const Index3 a = info.shape, b = before.shape;
+  if (a != b) {
+    fail_input(file, "shape",
+               text(a.x, " x ", a.y, " x ", a.z, " voxels, but the ", what, " before it have ", b.x,
+                    " x ", b.y, " x ", b.z),
+               text("give ", what, " of one grid"));
+  }
+  if (is_same_place(info.space, before.space)) return;
+  fail_input(file, "place", text("lies elsewhere than the ", what, " before it"),
+             text("resample the ", what, " to one grid, or give --spacing and --origin"));
+}
+
 std::uint64_t payload_bytes(const VolumeInfo& info) {
   return static_cast<std::uint64_t>(info.shape.product()) *
          static_cast<std::uint64_t>(byte_size(info.type));

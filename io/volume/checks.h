@@ -33,6 +33,11 @@ enum class BytesBehind { kIgnored, kRefused };
 void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64_t offset,
                    BytesBehind behind = BytesBehind::kIgnored, std::uint64_t copies = 1);
 
+/// ERRORS: kInput naming `file` unless it has the shape and the place of the volumes before it.
+/// what: what these are, such as "masks".
+void check_same_grid(std::string_view file, const VolumeInfo& info, const VolumeInfo& before,
+                     std::string_view what);
+
 /// Bytes of all voxels.
 [[nodiscard]] std::uint64_t payload_bytes(const VolumeInfo& info);
 

@@ -4,7 +4,6 @@
 #include "io/volume/masks/mask_merger.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -64,20 +63,6 @@ MaskMerger::MaskMerger(const VolumeInfo& frame, Overlap overlap, std::string nam
   // What is not written in between reads as zeros.
   const Set none = 0;
   file_.write_at(payload_bytes(info_) - sizeof(Set), std::as_bytes(std::span(&none, 1)));
-}
-
-void MaskMerger::check_frame(const Mask& mask) const {
-  const VolumeInfo& info = mask.volume->info();
-  const Index3 a = info.shape, b = info_.shape;
-  if (a != b) {
-    fail_input(mask.file, "shape",
-               text(a.x, " x ", a.y, " x ", a.z, " voxels, but the masks before it have ", b.x,
-                    " x ", b.y, " x ", b.z),
-               "give masks of one grid");
-  }
-  if (is_same_place(info.space, info_.space)) return;
-  fail_input(mask.file, "place", "the mask lies elsewhere than those before it",
-             "resample the masks to one grid, or give --spacing and --origin");
 }
 
 MaskMerger::Set MaskMerger::new_set(std::vector<std::uint16_t> masks) {
@@ -147,7 +132,7 @@ void MaskMerger::refuse_overlap(const Mask& mask) const {
 }
 
 void MaskMerger::add(const Mask& mask) {
-  check_frame(mask);
+  check_same_grid(mask.file, mask.volume->info(), info_, "masks");
   value_ = mask.value;
   const Set own = new_set({static_cast<std::uint16_t>(names_.size())});
   names_.push_back({.label = names_.size() + 1, .name = mask.name, .colour = mask.colour});

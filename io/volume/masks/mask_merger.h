@@ -56,7 +56,6 @@ class MaskMerger {
     Index3 first{0, 0, 0};
   };
 
-  void check_frame(const Mask& mask) const;
   [[nodiscard]] Set new_set(std::vector<std::uint16_t> masks);
   /// The set of a voxel of the mask that is being added.
   [[nodiscard]] Set joined(Set present, Set own);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "io/file/errors.h"
+#include "io/volume/checks.h"
 #include "io/volume/masks/open_masks.h"
 #include "io/volume/scores/number_stack.h"
 #include "io/volume/scores/scored_labels.h"
@@ -26,20 +27,6 @@ void check_numbers_of(const ScoreComponent& component) {
   fail_input(component.name, {},
              "numbers of a " + component.volume->info().format + " file are not read here",
              "give them as .npy, NIfTI, NRRD, MetaImage, HDF5, Zarr or N5");
-}
-
-void check_grid(const ScoreComponent& component, const VolumeInfo& first) {
-  const VolumeInfo& info = component.volume->info();
-  const Index3 a = info.shape, b = first.shape;
-  if (a != b) {
-    fail_input(component.name, "shape",
-               text(a.x, " x ", a.y, " x ", a.z, " voxels, but the files before it have ", b.x,
-                    " x ", b.y, " x ", b.z),
-               "give values on one grid");
-  }
-  if (is_same_place(info.space, first.space)) return;
-  fail_input(component.name, "place", "the values lie elsewhere than those before them",
-             "resample them to one grid, or give --spacing and --origin");
 }
 
 /// One for each part of a stack.
@@ -86,7 +73,10 @@ std::unique_ptr<LabelVolume> open_scores(
     fail_input(path.string(), {}, text("there are more than ", kMostComponents, " components"));
   }
   for (const ScoreComponent& c : components) check_numbers_of(c);
-  for (const ScoreComponent& c : components) check_grid(c, components.front().volume->info());
+  const VolumeInfo& first = components.front().volume->info();
+  for (const ScoreComponent& c : components) {
+    check_same_grid(c.name, c.volume->info(), first, "values");
+  }
   LabelNames names = components.size() == files.size() ? names_of_files(files, options.values)
                                                        : components.front().volume->info().names;
   return std::make_unique<ScoredLabels>(std::move(components), options.values, std::move(names));

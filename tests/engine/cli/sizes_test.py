@@ -10,37 +10,13 @@ import unittest
 from program import enter_folder, run, start
 
 try:
-    import meshio
     import numpy as np
+    from tet_mesh import PAIRS, Mesh
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
 SPACING = ("--spacing", "0.5,0.5,1.25")
-PAIRS = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
-
-
-class Mesh:
-    def __init__(self, path):
-        mesh = meshio.read(path)
-        self.points = np.asarray(mesh.points, dtype=float)
-        self.tets = mesh.cells_dict["tetra"].astype(np.int64)
-        self.labels = np.asarray(mesh.cell_data["label"][0]).astype(np.int64).ravel()
-
-    def longest(self, label):
-        tets = self.tets[self.labels == label]
-        edges = [self.points[tets[:, a]] - self.points[tets[:, b]] for a, b in PAIRS]
-        return max(np.linalg.norm(e, axis=1).max() for e in edges)
-
-    def lacking(self):
-        """Which tets have all corners on interfaces or the box."""
-        low = np.full(len(self.points), np.iinfo(np.int64).max)
-        high = np.full(len(self.points), -1)
-        for corner in self.tets.T:
-            np.minimum.at(low, corner, self.labels)
-            np.maximum.at(high, corner, self.labels)
-        box = (self.points == self.points.min(0)) | (self.points == self.points.max(0))
-        return ((low != high) | box.any(1))[self.tets].all(1)
 
 
 class Sizes(unittest.TestCase):

@@ -10,9 +10,9 @@ import unittest
 from program import enter_folder, run, start
 
 try:
-    import meshio
     import nibabel
     import numpy as np
+    from tet_mesh import Mesh
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -30,27 +30,6 @@ def voxel_centres():
 
 def ball():
     return np.linalg.norm(voxel_centres() - CENTRE[:, None, None, None], axis=0) - RADIUS
-
-
-class Mesh:
-    def __init__(self, path):
-        mesh = meshio.read(path)
-        self.points = np.asarray(mesh.points, dtype=float)
-        self.tets = mesh.cells_dict["tetra"].astype(np.int64)
-        self.labels = np.asarray(mesh.cell_data["label"][0]).astype(np.int64).ravel()
-
-    def volume(self, label):
-        a, b, c, d = (self.points[self.tets[self.labels == label][:, i]] for i in range(4))
-        return np.abs(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)).sum() / 6
-
-    def interface(self):
-        """Points at which two labels meet."""
-        low = np.full(len(self.points), np.iinfo(np.int64).max)
-        high = np.full(len(self.points), -1)
-        for corner in self.tets.T:
-            np.minimum.at(low, corner, self.labels)
-            np.maximum.at(high, corner, self.labels)
-        return self.points[low != high]
 
 
 class Values(unittest.TestCase):

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <random>
 
 namespace mw::test {
@@ -40,6 +41,19 @@ bool has_crossing(const ScoreDifference& d) {
   return d.values[0] >= 0.0 && d.values[1] <= 0.0 && d.values[0] > d.values[1];
 }
 
+/// A crossing of a field above a voxel, and the point where it is; none if the field has none
+/// there.
+struct FieldCrossing {
+  SourcePlane plane;
+  Vec3 place;
+};
+std::optional<FieldCrossing> crossing_of(const Field& field, const Vec3& below, unsigned axis) {
+  const ScoreDifference difference = known_around(field, below, axis);
+  if (!has_crossing(difference)) return std::nullopt;
+  const SourcePlane plane = find_crossing(difference, axis);
+  return FieldCrossing{plane, below + (0.5 + plane.height) * Vec3::Unit(static_cast<int>(axis))};
+}
+
 TEST(Crossing, OfPlanesIsExact) {
   std::mt19937 random(7);
   int found = 0;
@@ -47,14 +61,10 @@ TEST(Crossing, OfPlanesIsExact) {
     const Vec3 normal = any_vector(random).normalized(), below = any_vector(random);
     const double scale = 0.01 + std::abs(from_minus_1_to_1(random));
     const Field field = [&](const Vec3& p) { return -scale * normal.dot(p); };
-    const auto axis = static_cast<unsigned>(trial % 3);
-    const auto k = static_cast<int>(axis);
-    const ScoreDifference difference = known_around(field, below, axis);
-    if (!has_crossing(difference)) continue;
-    const SourcePlane plane = find_crossing(difference, axis);
-    const Vec3 place = below + (0.5 + plane.height) * Vec3::Unit(k);
-    EXPECT_NEAR(normal.dot(place), 0.0, 1e-9);
-    EXPECT_NEAR(plane.normal.dot(normal), 1.0, 1e-9);
+    const auto found_here = crossing_of(field, below, static_cast<unsigned>(trial % 3));
+    if (!found_here) continue;
+    EXPECT_NEAR(normal.dot(found_here->place), 0.0, 1e-9);
+    EXPECT_NEAR(found_here->plane.normal.dot(normal), 1.0, 1e-9);
     ++found;
   }
   EXPECT_GT(found, 500);
@@ -68,17 +78,13 @@ TEST(Crossing, OfBallsIsNearerThanAStraightLineCanBe) {
   int found = 0;
   for (int trial = 0; trial < 300000; ++trial) {
     const Vec3 below = 7.0 * any_vector(random);
-    const auto axis = static_cast<unsigned>(trial % 3);
-    const auto k = static_cast<int>(axis);
-    const ScoreDifference difference = known_around(field, below, axis);
-    if (!has_crossing(difference)) continue;
-    const SourcePlane plane = find_crossing(difference, axis);
-    const Vec3 place = below + (0.5 + plane.height) * Vec3::Unit(k);
-    const double off = place.norm() - kRadius;
+    const auto found_here = crossing_of(field, below, static_cast<unsigned>(trial % 3));
+    if (!found_here) continue;
+    const double off = found_here->place.norm() - kRadius;
     sum += off;
     squares += off * off;
     largest = std::max(largest, std::abs(off));
-    EXPECT_GT(plane.normal.dot(place.normalized()), std::cos(0.03));
+    EXPECT_GT(found_here->plane.normal.dot(found_here->place.normalized()), std::cos(0.03));
     ++found;
   }
   EXPECT_GT(found, 3000);
