@@ -28,6 +28,8 @@ class RecordLog {
   /// Returns where the record is; durable after sync().
   std::uint64_t append(std::span<const std::byte> record);
   void sync() { file_->sync(); }
+  /// Makes the file end where its last record does.
+  void trim() { file_->resize(end_); }
   /// REQUIRES: a place that replay() or append() told.
   void read(std::uint64_t at, const UseBytes& use) const;
 

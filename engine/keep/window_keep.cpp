@@ -387,6 +387,7 @@ void WindowKeep::compact_log() {
       });
     }
     compacted.sync();
+    compacted.trim();
   }
   std::filesystem::rename(file, folder_->path() / kWindowsFile);
 }
@@ -395,6 +396,9 @@ void WindowKeep::finish() {
   const std::lock_guard turn(saving_);
   write_group();
   if (records_ > 2 * live_) compact_log();
+  log_->trim();
+  const std::lock_guard lock(mutex_);
+  bytes_.trim();
   facts_.bytes_kept = folder_->bytes();
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace mw::engine {
 namespace {
@@ -13,13 +14,31 @@ std::array<std::int64_t, 3> axes(Index3 i) {
   return {i.x, i.y, i.z};
 }
 
-/// Place of index i in 0, 2, 1, 4, 3, 6, 5, ... below count; its own inverse.
+/// Place of index i in 0, 2, 1, 4, 3, ... below count, where odd places come after those beside
+/// them; its own inverse.
 std::int64_t even_first(std::int64_t i, std::int64_t count) {
   return i % 2 == 0 ? std::max<std::int64_t>(i - 1, 0) : std::min(i + 1, count - 1);
 }
 
-Index3 even_first(Index3 i, Index3 count) {
-  return {even_first(i.x, count.x), even_first(i.y, count.y), even_first(i.z, count.z)};
+/// Place of index i in 1, 0, 3, 2, 5, ... below count, where even places come after those beside
+/// them; its own inverse.
+std::int64_t odd_first(std::int64_t i, std::int64_t count) {
+  return i % 2 == 0 ? std::min(i + 1, count - 1) : i - 1;
+}
+
+std::int64_t place(std::int64_t i, std::int64_t count, std::int64_t parity) {
+  return parity % 2 == 0 ? even_first(i, count) : odd_first(i, count);
+}
+
+/// The window at each place of the colour order's sequence, whose places are indices too.
+Index3 colour_window(Index3 at, Index3 windows) {
+  const std::int64_t z = place(at.z, windows.z, 0), y = place(at.y, windows.y, z);
+  return {place(at.x, windows.x, y + z), y, z};
+}
+
+/// The inverse of colour_window().
+Index3 colour_place(Index3 w, Index3 windows) {
+  return {place(w.x, windows.x, w.y + w.z), place(w.y, windows.y, w.z), place(w.z, windows.z, 0)};
 }
 
 /// Index3 of a place in an x-fastest array of shape s.
@@ -28,39 +47,41 @@ Index3 unraster(std::uint64_t index, Index3 s) {
   return {i % s.x, i / s.x % s.y, i / s.x / s.y};
 }
 
-/// First of the axes with several windows along which the window is even (parity 0) or odd (1);
-/// 3 when there is none.
-std::size_t first_axis(Index3 window, Index3 windows, std::int64_t parity) {
-  std::size_t axis = 0;
-  while (axis < 3 && (axes(windows)[axis] == 1 || axes(window)[axis] % 2 != parity)) ++axis;
-  return axis;
+/// The colour as the place in the Gray code of the parities, of those axes that have several
+/// windows.
+std::int64_t colour_step(Index3 window, Index3 windows) {
+  std::int64_t step = 0, parity = 0;
+  for (std::size_t axis = 3; axis-- > 0;) {
+    parity ^= axes(window)[axis] % 2;
+    if (axes(windows)[axis] > 1) step = 2 * step + parity;
+  }
+  return step;
 }
 
-/// Windows one away along each axis up to `last` (axes of a single window aside), in line with this
-/// one along the others.
-std::vector<Index3> diagonal_neighbours(Index3 window, Index3 windows, std::size_t last) {
+/// Windows beside this one along the axis in which the colours of steps `step` - 1 and `step`
+/// differ: that of the lowest bit which is set.
+std::vector<Index3> beside(Index3 window, Index3 windows, std::int64_t step) {
   std::vector<Index3> out;
-  for_each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 d) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      const bool moves = a <= last && axes(windows)[a] > 1;
-      if ((axes(d)[a] != 0) != moves) return;
+  auto bit = std::countr_zero(static_cast<std::uint64_t>(step));
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    if (axes(windows)[axis] == 1 || bit-- != 0) continue;
+    for (const Index3 w : {window - axis_vector(axis), window + axis_vector(axis)}) {
+      if (Box3{{0, 0, 0}, windows}.contains(w)) out.push_back(w);
     }
-    if (Box3{{0, 0, 0}, windows}.contains(window + d)) out.push_back(window + d);
-  });
+  }
   return out;
 }
 
-/// Edges lead from each colour to the next.  With a the least significant odd axis, the neighbours
-/// of the colour before are odd along all axes below a, and every other earlier neighbour precedes
-/// one of them.
+/// Edges lead from each colour to the next.  Any two colours are joined by steps along axes, each
+/// as often as parity asks, so of any two windows that share a block one is reached from the other
+/// by going there and back.
 std::vector<Index3> colour_predecessors(Index3 window, Index3 windows) {
-  const std::size_t axis = first_axis(window, windows, 1);
-  return axis == 3 ? std::vector<Index3>{} : diagonal_neighbours(window, windows, axis);
+  const std::int64_t step = colour_step(window, windows);
+  return step == 0 ? std::vector<Index3>{} : beside(window, windows, step);
 }
 
 std::vector<Index3> colour_successors(Index3 window, Index3 windows) {
-  const std::size_t axis = first_axis(window, windows, 0);
-  return axis == 3 ? std::vector<Index3>{} : diagonal_neighbours(window, windows, axis);
+  return beside(window, windows, colour_step(window, windows) + 1);
 }
 
 /// The inverse of WindowGrid::predecessors().
@@ -90,23 +111,15 @@ std::int64_t raster_step(Index3 window, Index3 windows) {
   return window.x + row * window.y + layer * window.z;
 }
 
-std::int64_t colour_step(Index3 window, Index3 windows) {
-  std::int64_t colour = 0;
-  for (std::size_t axis = 3; axis-- > 0;) {
-    if (axes(windows)[axis] > 1) colour = 2 * colour + axes(window)[axis] % 2;
-  }
-  return colour;
-}
-
 }  // namespace
 
 Index3 WindowOrder::window(std::uint64_t rank) const {
   const Index3 index = unraster(rank, grid_.windows());
-  return order_ == Order::kRaster ? index : even_first(index, grid_.windows());
+  return order_ == Order::kRaster ? index : colour_window(index, grid_.windows());
 }
 
 std::uint64_t WindowOrder::rank(Index3 window) const {
-  const Index3 index = order_ == Order::kRaster ? window : even_first(window, grid_.windows());
+  const Index3 index = order_ == Order::kRaster ? window : colour_place(window, grid_.windows());
   return raster(index, grid_.windows());
 }
 

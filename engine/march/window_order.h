@@ -19,12 +19,16 @@ namespace mw::engine {
 /// kRaster: x fastest, then y, then z; the edges are the three of WindowGrid::predecessors().  The
 /// longest path has about X + 2Y + 4Z windows.
 ///
-/// kColour: the parities of (z,y,x) are a colour from 0 to 7.  Of two neighbours, the most
-/// significant axis along which they differ decides: even before odd.  No two neighbours have the
-/// same colour, every path climbs in colour, so none is longer than 8 windows whatever the volume,
-/// and an eighth of all windows may run at once.  The sequence does not go colour by colour over
-/// the whole volume: along each axis it visits 0, 2, 1, 4, 3, 6, 5, ... (z slowest), which obeys
-/// the same edges and keeps three layers of blocks in use (raster: two).
+/// kColour: the parities of (z,y,x) are a colour, and colours come in the order of their Gray code,
+/// in which each differs from the one before in one axis.  So along z even windows come before odd
+/// ones; along y, in the layers of odd z, odd before even; along x, odd before even where y + z is
+/// odd.  No two neighbours have the same colour, every path climbs in colour, so none is longer
+/// than 8 windows whatever the volume, and an eighth of all windows may run at once.  What an edit
+/// changes reaches one window further along an axis each time that the axis's parity changes: four
+/// times along x, twice along y, once along z, which is half of the windows that plain counting
+/// would reach.  The sequence does not go colour by colour over the whole volume: along z it visits
+/// 0, 2, 1, 4, 3, 6, 5, ..., along the others so or 1, 0, 3, 2, 5, 4, ...; this obeys the same
+/// edges and keeps three layers of blocks in use (raster: two).
 class WindowOrder {
  public:
   WindowOrder(const WindowGrid& grid, Order order) : grid_(grid), order_(order) {}
@@ -38,7 +42,7 @@ class WindowOrder {
   [[nodiscard]] Index3 window(std::uint64_t rank) const;
   [[nodiscard]] std::uint64_t rank(Index3 window) const;
 
-  /// Edges that end or start at a window: at most 8 (colour), 3 and 7 (raster).
+  /// Edges that end or start at a window: at most 2 (colour), 3 and 7 (raster).
   [[nodiscard]] std::vector<Index3> predecessors(Index3 window) const;
   [[nodiscard]] std::vector<Index3> successors(Index3 window) const;
 

@@ -21,6 +21,11 @@ struct Index3 {
   [[nodiscard]] std::int64_t product() const { return x * y * z; }
 };
 
+/// A step along an axis (0 = x).
+[[nodiscard]] inline Index3 axis_vector(unsigned axis, std::int64_t length = 1) {
+  return {axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0};
+}
+
 /// Half-open box of voxels: lo is inside, hi is not.
 struct Box3 {
   Index3 lo;

@@ -17,9 +17,7 @@ struct VoxelFace {
   unsigned axis = 0;
 
   friend bool operator==(const VoxelFace&, const VoxelFace&) = default;
-  [[nodiscard]] Index3 upper() const {
-    return lower + Index3{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
-  }
+  [[nodiscard]] Index3 upper() const { return lower + axis_vector(axis); }
 };
 
 /// The labels on its two sides.

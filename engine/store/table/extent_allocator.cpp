@@ -35,6 +35,14 @@ void ExtentAllocator::grow(std::uint64_t end) {
   release(more);
 }
 
+void ExtentAllocator::trim() {
+  if (free_.empty()) return;
+  const auto last = std::prev(free_.end());
+  if (last->first + last->second != end_) return;
+  end_ = last->first;
+  remove(last);
+}
+
 std::optional<Extent> ExtentAllocator::allocate(std::uint64_t size) {
   const std::uint64_t needed = whole_sectors(size);
   const auto best = by_size_.lower_bound({needed, 0});

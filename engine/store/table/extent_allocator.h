@@ -27,6 +27,8 @@ class ExtentAllocator {
 
   /// Adds [end(), end) to what can be dealt out.  REQUIRES: whole sectors, end >= end().
   void grow(std::uint64_t end);
+  /// Gives up what is free at the end; end() is then that of the last extent.
+  void trim();
   [[nodiscard]] std::uint64_t end() const { return end_; }
 
   /// Nothing when no free run is long enough.  REQUIRES: size > 0.

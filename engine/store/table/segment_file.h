@@ -28,6 +28,11 @@ class SegmentFile {
   }
   void prefetch(const Extent& extent) const { file_->prefetch(extent.offset, extent.size); }
   void sync() { file_->sync(); }
+  /// Makes the file end where its last extent does.
+  void trim() {
+    free_.trim();
+    file_->resize(free_.end());
+  }
 
  private:
   /// REQUIRES: no free run of this size.

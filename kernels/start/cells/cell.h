@@ -23,10 +23,6 @@ struct CellFace {
   bool high = false;
 };
 
-[[nodiscard]] inline Index3 axis_vector(unsigned axis, std::int64_t length = 1) {
-  return {axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0};
-}
-
 /// A corner, middle of an edge, middle of a face, or centre of a cell: x + 3 y + 9 z, where x, y
 /// and z count half edges.  So nodes of a cell ascend with their vertex ids.
 using CellNode = unsigned;

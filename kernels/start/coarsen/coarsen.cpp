@@ -17,14 +17,38 @@ namespace {
 
 constexpr std::int64_t kReachPerColour = 2;
 
+/// The lower voxels of the pairs along x in a cube.
+constexpr std::array<Index3, 4> kPairs{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}}};
+
 Index3 cube_voxel(Index3 cube, unsigned i) {
   return cube + Index3{i & 1U, i >> 1 & 1U, i >> 2 & 1U};
 }
 
+/// A face relative to another, and how far its voxels are from that one's lower voxel in an array.
+struct FaceStep {
+  VoxelFace face;
+  std::ptrdiff_t lower = 0;
+  std::ptrdiff_t upper = 0;
+};
+
+std::vector<FaceStep> steps_to(const std::vector<VoxelFace>& faces, const Box3& box) {
+  const Index3 shape = box.shape();
+  const auto step = [&](Index3 v) { return (v.z * shape.y + v.y) * shape.x + v.x; };
+  std::vector<FaceStep> out;
+  for (const VoxelFace& f : faces) out.push_back({f, step(f.lower), step(f.upper())});
+  return out;
+}
+
+/// REQUIRES: the labels before and after cover one box.
 class Coarsener {
  public:
   Coarsener(const LabelBox& original, LabelBox& labels, double max_distance, const SizeField* sizes)
-      : original_(original), labels_(labels), carriers_(max_distance), sizes_(sizes) {
+      : original_(original), labels_(labels), sizes_(sizes) {
+    const CarrierFaces faces(max_distance);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      carriers_[axis] = steps_to(faces.of(axis), labels.box);
+      carried_by_[axis] = steps_to(faces.carried_by(axis), labels.box);
+    }
     const double reach = std::min(max_distance, kMaxCoarseDistance);
     for_each_index(Box3{{-1, -1, -1}, {2, 2, 2}}, [&](Index3 o) {
       if (static_cast<double>(o.x * o.x + o.y * o.y + o.z * o.z) <= reach * reach) {
@@ -35,9 +59,9 @@ class Coarsener {
 
   /// True when the cube was mixed; uniform tells what became of it.
   bool visit(Index3 cube, bool& uniform) {
+    if (is_uniform(cube)) return false;
     std::array<Label, 8> before;
     for (unsigned i = 0; i < 8; ++i) before[i] = labels_.at(cube_voxel(cube, i));
-    if (std::count(before.begin(), before.end(), before[0]) == 8) return false;
     uniform = false;
     if (!sizes_allow(cube, before)) return true;
     for (Label to : candidates(before)) {
@@ -52,6 +76,18 @@ class Coarsener {
 
  private:
   Label& at(Index3 v) { return labels_.labels[static_cast<std::size_t>(labels_.box.offset(v))]; }
+
+  /// Most cubes are, so that this test is what most of the time goes to: it looks up one place.
+  [[nodiscard]] bool is_uniform(Index3 cube) const {
+    const Index3 shape = labels_.box.shape();
+    const std::int64_t row = shape.x, layer = shape.x * shape.y;
+    const Label* at = labels_.labels.data() + labels_.box.offset(cube);
+    const Label label = *at;
+    return std::all_of(kPairs.begin(), kPairs.end(), [&](Index3 pair) {
+      const Label* lower = at + pair.y * row + pair.z * layer;
+      return lower[0] == label && lower[1] == label;
+    });
+  }
 
   /// Labels of the cube, the most frequent first, then by label.
   static std::vector<Label> candidates(std::array<Label, 8> labels) {
@@ -175,31 +211,38 @@ class Coarsener {
   }
 
   [[nodiscard]] bool others_carry(const VoxelFace& lost, LabelPair labels, Index3 cube) const {
-    for (const VoxelFace& f : carriers_.carried_by(lost.axis)) {
-      const VoxelFace face{lost.lower + f.lower, f.axis};
-      if (labels_beside(original_, face) != labels) continue;
-      if (!has_carrier(face, cube)) return false;
+    const Label* at = original_.labels.data() + original_.box.offset(lost.lower);
+    for (const FaceStep& f : carried_by_[lost.axis]) {
+      const Label lower = at[f.lower], upper = at[f.upper];
+      if (label_pair(lower, upper) != labels) continue;
+      const VoxelFace face{lost.lower + f.face.lower, f.face.axis};
+      if (!has_carrier(face, lower, upper, cube)) return false;
     }
     return true;
   }
 
-  /// Faces farther from the cube than its colour may see do not count.
-  [[nodiscard]] bool has_carrier(const VoxelFace& face, Index3 cube) const {
-    const Box3 seen{cube - Index3{kReachPerColour, kReachPerColour, kReachPerColour},
-                    cube + Index3{2 + kReachPerColour, 2 + kReachPerColour, 2 + kReachPerColour}};
-    for (const VoxelFace& c : carriers_.of(face.axis)) {
-      const VoxelFace carrier{face.lower + c.lower, c.axis};
-      if (seen.contains(carrier.lower) && seen.contains(carrier.upper()) &&
-          may_carry(labels_, carrier, original_, face)) {
-        return true;
-      }
-    }
-    return false;
+  /// Whether a face of the input, between these labels, has a carrier (may_carry()).  Faces farther
+  /// from the cube than its colour may see do not count.
+  [[nodiscard]] bool has_carrier(const VoxelFace& face, Label lower, Label upper,
+                                 Index3 cube) const {
+    const Index3 reach{kReachPerColour, kReachPerColour, kReachPerColour};
+    const Box3 seen{cube - reach, cube + reach + Index3{2, 2, 2}};
+    const Label* at = labels_.labels.data() + labels_.box.offset(face.lower);
+    return std::any_of(carriers_[face.axis].begin(), carriers_[face.axis].end(),
+                       [&](const FaceStep& c) {
+                         const VoxelFace carrier{face.lower + c.face.lower, c.face.axis};
+                         if (!seen.contains(carrier.lower) || !seen.contains(carrier.upper()))
+                           return false;
+                         const Label below = at[c.lower], above = at[c.upper];
+                         if (below == lower && above == upper) return true;
+                         return carrier.axis != face.axis && below == upper && above == lower;
+                       });
   }
 
   const LabelBox& original_;
   LabelBox& labels_;
-  CarrierFaces carriers_;
+  std::array<std::vector<FaceStep>, 3> carriers_;    ///< by axis, as CarrierFaces::of()
+  std::array<std::vector<FaceStep>, 3> carried_by_;  ///< as CarrierFaces::carried_by()
   const SizeField* sizes_;
   std::vector<Index3> displacements_;
 };

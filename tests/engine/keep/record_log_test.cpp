@@ -71,6 +71,23 @@ TEST(RecordLog, HoldsWhatIsWholeAfterEveryCut) {
   }
 }
 
+TEST(RecordLog, GrowsAgainAfterItWasTrimmed) {
+  std::mt19937 random(3511);
+  const TempFolder folder;
+  const auto path = folder.path() / "log";
+  Records written;
+  for (int i = 0; i < 5; ++i) {
+    RecordLog log = open(path);
+    EXPECT_EQ(replayed(log), written);
+    for (const auto& record : random_records(random)) {
+      static_cast<void>(log.append(record));
+      written.push_back(record);
+    }
+    log.trim();
+    EXPECT_EQ(std::filesystem::file_size(path), log.bytes());
+  }
+}
+
 TEST(RecordLog, RefusesAnotherFile) {
   const TempFolder folder;
   const auto path = folder.path() / "log";

@@ -212,6 +212,33 @@ TEST(ExtentAllocator, AgreesWithAListOfSectors) {
   }
 }
 
+TEST(ExtentAllocator, EndsWithTheLastExtentWhenTrimmed) {
+  std::mt19937 random(312);
+  for (int trial = 0; trial < 200; ++trial) {
+    ExtentAllocator allocator;
+    allocator.grow(kSectors * kSector);
+    std::vector<Extent> held;
+    while (const auto extent = allocator.allocate(1 + random() % (40 * kSector))) {
+      held.push_back(*extent);
+    }
+    std::shuffle(held.begin(), held.end(), random);
+    const std::size_t left = random() % held.size();
+    while (held.size() > left) {
+      allocator.release(held.back());
+      held.pop_back();
+    }
+    std::uint64_t end = 0;
+    for (const Extent& e : held) {
+      end = std::max(end, (e.offset + e.size + kSector - 1) / kSector * kSector);
+    }
+    allocator.trim();
+    EXPECT_EQ(allocator.end(), end);
+    allocator.grow(kSectors * kSector);
+    for (const Extent& e : held) allocator.release(e);
+    EXPECT_EQ(allocator.free_bytes(), kSectors * kSector);
+  }
+}
+
 TEST(ExtentAllocator, TakesGivenExtentsOnce) {
   ExtentAllocator allocator;
   allocator.grow(16 * kSector);
