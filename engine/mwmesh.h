@@ -132,6 +132,9 @@ struct VolumeFile {
   /// Labels that alone matter; empty: all do.  All others become 0, and the volume ends around
   /// these labels, which are found by coarser scales where there are some (io/README.md).
   std::vector<std::uint64_t> object{};
+  /// "DIR" or "DIR,SIZE": a folder for what servers send, for later runs, and the most bytes that
+  /// it may have (io/README.md); empty: nothing is kept.
+  std::string cache{};
 };
 
 class VolumeAccess;

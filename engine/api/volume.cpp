@@ -6,6 +6,7 @@
 #include "engine/api/types.h"
 #include "engine/api/volume_access.h"
 #include "engine/settings/named_labels.h"
+#include "engine/settings/number_text.h"
 #include "io/names/read_names.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
@@ -56,6 +57,7 @@ Volume Volume::open(const VolumeFile& file) {
                             .values = voxel_values(file.values),
                             .object = file.object,
                             .trust_paths = file.trust_paths};
+    if (!file.cache.empty()) options.cache = mw::engine::parse_cache_folder(file.cache);
     if (file.crop) options.crop = mw::api::io_box(*file.crop);
     if (file.scale && *file.scale < 0) {
       throw mw::Error(mw::ErrorKind::kUsage, "scale: levels count from 0, the finest");

@@ -174,7 +174,8 @@ void add_volume(py::module_& module) {
       [](const std::string& path, const std::string& dataset, std::optional<int> scale,
          std::optional<Vector> spacing, std::optional<Vector> origin, const std::string& frame,
          std::optional<std::pair<Index, Index>> crop, const std::string& overlap,
-         const std::string& values, const std::vector<std::uint64_t>& object, bool trust_paths) {
+         const std::string& values, const std::vector<std::uint64_t>& object, bool trust_paths,
+         const std::string& cache) {
         VolumeFile file{.path = path,
                         .dataset = dataset,
                         .scale = scale,
@@ -184,7 +185,8 @@ void add_volume(py::module_& module) {
                         .overlap = overlap,
                         .trust_paths = trust_paths,
                         .values = values,
-                        .object = object};
+                        .object = object,
+                        .cache = cache};
         if (crop) file.crop = Box{crop->first, crop->second};
         const py::gil_scoped_release no_gil;
         return HeldVolume{Volume::open(file), nullptr};

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/remote/disk_cache.h"
 #include "kernels/core/label.h"
 
 namespace mw::engine {
@@ -28,6 +29,10 @@ template <class T>
 /// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
 /// B of 1000.  A fraction of a byte is left off.
 [[nodiscard]] std::uint64_t parse_bytes(std::string_view text);
+
+/// "DIR", or "DIR,SIZE" with the most bytes that it may have.  A part behind the last comma that
+/// begins with a digit is a size.
+[[nodiscard]] io::CacheFolder parse_cache_folder(std::string_view text);
 
 /// Shortest decimal that reads back as the same double.
 [[nodiscard]] std::string format_number(double value);

@@ -80,21 +80,72 @@ class Body : public BodySink {
 /// Files by their parts, each of which has to be of the same version of its file.
 class PartReader {
  public:
-  explicit PartReader(const HttpLimits& limits) : client_(limits) {}
+  PartReader(const HttpLimits& limits, const CacheFolder* folder) : client_(limits) {
+    if (folder != nullptr) cache_ = std::make_unique<DiskCache>(*folder);
+  }
 
   [[nodiscard]] const HttpClient& client() const { return client_; }
+  /// Null: there is none.
+  [[nodiscard]] DiskCache* cache() const { return cache_.get(); }
   /// ENSURES: empty when there is no such file.
   [[nodiscard]] std::optional<RemotePart> read(const std::string& address, std::uint64_t offset,
                                                std::span<std::byte> out) const {
-    auto part = client_.get_part(address, offset, out);
+    auto part = cached(address, offset, out);
     if (part && !is_known_version(address, part->version)) {
-      fail_input(address, {}, "the file has changed on the server while it was read",
-                 "begin the run anew when the volume is no longer written to");
+      fail_input(address, {},
+                 text("the file has changed on the server while it was read",
+                      cache_ ? ", or since a part of it was cached" : ""),
+                 text("begin the run anew when the volume is no longer written to",
+                      cache_ ? ", with another folder for --cache" : ""));
     }
     return part;
   }
 
+  /// Documents that tell how a store is to be read are asked for in every run, and are part of the
+  /// keys of all that lies below them: answers from before they changed are not found again.
+  void add_document(const std::string& address, std::span<const std::byte> bytes) const {
+    const auto slash = address.rfind('/');
+    const std::lock_guard lock(mutex_);
+    documents_[address.substr(0, slash + 1)][address] = content_digest(bytes);
+  }
+  [[nodiscard]] ContentDigest key_of(const std::string& address, std::uint64_t offset,
+                                     std::uint64_t size) const {
+    DigestMaker maker;
+    const std::lock_guard lock(mutex_);
+    for (const auto& [folder, documents] : documents_) {
+      if (!address.starts_with(folder)) continue;
+      for (const auto& [name, digest] : documents) {
+        maker.add(name);
+        maker.add(digest);
+      }
+    }
+    maker.add(address);
+    maker.add(offset);
+    maker.add(size);
+    return maker.finish();
+  }
+
  private:
+  /// From the cache, else from the server.
+  std::optional<RemotePart> cached(const std::string& address, std::uint64_t offset,
+                                   std::span<std::byte> out) const {
+    if (!cache_) return client_.get_part(address, offset, out);
+    const ContentDigest key = key_of(address, offset, out.size());
+    if (const auto known = cache_->find(key, address)) {
+      const std::uint64_t bytes = std::min<std::uint64_t>(known->bytes->size(), out.size());
+      known->bytes->read_at(0, out.first(bytes));
+      return RemotePart{bytes, known->file_bytes, known->version};
+    }
+    auto part = client_.get_part(address, offset, out);
+    if (part) {
+      const auto bytes = out.first(part->bytes);
+      cache_->keep(key,
+                   {std::make_shared<HeldBytes>(std::vector(bytes.begin(), bytes.end()), address),
+                    part->file_bytes, part->version});
+    }
+    return part;
+  }
+
   bool is_known_version(const std::string& address, const std::string& version) const {
     if (version.empty()) return true;
     const std::lock_guard lock(mutex_);
@@ -103,8 +154,11 @@ class PartReader {
   }
 
   HttpClient client_;
+  std::unique_ptr<DiskCache> cache_;
   mutable std::mutex mutex_;
   mutable std::map<std::string, std::string> versions_;  ///< by address
+  /// Digests of documents by address, by the folder that they are in.
+  mutable std::map<std::string, std::map<std::string, ContentDigest>> documents_;
 };
 
 /// Some bytes of a file on the server.
@@ -153,25 +207,27 @@ class RemoteBytes : public ByteSource {
 
 class RemoteStore : public Store {
  public:
-  explicit RemoteStore(const HttpLimits& limits)
-      : reader_(std::make_shared<const PartReader>(limits)) {}
+  RemoteStore(const HttpLimits& limits, const CacheFolder* cache)
+      : reader_(std::make_shared<const PartReader>(limits, cache)) {}
 
   [[nodiscard]] std::unique_ptr<ByteSource> open(const std::string& name,
                                                  std::uint64_t max) const override {
     if (const auto known = remembered(name)) {
       return *known ? std::make_unique<HeldBytes>(**known, name) : nullptr;
     }
-    Body body;
-    switch (reader_->client().get(name, max, body)) {
-      case Presence::kAbsent:
-        return nullptr;
-      case Presence::kTooLarge:
-        fail_input(name, {}, text("the server sends more than the ", max, " bytes it can have"),
-                   "it is damaged or belongs to another store");
-      case Presence::kThere:
-        break;
-    }
-    return body.source(name);
+    if (reader_->cache() == nullptr) return fetch(name, max);
+    constexpr std::uint64_t kWhole = ~std::uint64_t{0};
+    const ContentDigest key = reader_->key_of(name, 0, kWhole);
+    const auto as_source = [&](std::shared_ptr<const ByteSource> bytes) {
+      const std::uint64_t size = bytes->size();
+      return std::make_unique<BytesPart>(std::move(bytes), 0, size, name);
+    };
+    const auto known = reader_->cache()->find(key, name);
+    if (known && known->bytes->size() <= max) return as_source(known->bytes);
+    std::shared_ptr<const ByteSource> bytes = fetch(name, max);
+    if (!bytes) return nullptr;
+    reader_->cache()->keep(key, {bytes, bytes->size(), {}});
+    return as_source(std::move(bytes));
   }
   [[nodiscard]] std::unique_ptr<ByteSource> open_parts(const std::string& name) const override {
     std::vector<std::byte> front(kFrontBytes);
@@ -201,7 +257,9 @@ class RemoteStore : public Store {
       return false;
     }
     const auto source = body.source(name);
-    if (source->size() <= kMaxRemembered) remember(name, read_prefix(*source, kMaxRemembered));
+    std::vector<std::byte> document = read_prefix(*source, kMaxJsonBytes);
+    reader_->add_document(name, document);
+    if (document.size() <= kMaxRemembered) remember(name, std::move(document));
     return true;
   }
   [[nodiscard]] std::optional<bool> has_folder(const std::string& /*name*/) const override {
@@ -221,6 +279,21 @@ class RemoteStore : public Store {
   }
 
  private:
+  /// Null: there is no such file.
+  [[nodiscard]] std::unique_ptr<ByteSource> fetch(const std::string& name,
+                                                  std::uint64_t max) const {
+    Body body;
+    switch (reader_->client().get(name, max, body)) {
+      case Presence::kAbsent:
+        return nullptr;
+      case Presence::kTooLarge:
+        fail_input(name, {}, text("the server sends more than the ", max, " bytes it can have"),
+                   "it is damaged or belongs to another store");
+      case Presence::kThere:
+        break;
+    }
+    return body.source(name);
+  }
   /// Bytes of a document, or that there is none.
   using Answer = std::optional<std::vector<std::byte>>;
 
@@ -242,8 +315,9 @@ class RemoteStore : public Store {
 
 }  // namespace
 
-Place remote_place(std::string_view address, const HttpLimits& limits) {
-  return {std::make_shared<const RemoteStore>(limits), web_address(address)};
+Place remote_place(std::string_view address, const CacheFolder* cache, const HttpLimits& limits) {
+  std::string name = web_address(address);
+  return {std::make_shared<const RemoteStore>(limits, cache), std::move(name)};
 }
 
 }  // namespace mw::io

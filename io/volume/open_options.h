@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/file/byte_order.h"
+#include "io/remote/disk_cache.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
@@ -75,6 +76,7 @@ struct OpenOptions {
   /// Labels that alone matter: all others become 0, and the volume ends around these
   /// (open_object()), within `crop`.  Empty: all matter.
   std::vector<RawLabel> object;
+  std::optional<CacheFolder> cache;  ///< for what servers send; see remote_place()
   /// Whether files that headers and metadata name may be anywhere, not only in their folder.
   bool trust_paths = false;
   std::uint64_t cache_bytes = 64ULL << 20U;  ///< of decoded chunks that a chunked volume may keep

@@ -215,12 +215,16 @@ const VolumeFormat& format_of_remote(const Place& place) {
                   ", and files of other formats are to be copied to a disk first"));
 }
 
+const CacheFolder* cache_of(const OpenOptions& options) {
+  return options.cache ? &*options.cache : nullptr;
+}
+
 std::unique_ptr<LabelVolume> open_remote(const std::string& address, const OpenOptions& options) {
   if (options.raw) {
     throw Error(ErrorKind::kUsage,
                 text("--shape: ", address, " is remote, and raw files are read from disks only"));
   }
-  const Place place = remote_place(address);
+  const Place place = remote_place(address, cache_of(options));
   const VolumeFormat& format = format_of_remote(place);
   check_understood(format, address, options);
   return format.open_store(place, options);
@@ -294,7 +298,7 @@ namespace {
 std::size_t count_scales(const std::filesystem::path& path, const OpenOptions& options) {
   const bool is_remote = is_remote_address(path.string());
   if (options.raw || (!is_remote && !std::filesystem::is_directory(path))) return 0;
-  const Place place = is_remote ? remote_place(path.string()) : Place(path);
+  const Place place = is_remote ? remote_place(path.string(), cache_of(options)) : Place(path);
   const VolumeFormat& format = is_remote ? format_of_remote(place) : format_of_folder(path);
   return format.count_scales == nullptr ? 0 : format.count_scales(place, options);
 }

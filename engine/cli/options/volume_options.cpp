@@ -203,6 +203,12 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .kind = ValueKind::kLabels,
                .listed = Listed::kInHelpAll,
                .assign = into(request.object, parse_labels)});
+  options.add({.name = "cache",
+               .value = "DIR[,SIZE]",
+               .help = "keeps what servers send, at most 10GiB, for later runs",
+               .group = kInputGroup,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.cache, engine::parse_cache_folder)});
   options.add({.name = "trust-paths",
                .help = "files that headers name may be outside of their folder",
                .group = kInputGroup,
@@ -238,6 +244,7 @@ io::OpenOptions open_options(const VolumeRequest& request) {
                           .values = request.values,
                           .crop = request.crop,
                           .object = request.object,
+                          .cache = request.cache,
                           .trust_paths = request.trust_paths,
                           .cache_bytes = request.cache_bytes};
   if (request.shape) {

@@ -25,7 +25,8 @@ struct VolumeRequest {
   io::Overlap overlap = io::Overlap::kRefused;
   io::VoxelValues values = io::VoxelValues::kLabels;
   std::optional<Box3> crop;
-  std::vector<RawLabel> object;  ///< labels that alone matter; empty: all do
+  std::vector<RawLabel> object;          ///< labels that alone matter; empty: all do
+  std::optional<io::CacheFolder> cache;  ///< of what servers send
   bool trust_paths = false;
   io::InputSteps steps;  ///< what is done with the labels that were opened
   /// How many bytes of unpacked chunks a chunked volume may keep.
@@ -37,7 +38,7 @@ struct VolumeRequest {
 void add_input_option(OptionSet& options, std::filesystem::path& path);
 
 /// Adds --spacing --origin --frame; --shape --dtype for raw files; --dataset --scale for files of
-/// several arrays; --overlap; --values; --crop; --object.
+/// several arrays; --overlap; --values; --crop; --object; --cache.
 void add_volume_options(OptionSet& options, VolumeRequest& request);
 
 /// Adds --merge --drop-specks, which are done with the labels before all else (io::PreparedInput),

@@ -222,13 +222,14 @@ def mesh(volume, *, progress=None, **arguments):
         "ras" or "lps"; "mm", "um" and so on; {label: name}, a list of the names of labels 0, 1, 2
         and so on, or a file of ``mwmesh mesh --names``, which may have colours.  Labels are given
         by number or by name, wherever they are.
-    dataset, scale, crop, overlap, values, object, trust_paths
+    dataset, scale, crop, overlap, values, object, trust_paths, cache
         for files: the array to read, the level of a pyramid, the box ((x0, y0, z0), (x1, y1, z1))
         to keep, which label a voxel of several masks gets ("first", "last", or "all": one for each
         set of masks), what the numbers are ("labels", or "probabilities" of classes or signed
         "distances" of labels, whose crossings then place the interfaces), labels that alone matter
         and that the mesh is to have (a number or a list; all others become 0; coarser scales tell
-        where to read), and whether files that headers name may be outside of their folder.
+        where to read), whether files that headers name may be outside of their folder, and a folder
+        that keeps what servers send for later runs ("DIR", or "DIR,SIZE" with the most bytes).
     merge, drop_specks
         {label: label that it becomes}; then components of fewer voxels than drop_specks take the
         label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.

@@ -15,7 +15,7 @@ from ._values import (name_rows, numbers, path_bytes, text, three, unexpected, w
 AXES = ("zyx", "xyz")
 #: The arguments that say which part of a source the volume is, and where it lies.
 PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
-         "overlap", "values", "object", "trust_paths")
+         "overlap", "values", "object", "trust_paths", "cache")
 
 
 def _is_image(source):
@@ -86,7 +86,7 @@ def _array_volume(array, axes, space):
 
 
 def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, values, object,
-                 trust_paths):
+                 trust_paths, cache):
     box = None
     if crop is not None:
         corners = [whole(v, "crop") for v in np.ravel(np.asarray(crop, dtype="O"))]
@@ -99,22 +99,22 @@ def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, 
         None if scale is None else whole(scale, "scale", 32), three(spacing, "spacing"),
         three(origin, "origin"), frame or "file", box, text(overlap, "overlap"),
         text(values, "values") or "labels", np.asarray(wanted).view(np.uint64).tolist(),
-        bool(trust_paths))
+        bool(trust_paths), "" if cache is None else path_bytes(cache, "cache"))
 
 
 def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop,
-            overlap, values, object, trust_paths):
+            overlap, values, object, trust_paths, cache):
     frame, unit_text = text(frame, "frame"), text(unit, "unit")
     if isinstance(source, (str, os.PathLike)):
         if affine is not None or unit is not None or axes is not None:
             raise UsageError("affine, unit and axes are for arrays: files tell their own")
         return _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap,
-                            values, object, trust_paths)
-    for_files = (dataset, scale, crop, overlap, values, object)
+                            values, object, trust_paths, cache)
+    for_files = (dataset, scale, crop, overlap, values, object, cache)
     if any(value is not None for value in for_files) or trust_paths:
         raise UsageError(
-            "dataset, scale, crop, overlap, values, object and trust_paths are for files: slice the "
-            "array")
+            "dataset, scale, crop, overlap, values, object, trust_paths and cache are for files: "
+            "slice the array")
     if _is_image(source):
         if affine is None and spacing is None and origin is None:
             affine, frame = source.affine, frame or "ras"
