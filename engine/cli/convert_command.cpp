@@ -38,6 +38,7 @@ class ValueNames : public io::NoSink {
 void require_other_files(const ConvertJob& job) {
   std::vector<std::filesystem::path> files = io::mesh_files(job.to);
   if (job.extras.materials) files.push_back(io::material_table_path(job.to));
+  if (!job.extras.pairs.empty()) files.push_back(job.extras.pairs);
   for (std::size_t i = 1; i < files.size(); ++i) {
     std::error_code ignored;
     if (!std::filesystem::equivalent(job.from, files[i], ignored)) continue;
@@ -115,6 +116,11 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .fallback = "none",
                .choices = {"none", "static"},
                .assign = into(job.extras.deck, parse_deck)});
+  options.add({.name = "pairs",
+               .value = "FILE",
+               .help = "nodes of --periodic faces: .csv, or equations in .inp",
+               .group = kOutputGroup,
+               .assign = into(job.extras.pairs)});
   options.add({.name = "pieces",
                .value = "N",
                .help = "a .pvtu and N .vtu beside it; vertices have GlobalNodeIds",

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/labels/bricks.h"
+#include "engine/labels/periodic_labels.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/labels/score_crossings.h"
 #include "engine/system/tbb_for.h"
@@ -139,6 +140,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
                                int threads, const std::filesystem::path& folder,
                                const SizeImage* image)
     : volume_(volume),
+      margin_(periodic_margin(settings)),
       counts_(std::move(counts)),
       original_(volume.info().shape, volume.table().size(), folder, bricks.original),
       sizes_(size_field(volume, settings.sizes)),
@@ -232,15 +234,18 @@ void PreparedLabels::limit_thin_parts(const SizeSettings& sizes, int threads) {
 }
 
 LabelBox PreparedLabels::original(const Box3& box) const {
-  const Box3 inside = clipped(box, original_.shape());
-  if (is_empty(inside) || is_within(bricks_over(inside), original_.held())) {
-    return read(original_, box);
-  }
-  return padded(read_labels(volume_, inside), box);
+  const Box3 place{box.lo + margin_, box.hi + margin_};
+  const Box3 inside = clipped(place, original_.shape());
+  const bool is_held = is_empty(inside) || is_within(bricks_over(inside), original_.held());
+  LabelBox out = is_held ? read(original_, place) : padded(read_labels(volume_, inside), place);
+  out.box = box;
+  return out;
 }
 
 LabelBox PreparedLabels::shape(const Box3& box) const {
-  return read(shapes(), box);
+  LabelBox out = read(shapes(), {box.lo + margin_, box.hi + margin_});
+  out.box = box;
+  return out;
 }
 
 void PreparedLabels::read_bricks(const io::DenseVolume& volume, int threads) {

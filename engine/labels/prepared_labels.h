@@ -35,6 +35,9 @@ struct ThinParts {
 };
 
 /// The input's labels, the labels that the start mesh takes its shape from, and its large cells.
+/// With MeshSettings::periodic the volume has periodic_margin() around the cell that is meshed.
+/// Boxes begin at the cell's corner then, and may reach as far out of it; levels() and what is
+/// counted are of the volume with its margin.
 /// A pure function of the volume and the settings.  Where only some windows are visited it is
 /// made only where these need it, and tells there what the whole would tell.
 /// Thread safety: const members may be called from many threads.
@@ -74,6 +77,7 @@ class PreparedLabels {
     const std::optional<Label> label = original_.uniform_label(brick);
     return label == shapes().uniform_label(brick) ? label : std::nullopt;
   }
+  [[nodiscard]] Index3 margin() const { return margin_; }
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
   [[nodiscard]] const LevelMap& levels() const { return levels_; }
   /// Returns what was counted while the labels were prepared.  REQUIRES: all labels are prepared.
@@ -108,6 +112,7 @@ class PreparedLabels {
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
 
   io::DenseVolume volume_;  ///< looked at again only where some labels are prepared
+  Index3 margin_;
   std::optional<LabelCounts> counts_;
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;

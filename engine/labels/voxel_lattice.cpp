@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/labels/periodic_labels.h"
 #include "io/file/errors.h"
 #include "kernels/core/face_sample.h"
 #include "kernels/core/lattice.h"
@@ -140,6 +141,7 @@ void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
   check_coordinates(volume, settings);
   check_floor(volume, settings);
   check_sizes(volume, settings);
+  check_periodic(layered_shape(volume.shape, layers_of(volume, settings.surface)), settings);
 }
 
 void check(const io::LabelTable& labels, const MeshSettings& settings) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/forecast/run_forecast.h"
+#include "engine/labels/periodic_labels.h"
 #include "engine/labels/prepared_labels.h"
 #include "engine/run/marches.h"
 #include "engine/run/run_context.h"
@@ -16,6 +17,7 @@
 #include "engine/window/inner_quality.h"
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
+#include "io/labels/periodic_volume.h"
 
 namespace mw::engine {
 namespace {
@@ -48,6 +50,7 @@ class FinishedBlocks : public FinalBlocks {
 struct ReadyLabels {
   MemoryBudget::Reservation room;
   LabelPlan plan;
+  std::optional<io::PeriodicVolume> copies;  ///< a cell that repeats itself, and around it
   std::optional<PreparedLabels> prepared;
 
   [[nodiscard]] const LabelCounts& counts() const {
@@ -65,7 +68,12 @@ void prepare(RunContext& run, ReadyLabels& out) {
   std::filesystem::path folder = run.part->work_folder();
   if (folder.empty() && run.keep != nullptr) folder = run.keep->folder();
   if (folder.empty()) folder = io::scratch_folder();
-  if (need == nullptr) {
+  if (run.settings.periodic != 0) {
+    out.copies.emplace(labels.raw(), periodic_margin(run.settings));
+    out.plan.counts = counts_of_part(labels, readers.threads, SequencePart{});
+    out.prepared.emplace(io::DenseVolume(*out.copies, labels.table()), run.settings,
+                         readers.threads, folder);
+  } else if (need == nullptr) {
     out.prepared.emplace(labels, run.settings, readers.threads, folder, run.hooks.sizes);
   } else {
     out.prepared.emplace(labels, run.settings, *need, readers.threads, folder, run.hooks.sizes);

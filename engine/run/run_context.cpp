@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/keep/results_id.h"
+#include "engine/labels/periodic_labels.h"
 #include "engine/settings/promises.h"
 #include "engine/store/journal/workdir.h"
 #include "engine/window/window_memory.h"
@@ -25,6 +26,10 @@ RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {
   hooks.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   if (hooks.processes == nullptr) hooks.processes = &one_process();
   check_keep(hooks, settings);
+  if (settings.periodic != 0 && hooks.processes->count() > 1) {
+    throw Error(ErrorKind::kUsage,
+                "periodic: works in one process only, run mwmesh without mpirun");
+  }
   if (!hooks.keep.folder.empty()) hooks.store.workdir.clear();
   return hooks;
 }
@@ -99,6 +104,9 @@ void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
                 "keep: needs order colour: in raster order an edit changes what all later windows "
                 "see, so nothing could be used again");
   }
+  if (settings.periodic != 0) {
+    throw Error(ErrorKind::kUsage, "keep: works without periodic");
+  }
   if (settings.sizes.count > 0) {
     throw Error(ErrorKind::kUsage,
                 "count: looks at the whole volume, so that an edit anywhere could change sizes "
@@ -111,7 +119,8 @@ void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
 
 std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings,
                              const LabelNeed* need) {
-  const Index3 shape = volume.info().shape;
+  const Index3 margin = periodic_margin(settings);
+  const Index3 shape = volume.info().shape + margin + margin;
   const bool sized = settings.sizes.limits_edges();
   const bool has_source = volume.raw().scores() != nullptr && !sized;
   if (need == nullptr) {

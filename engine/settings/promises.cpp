@@ -23,6 +23,7 @@ MeshSettings settings_of(const io::MeshPromises& promises) {
   out.topology = promises.interfaces ? KeptTopology::kInterfaces : KeptTopology::kLabels;
   out.surface = promises.smooth ? Surface::kSmooth : Surface::kVoxel;
   out.optimizer = promises.optimised ? Optimizer::kLocal : Optimizer::kNone;
+  out.periodic = promises.periodic;
   return out;
 }
 
@@ -33,7 +34,8 @@ io::MeshPromises promises_of(const MeshSettings& settings) {
           .quality_floor = settings.quality_floor,
           .interfaces = settings.topology == KeptTopology::kInterfaces,
           .smooth = settings.surface == Surface::kSmooth,
-          .optimised = settings.optimizer != Optimizer::kNone};
+          .optimised = settings.optimizer != Optimizer::kNone,
+          .periodic = settings.periodic};
 }
 
 std::string why_no_volumes(const io::MeshPromises& promises) {

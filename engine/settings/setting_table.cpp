@@ -44,6 +44,9 @@ constexpr Names<Optimizer, 3> kOptimizers{
 constexpr Names<StartMesh, 3> kStarts{
     {{"coarse", StartMesh::kCoarse}, {"octree", StartMesh::kOctree}, {"dense", StartMesh::kDense}}};
 
+constexpr Names<PeriodicAxes, 8> kPeriodic{
+    {{kNone, 0}, {"x", 1}, {"y", 2}, {"z", 4}, {"xy", 3}, {"xz", 5}, {"yz", 6}, {"xyz", 7}}};
+
 template <class T, std::size_t N>
 std::vector<Text> words(const Names<T, N>& names) {
   std::vector<Text> out;
@@ -222,6 +225,13 @@ std::vector<Setting> method_settings() {
        .expert = true,
        .text = [](const Settings& s) { return name_of(kSurfaces, s.surface); },
        .read = [](Settings& s, const Text& t) { s.surface = value_of(kSurfaces, t); }},
+      {.name = "periodic",
+       .help = "axes along which the volume is a cell that repeats itself",
+       .kind = SettingKind::kChoice,
+       .choices = words(kPeriodic),
+       .expert = true,
+       .text = [](const Settings& s) { return name_of(kPeriodic, s.periodic); },
+       .read = [](Settings& s, const Text& t) { s.periodic = value_of(kPeriodic, t); }},
       {.name = "optimizer",
        .help = "what improves tets; tetgen: the paper's, at the end",
        .kind = SettingKind::kChoice,
@@ -333,7 +343,13 @@ const std::vector<SettingRule>& setting_rules() {
              return !is_sized || s.optimizer != Optimizer::kTetgen;
            },
        .told = "--optimizer tetgen keeps no sizes or inner vertices: leave out --size, "
-               "--count, --across and --inner-vertices, or set --optimizer local"}};
+               "--count, --across and --inner-vertices, or set --optimizer local"},
+      {.is_kept =
+           [](const Settings& s) {
+             const bool is_sized = s.sizes.limits_edges() || s.sizes.count > 0;
+             return s.periodic == 0 || (!is_sized && s.optimizer != Optimizer::kTetgen);
+           },
+       .told = "--periodic: works without --size, --count, --across and --optimizer tetgen"}};
   return rules;
 }
 

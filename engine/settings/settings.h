@@ -42,6 +42,9 @@ enum class Optimizer {
   kNone,
 };
 
+/// Axes along which a volume repeats itself: bit 0 = x.
+using PeriodicAxes = unsigned;
+
 /// How long the edges of a label's tets should be.
 struct LabelSize {
   RawLabel label = 0;
@@ -118,6 +121,8 @@ struct MeshSettings {
   Surface surface = Surface::kSmooth;
   Optimizer optimizer = Optimizer::kLocal;
   SizeSettings sizes;
+  /// Opposite faces of the volume get the same triangles (engine/labels/periodic_labels.h).
+  PeriodicAxes periodic = 0;
   int odt_iterations = 10;  ///< at most, in each window, by kTetgen; the paper's number (Sec 6)
 };
 

@@ -21,8 +21,9 @@ struct WindowContent {
 /// The far corner of a volume, in lattice units.
 [[nodiscard]] Point lattice_corner(Index3 volume);
 
-/// Merges blocks into the content of a window; as merge_blocks().
-[[nodiscard]] WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume);
+/// Merges blocks into the content of a window; as merge_blocks().  kept: see TetMesh.
+[[nodiscard]] WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume,
+                                   BoxPlanes kept = 0);
 
 /// Deals the tets of a window to the owner blocks of their barycentres, canonically; samples go
 /// with the tet on the side of their triangle's smaller label.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/labels/periodic_labels.h"
 #include "engine/system/stopwatch.h"
 #include "engine/window/inner_quality.h"
 #include "kernels/inner/inner_vertices.h"
@@ -48,6 +49,10 @@ std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
   return weights;
 }
 
+Box3 moved(const Box3& box, Index3 by) {
+  return {box.lo + by, box.hi + by};
+}
+
 }  // namespace
 
 WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
@@ -57,7 +62,8 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       grid_(grid),
       store_(store),
       metric_(metric),
-      start_{.max_level = largest_cell_level(settings),
+      kept_(periodic_planes(settings)),
+      start_{.max_level = periodic_level(grid.volume(), settings, largest_cell_level(settings)),
              .coarse = labels.is_coarse(),
              .with_samples = settings.max_distance.has_value(),
              .max_distance = settings.max_distance.value_or(kMaxCoarseDistance),
@@ -117,7 +123,7 @@ VisitStats WindowVisitor::visit(Index3 window) const {
     content.push_back(stored[i] ? std::move(*stored[i]) : start(blocks[i]));
   }
   watch.lap(stats.start_seconds);
-  WindowContent window_content = gather(std::move(content), grid_.volume());
+  WindowContent window_content = gather(std::move(content), grid_.volume(), kept_);
   watch.lap(stats.exchange_seconds);
   work_on(window, window_content, stats);
   watch.restart();
@@ -212,24 +218,32 @@ void WindowVisitor::reconnect(Index3 window, WindowContent& content, VisitStats&
 
 template <typename Use>
 auto WindowVisitor::with_labels(Index3 block, Use use) const {
-  const Box3 box = grid_.block_box(block);
-  const Box3 wide = grown(box, kStartHalo);
-  const LabelBox original = labels_.original(wide);
-  if (!start_.coarse) return use(StartLabels{.shape = original, .original = original}, box);
-  const LabelBox shape = labels_.shape(wide);
-  return use(StartLabels{.shape = shape, .original = original}, box);
+  const Box3 box = grid_.block_box(block), wide = grown(box, kStartHalo);
+  const Box3 place = moved(box, labels_.margin());
+  LabelBox original = labels_.original(wide);
+  original.box = moved(wide, labels_.margin());
+  if (!start_.coarse) return use(StartLabels{.shape = original, .original = original}, place);
+  LabelBox shape = labels_.shape(wide);
+  shape.box = original.box;
+  return use(StartLabels{.shape = shape, .original = original}, place);
+}
+
+/// What start meshes are made in: the volume with its margin.
+Index3 WindowVisitor::start_volume() const {
+  return grid_.volume() + labels_.margin() + labels_.margin();
 }
 
 StartSize WindowVisitor::start_size(Index3 block) const {
   return with_labels(block, [&](const StartLabels& labels, const Box3& box) {
-    return graded_start_size(labels, labels_.levels(), box, grid_.volume(), start_);
+    return graded_start_size(labels, labels_.levels(), box, start_volume(), start_);
   });
 }
 
 BlockMesh WindowVisitor::start(Index3 block) const {
   BlockMesh mesh = with_labels(block, [&](const StartLabels& labels, const Box3& box) {
-    return graded_start(labels, labels_.levels(), box, grid_.volume(), start_);
+    return graded_start(labels, labels_.levels(), box, start_volume(), start_);
   });
+  mesh = without_margin(std::move(mesh), grid_.volume(), labels_.margin());
   mesh.vertices.shrink_to_fit();
   mesh.tets.shrink_to_fit();
   mesh.samples.shrink_to_fit();

@@ -82,7 +82,8 @@ class WindowVisitor {
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;
   void add_inner(Index3 window, WindowContent& content, VisitStats& stats) const;
   [[nodiscard]] SteinerIds ids_of(Index3 window) const;
-  /// use(labels around the block, its box).
+  [[nodiscard]] Index3 start_volume() const;
+  /// use(labels around the block, its box), both in that volume.
   template <typename Use>
   [[nodiscard]] auto with_labels(Index3 block, Use use) const;
 
@@ -90,6 +91,7 @@ class WindowVisitor {
   const WindowGrid& grid_;
   BlockStore& store_;
   Metric metric_;
+  BoxPlanes kept_;
   StartOptions start_;
   SimplifyOptions simplify_;
   OptimiseOptions optimise_;

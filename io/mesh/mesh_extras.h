@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 
 #include "io/mesh/grouped/material_sets.h"
@@ -25,6 +26,9 @@ struct MeshExtras {
   /// The mesh is known to have wedges between the sides of interfaces (MeshRecord::cohesive) before
   /// it comes, so that MeshSink::buffer_bytes() counts what they take.
   bool wedges = false;
+  /// Where the pairs of nodes of a cell that repeats itself go (grouped/periodic_pairs.h); empty:
+  /// they are not written.
+  std::filesystem::path pairs{};
 };
 
 }  // namespace mw::io

@@ -23,6 +23,7 @@ constexpr const char* kWithout = "without_labels";
 constexpr const char* kPartial = "partial_labels";
 constexpr const char* kDoubled = "doubled_vertices";
 constexpr const char* kCohesiveKey = "cohesive";
+constexpr const char* kPeriodic = "periodic";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 Json box_json(const MeshBox& box) {
@@ -32,12 +33,28 @@ Json box_json(const MeshBox& box) {
           {kAxes[2], box.edges[2]}};
 }
 
+std::string axes_text(unsigned axes) {
+  std::string out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if ((axes >> k & 1U) != 0) out += kAxes[k];
+  }
+  return out;
+}
+
+unsigned axes_in(const JsonFields& fields, const char* key) {
+  for (unsigned axes = 1; axes < 8; ++axes) {
+    if (fields.text(key) == axes_text(axes)) return axes;
+  }
+  fields.fail(key, text("is \"", fields.text(key), "\""));
+}
+
 Json promises_json(const MeshPromises& promises) {
   Json out{{"max_distance", promises.max_distance ? Json(*promises.max_distance) : Json()},
            {"quality_floor", promises.quality_floor},
            {"topology", promises.interfaces ? kInterfaces : kLabels},
            {"surface", promises.smooth ? kSmooth : kVoxel}};
   if (!promises.optimised) out["optimizer"] = kNone;
+  if (promises.periodic != 0) out[kPeriodic] = axes_text(promises.periodic);
   return out;
 }
 
@@ -73,6 +90,7 @@ MeshPromises promises_in(const JsonFields& fields) {
   out.interfaces = word_in(fields, "topology", kInterfaces, kLabels);
   out.smooth = word_in(fields, "surface", kSmooth, kVoxel);
   out.optimised = !fields.has("optimizer") || !word_in(fields, "optimizer", kNone, kNone);
+  if (fields.has(kPeriodic)) out.periodic = axes_in(fields, kPeriodic);
   return out;
 }
 

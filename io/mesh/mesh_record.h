@@ -32,6 +32,8 @@ struct MeshPromises {
   bool interfaces = false;             ///< --topology interfaces
   bool smooth = true;                  ///< --surface smooth: thick slices were cut into layers
   bool optimised = true;               ///< not --optimizer none
+  /// Axes of the volume whose two faces have the same triangles (--periodic): bit 0 = x.
+  unsigned periodic = 0;
 
   friend bool operator==(const MeshPromises&, const MeshPromises&) = default;
 };
@@ -71,7 +73,8 @@ struct MeshRecord {
 };
 
 /// {"box": {"origin": [...], "x": [...], "y": [...], "z": [...]}, "promises": {"max_distance": 1.5,
-/// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none"},
+/// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none",
+/// "periodic": "xy"},
 /// "frame": "ras", "only_labels": [...], "without_labels": [...], "partial_labels": [...],
 /// "doubled_vertices": true, "cohesive": [1, 2, 1, 3]}, without what is not known; empty when
 /// nothing is.  "cohesive" has the labels under and on top of wedges by turns, or is true: all.

@@ -15,10 +15,12 @@
 #include "io/mesh/gmsh/msh.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/grouped_sink.h"
+#include "io/mesh/grouped/periodic_pairs.h"
 #include "io/mesh/lsdyna/k_writer.h"
 #include "io/mesh/medit/medit.h"
 #include "io/mesh/nastran/bdf_writer.h"
 #include "io/mesh/pieces/pvtu.h"
+#include "io/mesh/tee_sink.h"
 #include "io/mesh/vtkhdf/vtkhdf.h"
 #include "io/mesh/vtu/vtu.h"
 #include "io/mesh/xdmf/xdmf_writer.h"
@@ -288,6 +290,17 @@ class SinkWithoutWedges : public MeshSink {
   std::unique_ptr<MeshSink> below_;
 };
 
+/// A mesh, and the pairs of its nodes.
+class PairedSink : public TeeSink {
+ public:
+  PairedSink(std::unique_ptr<MeshSink> mesh, std::unique_ptr<MeshSink> pairs)
+      : TeeSink(*mesh, *pairs), mesh_(std::move(mesh)), pairs_(std::move(pairs)) {}
+
+ private:
+  std::unique_ptr<MeshSink> mesh_;
+  std::unique_ptr<MeshSink> pairs_;
+};
+
 }  // namespace
 
 std::string mesh_extensions() {
@@ -365,6 +378,13 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
                                          const MeshExtras& extras) {
+  if (!extras.pairs.empty()) {
+    auto pairs =
+        std::make_unique<GroupedSink>(path.parent_path(), open_pairs_writer(extras.pairs), element);
+    MeshExtras others = extras;
+    others.pairs.clear();
+    return std::make_unique<PairedSink>(open_mesh_sink(path, element, others), std::move(pairs));
+  }
   const MeshFormat& format = written_format(path);
   if (extras.encoding == Encoding::kText && !format.has_text) {
     throw Error(ErrorKind::kUsage, text(path.string(), ": ", format.extension,

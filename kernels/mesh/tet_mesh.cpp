@@ -31,8 +31,9 @@ LabelBits bits_of(std::span<const BlockTet> tets) {
 
 }  // namespace
 
-TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box)
-    : bits_(bits_of(tets)), marks_(vertices.size() + 1) {
+TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box,
+                 BoxPlanes kept)
+    : kept_(kept), bits_(bits_of(tets)), marks_(vertices.size() + 1) {
   points_.reserve(vertices.size());
   ids_.reserve(vertices.size());
   quadrics_.reserve(vertices.size());
@@ -107,7 +108,8 @@ void TetMesh::classify_vertices() {
     for (const LinkTriangle& t : star(v)) {
       for (LocalVertex w : {t.a, t.b, t.c}) link_vertices += marks_.insert(w) ? 1U : 0U;
     }
-    free_[v] = 2 * link_vertices == stars_[v].size + 4 ? 1 : 0;
+    const bool is_complete = 2 * link_vertices == stars_[v].size + 4;
+    free_[v] = is_complete && (planes_[v] & kept_) == 0 ? 1 : 0;
     classify_labels(v);
     if (!is_free(v)) signatures_[v] = ~std::uint64_t{0};
   }

@@ -73,14 +73,16 @@ using BoxPlanes = std::uint8_t;
 ///
 /// A vertex is free when its star is complete, that is, when its loaded link is a sphere: with n
 /// link vertices and F link triangles, 2 n = F + 4 (Euler; no proper subset of a triangulated
-/// sphere satisfies it).  Only free vertices may move or vanish (Sec 4.1; kernels/README.md, "Free
-/// and fixed vertices").
+/// sphere satisfies it), and it is on no plane that is kept.  Only free vertices may move or vanish
+/// (Sec 4.1; kernels/README.md, "Free and fixed vertices").
 class TetMesh {
  public:
   /// Local vertices are the rows of `vertices`.
+  /// kept: planes of the box whose triangles stay as they are: no vertex on one of them is free.
   /// REQUIRES: vertices ascending by id; tets by rows, in a canonical order, all within
   /// kMaxTetExtent and not flat; box = far corner of the volume in lattice units.
-  TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box);
+  TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box,
+          BoxPlanes kept = 0);
 
   [[nodiscard]] LocalVertex vertex_count() const {
     return static_cast<LocalVertex>(points_.size());
@@ -95,6 +97,10 @@ class TetMesh {
   [[nodiscard]] const Quadric& quadric(LocalVertex v) const { return quadrics_[v]; }
   [[nodiscard]] BoxPlanes planes(LocalVertex v) const { return planes_[v]; }
   [[nodiscard]] bool is_free(LocalVertex v) const { return free_[v] != 0; }
+  /// Is the edge in a triangle of a plane that is kept?
+  [[nodiscard]] bool is_kept(LocalVertex v, LocalVertex w) const {
+    return (planes_[v] & planes_[w] & kept_) != 0;
+  }
   [[nodiscard]] bool is_alive(LocalVertex v) const { return stars_[v].size != 0; }
   /// Grows with every change of the mesh.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
@@ -158,6 +164,7 @@ class TetMesh {
   std::vector<VertexId> ids_;
   std::vector<Quadric> quadrics_;
   std::vector<BoxPlanes> planes_;
+  BoxPlanes kept_ = 0;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> orders_;
   LabelBits bits_;  ///< of all labels, the exterior among them

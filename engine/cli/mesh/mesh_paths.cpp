@@ -51,7 +51,8 @@ void require_names_used_once(const MeshRequest& request) {
   const std::pair<const char*, fs::path> written[] = {{"--report", request.report},
                                                       {"--trace", request.trace},
                                                       {"--html", request.html},
-                                                      {"--delta", request.delta}};
+                                                      {"--delta", request.delta},
+                                                      {"--pairs", request.extras.pairs}};
   for (const auto& output : written) {
     const fs::path& path = output.second;
     if (path.empty()) continue;
@@ -80,11 +81,9 @@ bool is_at_or_in(const fs::path& path, const fs::path& folder) {
 using Named = std::pair<std::string, fs::path>;
 
 std::vector<Named> files_of(const MeshRequest& request) {
-  std::vector<Named> out{{"the input", request.volume.path},
-                         {"--names", request.volume.names},
-                         {"--report", request.report},
-                         {"--html", request.html},
-                         {"--trace", request.trace}};
+  std::vector<Named> out{{"the input", request.volume.path}, {"--names", request.volume.names},
+                         {"--report", request.report},       {"--html", request.html},
+                         {"--trace", request.trace},         {"--pairs", request.extras.pairs}};
   for (const std::string& table : request.size_tables) out.emplace_back("--size", table);
   for (const engine::SampleImage& sample : request.job.samples) {
     out.emplace_back("--sample", sample.file);

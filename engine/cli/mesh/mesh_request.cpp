@@ -238,6 +238,12 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .choices = {"none", "static"},
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.deck, parse_deck)});
+  options.add({.name = "pairs",
+               .value = "FILE",
+               .help = "nodes of --periodic faces: .csv, or equations in .inp",
+               .group = kOutputGroup,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.extras.pairs)});
   options.add({.name = "force",
                .help = "replaces an OUTPUT that is no mesh of this program",
                .group = kOutputGroup,
@@ -269,6 +275,12 @@ void require_room_for_values(const MeshRequest& request) {
 void require_room_for_wedges(const MeshRequest& request) {
   if (!request.job.connect.cohesive.any()) return;
   io::require_place_for_wedges(request.output, request.element);
+}
+
+void require_periodic_for_pairs(const MeshRequest& request) {
+  if (request.extras.pairs.empty() || request.job.settings.periodic != 0) return;
+  throw Error(ErrorKind::kUsage,
+              "--pairs: only a cell that repeats itself has some, give --periodic");
 }
 
 /// A folder that an earlier run has used is updated; one that a run was killed over is gone on
@@ -337,6 +349,7 @@ void check_mesh_request(MeshRequest& request) {
   require_memory_for_page(request);
   require_room_for_values(request);
   require_room_for_wedges(request);
+  require_periodic_for_pairs(request);
   engine::check(request.job.settings);
   if (request.job.settings.optimizer == engine::Optimizer::kTetgen)
     (void)engine::codt::find_worker();

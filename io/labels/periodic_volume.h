@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A cell that repeats itself, with a part of its neighbours around it.
+#pragma once
+
+#include "io/volume/label_volume.h"
+
+namespace mw::io {
+
+/// A volume with `margin` voxels more on both sides of each axis: those of its copies beside it.
+/// The first corner moves accordingly, everything else is the same.
+/// Thread safety: as the volume below, which must outlive it.
+class PeriodicVolume : public VolumeView {
+ public:
+  PeriodicVolume(const LabelVolume& volume, Index3 margin);
+
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+
+  /// Reads each copy that the box meets apart.  Memory: the labels of the largest part.
+  void read(const Box3& box, std::span<RawLabel> out) const override;
+
+ private:
+  Index3 margin_;
+  VolumeInfo info_;
+};
+
+}  // namespace mw::io

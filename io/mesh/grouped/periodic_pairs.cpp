@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Places along the box's edges are compared as numbers of a list, so that rounding does not count.
+#include "io/mesh/grouped/periodic_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "io/file/errors.h"
+#include "io/file/sink/atomic_file.h"
+
+namespace mw::io {
+namespace {
+
+/// Shares of the box's edge that are the same place; lattice points are farther apart.
+constexpr double kSame = 1e-10;
+
+using Shares = std::array<double, 3>;
+using Places = std::array<std::uint32_t, 3>;
+
+struct FaceNode {
+  std::uint64_t row = 0;
+  Places at{};
+};
+
+/// How far along each edge of the box a position is: 0 to 1.
+Shares shares_of(const MeshBox& box, const Position& p) {
+  Shares out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    double dot = 0, square = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      dot += (p[i] - box.origin[i]) * box.edges[k][i];
+      square += box.edges[k][i] * box.edges[k][i];
+    }
+    out[k] = dot / square;
+  }
+  return out;
+}
+
+bool is_periodic_side(Side side, unsigned axes) {
+  if (side == Side::kInterface || side == Side::kOuter) return false;
+  const auto axis = (static_cast<unsigned>(side) - 1) / 2;
+  return (axes >> axis & 1U) != 0;
+}
+
+std::vector<std::uint64_t> face_rows(GroupedMesh& mesh, unsigned axes) {
+  std::vector<std::uint64_t> rows;
+  for (const FacetGroup& group : mesh.facet_groups()) {
+    if (!is_periodic_side(group.side, axes)) continue;
+    for (std::uint64_t f = group.facets.begin; f < group.facets.end; ++f) {
+      for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) rows.push_back(row);
+    }
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+/// Places along an axis in ascending order, each once.
+class PlaceList {
+ public:
+  explicit PlaceList(std::vector<double> shares) {
+    std::sort(shares.begin(), shares.end());
+    for (const double share : shares) {
+      if (places_.empty() || share - last_ > kSame) places_.push_back(share);
+      last_ = share;
+    }
+  }
+  [[nodiscard]] std::uint32_t number(double share) const {
+    const auto next = std::upper_bound(places_.begin(), places_.end(), share);
+    return static_cast<std::uint32_t>(next - places_.begin() - (next == places_.begin() ? 0 : 1));
+  }
+  [[nodiscard]] bool is_end(std::uint32_t number) const {
+    return std::abs(places_[number] - 1) <= kSame;
+  }
+
+ private:
+  std::vector<double> places_;
+  double last_ = 0;
+};
+
+bool by_place(const FaceNode& a, const FaceNode& b) {
+  return a.at < b.at;
+}
+
+/// The axes on whose high face a node is.
+unsigned high_axes(const FaceNode& node, const std::vector<PlaceList>& lists, unsigned axes) {
+  unsigned out = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    if ((axes >> k & 1U) != 0 && lists[k].is_end(node.at[k])) out |= 1U << k;
+  }
+  return out;
+}
+
+/// Only this many terms of an equation stand on a line.
+constexpr std::size_t kTermsOnLine = 4;
+
+class PairsWriter : public GroupedWriter {
+ public:
+  explicit PairsWriter(const std::filesystem::path& path)
+      : file_(path), name_(path.string()), is_deck_(path.extension() == ".inp") {}
+
+  void write(GroupedMesh& mesh) override {
+    const MeshRecord& record = mesh.header().record;
+    const unsigned axes = record.promises ? record.promises->periodic : 0;
+    if (axes == 0) {
+      throw Error(ErrorKind::kUsage, name_ + ": the mesh was not made with --periodic");
+    }
+    if (record.has_doubles) {
+      throw Error(ErrorKind::kUsage, name_ +
+                                         ": vertices of the mesh were doubled (--split, "
+                                         "--cohesive, --open-hinges), so pairs are not known");
+    }
+    const PeriodicPairs found = periodic_pairs(mesh, axes);
+    const bool is_whole = record.only_labels.empty() && record.without_labels.empty() &&
+                          record.partial_labels.empty();
+    if (is_whole && found.alone > 0) {
+      throw Error(ErrorKind::kInternal,
+                  text(name_, ": ", found.alone, " nodes on a face have no partner"));
+    }
+    is_deck_ ? write_equations(mesh, found, axes) : write_table(found);
+    file_.commit();
+  }
+
+ private:
+  void write_table(const PeriodicPairs& found) {
+    file_.append(std::string_view("node,image_of,x,y,z\n"));
+    for (const PeriodicPair& p : found.pairs) {
+      file_.append(text(p.node + 1, ",", p.image_of + 1, ",", p.axes & 1U, ",", p.axes >> 1U & 1U,
+                        ",", p.axes >> 2U & 1U, "\n"));
+    }
+  }
+
+  void write_equations(GroupedMesh& mesh, const PeriodicPairs& found, unsigned axes) {
+    std::array<std::uint64_t, 3> references{};
+    std::uint64_t next = mesh.node_count();
+    file_.append(text("** a node on a high face moves as its partner on the low face and the ",
+                      "reference nodes\n** of the axes between them; nodes without a partner: ",
+                      found.alone, "\n"));
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((axes >> k & 1U) == 0) continue;
+      references[k] = ++next;
+      const Position& first = mesh.box().origin;
+      const Position& edge = mesh.box().edges[k];
+      file_.append(text("*NODE, NSET=PERIODIC_", std::string_view("XYZ").substr(k, 1), "\n", next,
+                        ", ", first[0] + edge[0], ", ", first[1] + edge[1], ", ",
+                        first[2] + edge[2], "\n"));
+    }
+    for (const PeriodicPair& p : found.pairs) {
+      for (int direction = 1; direction <= 3; ++direction) {
+        write_equation(p, references, direction);
+      }
+    }
+  }
+
+  void write_equation(const PeriodicPair& p, const std::array<std::uint64_t, 3>& references,
+                      int direction) {
+    std::vector<std::string> terms{text(p.node + 1, ",", direction, ",1."),
+                                   text(p.image_of + 1, ",", direction, ",-1.")};
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((p.axes >> k & 1U) != 0) terms.push_back(text(references[k], ",", direction, ",-1."));
+    }
+    file_.append(text("*EQUATION\n", terms.size(), "\n"));
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const bool ends = i + 1 == terms.size() || i % kTermsOnLine == kTermsOnLine - 1;
+      file_.append(text(terms[i], ends ? "\n" : ","));
+    }
+  }
+
+  AtomicFile file_;
+  std::string name_;
+  bool is_deck_;
+};
+
+}  // namespace
+
+PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes) {
+  const std::vector<std::uint64_t> rows = face_rows(mesh, axes);
+  std::vector<Shares> shares;
+  for (const std::uint64_t row : rows) shares.push_back(shares_of(mesh.box(), mesh.node(row)));
+  std::vector<PlaceList> lists;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<double> along;
+    for (const Shares& s : shares) along.push_back(s[k]);
+    lists.emplace_back(std::move(along));
+  }
+  std::vector<FaceNode> nodes;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Shares& s = shares[i];
+    nodes.push_back(
+        {rows[i], {lists[0].number(s[0]), lists[1].number(s[1]), lists[2].number(s[2])}});
+  }
+  std::vector<FaceNode> placed = nodes;
+  std::sort(placed.begin(), placed.end(), by_place);
+  PeriodicPairs out;
+  for (const FaceNode& node : nodes) {
+    const unsigned high = high_axes(node, lists, axes);
+    if (high == 0) continue;
+    FaceNode partner = node;
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((high >> k & 1U) != 0) partner.at[k] = 0;
+    }
+    const auto at = std::lower_bound(placed.begin(), placed.end(), partner, by_place);
+    if (at == placed.end() || at->at != partner.at) {
+      ++out.alone;
+    } else {
+      out.pairs.push_back({node.row, at->row, high});
+    }
+  }
+  return out;
+}
+
+std::unique_ptr<GroupedWriter> open_pairs_writer(const std::filesystem::path& path) {
+  if (path.extension() != ".csv" && path.extension() != ".inp") {
+    throw Error(ErrorKind::kUsage,
+                path.string() + ": pairs of nodes are written as .csv, or as equations in .inp");
+  }
+  return std::make_unique<PairsWriter>(path);
+}
+
+}  // namespace mw::io

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Nodes of a cell that repeats itself, and the nodes that they are images of.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "io/mesh/grouped/grouped_mesh.h"
+
+namespace mw::io {
+
+/// A node on the high face of some axes, and the one at the same place on their low faces.
+struct PeriodicPair {
+  std::uint64_t node = 0;      ///< row
+  std::uint64_t image_of = 0;  ///< row; it lies on no high face itself
+  unsigned axes = 0;           ///< along which they are apart: bit 0 = x
+};
+
+struct PeriodicPairs {
+  std::vector<PeriodicPair> pairs;  ///< ascending by node
+  std::uint64_t alone = 0;          ///< nodes on a high face without such a partner
+};
+
+/// Finds the pairs of all nodes on the faces, middles of edges too.
+/// axes: those that are periodic.  Memory: some 100 bytes for each node on their faces.
+[[nodiscard]] PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes);
+
+/// Writes the pairs of a mesh into a file.  ".csv": columns node, image_of, x, y, z, where the last
+/// say by how many periods the node is apart.  ".inp": for each axis a reference node and the
+/// set that it is in, and equations by which the displacement of a node is that of its
+/// partner and of the reference nodes of the axes along which they are apart; each node is the
+/// first of at most three equations, and these name no other node that is.  Nodes have the numbers
+/// that a file for a solver has, from 1 on.
+/// ERRORS: mw::Error(kUsage) for another ending; write() throws it for a mesh whose record has no
+/// periodic axes or doubled vertices, and kInternal when nodes are alone though no label was left
+/// out.
+[[nodiscard]] std::unique_ptr<GroupedWriter> open_pairs_writer(const std::filesystem::path& path);
+
+}  // namespace mw::io
