@@ -364,8 +364,8 @@ void PreparedLabels::find_levels(const Box3& cubes, int threads) {
       return;
     }
     const Box3 box{scaled(cube, kBrick), scaled(cube + Index3{1, 1, 1}, kBrick)};
-    levels_.set_eighths(
-        cube, LevelMap::allowed_eighths(shape(grown(box, LevelMap::kHalo)), volume, cube, sizes()));
+    const LabelBox labels = read(shapes(), grown(box, LevelMap::kHalo));
+    levels_.set_eighths(cube, LevelMap::allowed_eighths(labels, volume, cube, sizes()));
   });
   levels_.find_cubes([&](Index3 cube) { return is_whole(cube) && may_be_large(cube); });
 }

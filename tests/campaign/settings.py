@@ -138,6 +138,16 @@ def draw_flags(random, settings):
         flags["quality-floor"] = random.choice(["0", "0", "0.01", "0.05", "0.2"])
 
 
+def draw_periodic(random, settings, volume):
+    """Along axes of an even number of voxels, without what cells that repeat themselves do not have."""
+    flags = settings.flags
+    if "crop" in settings.prepare or {"size", "count", "across"} & flags.keys():
+        return
+    even = [axis for axis, voxels in zip("xyz", volume.shape) if voxels % 2 == 0]
+    if even and flags.get("optimizer") != "tetgen" and random.random() < 0.15:
+        flags["periodic"] = "".join(axis for axis in even if random.random() < 0.7) or even[0]
+
+
 def draw_values(random, settings, volume):
     """The file of labels is an image, too: on its own grid, also where only a part is meshed."""
     arguments = volume.arguments
@@ -158,6 +168,7 @@ def draw(random, volume, values_of):
     draw_chosen(random, settings, values)
     draw_flags(random, settings)
     draw_sizes(random, settings, values, volume.spacing)
+    draw_periodic(random, settings, volume)
     settings.output = "m." + random.choice(FORMATS + ("vtkhdf", "vtu", "mesh"))
     if random.random() < 0.1 and settings.output != "m.mesh":
         settings.flags["element"] = "tet10"

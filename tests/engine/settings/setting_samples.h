@@ -26,6 +26,7 @@ inline const std::map<std::string, Samples> kSettingSamples{
     {"target-reduction", {{"0.5", "0.001"}, {"0", "1", "-0.5"}, {"half"}}},
     {"topology", {{"interfaces"}, {}, {"label"}}},
     {"surface", {{"voxel"}, {}, {"rough"}}},
+    {"periodic", {{"x", "yz", "xyz"}, {}, {"zx", "x,y", ""}}},
     {"optimizer", {{"tetgen", "none"}, {}, {"odt"}}},
     {"odt-iterations", {{"1", "1000"}, {"0", "1001"}, {"1.5"}}},
     {"start", {{"octree", "dense"}, {}, {"fine"}}},

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: The mwmesh authors
+# SPDX-License-Identifier: Apache-2.0
+"""Cells that repeat themselves: the same triangles on opposite faces, and the pairs of their nodes."""
+import csv
+import re
+import shutil
+import subprocess
+import unittest
+
+try:
+    import meshio
+    import numpy as np
+except ImportError:
+    raise SystemExit(77)
+from program import enter_folder, run, start
+
+UNITS = 1024  # of the lattice, a voxel
+
+
+def grains(shape, count, seed):
+    """A Voronoi diagram on the torus, [z, y, x]."""
+    random = np.random.default_rng(seed)
+    centres = np.moveaxis(np.indices(shape), 0, -1) + 0.5
+    nearest, labels = np.full(shape, np.inf), np.zeros(shape, np.uint8)
+    for label in range(1, count + 1):
+        apart = np.abs(centres - random.uniform(0, shape))
+        apart = np.minimum(apart, shape - apart)
+        distance = (apart**2).sum(-1)
+        labels[distance < nearest] = label
+        nearest = np.minimum(nearest, distance)
+    return labels
+
+
+def faces(file, axis):
+    """The triangles on the low and on the high face, each as the places of its corners in the face."""
+    mesh = meshio.read(file)
+    points = np.round(mesh.points * UNITS).astype(np.int64)
+    tets = np.vstack([block.data for block in mesh.cells if block.type == "tetra"])
+    triangles = np.sort(np.vstack([np.delete(tets, k, 1) for k in range(4)]), 1)
+    triangles, count = np.unique(triangles, axis=0, return_counts=True)
+    outer = triangles[count == 1]
+    others = [k for k in range(3) if k != axis]
+    out = []
+    for place in (0, points[:, axis].max()):
+        on = outer[(points[outer][:, :, axis] == place).all(1)]
+        out.append({tuple(sorted(map(tuple, points[t][:, others]))) for t in on})
+    return out
+
+
+class Periodic(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        enter_folder(cls)
+        np.save("grains.npy", grains((32, 24, 40), 6, 1))
+
+    def mesh(self, volume, axes, output="m.vtu", *more):
+        run("mesh", volume, "-o", output, "--force", "--periodic", axes, *more)
+
+    def check(self, file, axes):
+        for axis, name in enumerate("xyz"):
+            low, high = faces(file, axis)
+            self.assertGreater(len(low), 0)
+            self.assertEqual(low == high, name in axes, name)
+
+    def test_faces_match(self):
+        for axes in ("x", "yz", "xyz"):
+            with self.subTest(axes):
+                self.mesh("grains.npy", axes)
+                run("verify", "grains.npy", "m.vtu")
+                self.check("m.vtu", axes)
+
+    def test_sizes_that_few_cells_divide(self):
+        random = np.random.default_rng(2)
+        for shape in ((2, 4, 6), (12, 10, 14), (20, 16, 18), (34, 8, 22)):
+            with self.subTest(shape):
+                labels = grains(shape, 4, random.integers(99))
+                np.save("odd.npy", labels)
+                self.mesh("odd.npy", "xyz")
+                run("verify", "odd.npy", "m.vtu")
+                self.check("m.vtu", "xyz")
+
+    def test_large_cells_inside_labels(self):
+        labels = np.ones((96, 96, 96), np.uint8)
+        labels[40:56, 44:52, 30:66] = 2
+        np.save("large.npy", np.roll(labels, (48, 20, 0), (0, 1, 2)))
+        self.mesh("large.npy", "xyz")
+        self.check("m.vtu", "xyz")
+
+    def test_noise(self):
+        np.save("noise.npy", np.random.default_rng(3).integers(0, 3, (12, 16, 10)).astype(np.uint8))
+        self.mesh("noise.npy", "xyz")
+        run("verify", "noise.npy", "m.vtu")
+        self.check("m.vtu", "xyz")
+
+    def test_any_number_of_threads(self):
+        self.mesh("grains.npy", "xyz", "one.vtkhdf", "--threads", "1")
+        self.mesh("grains.npy", "xyz", "three.vtkhdf", "--threads", "3", "--window", "32")
+        self.assertEqual(run("digest", "one.vtkhdf"), run("digest", "three.vtkhdf"))
+
+    def test_pairs(self):
+        for element in ("tet4", "tet10"):
+            with self.subTest(element):
+                self.mesh("grains.npy", "xy", "m.inp", "--pairs", "pairs.csv", "--element", element)
+                points = meshio.read("m.inp").points
+                edges = points.max(0) - points.min(0)
+                with open("pairs.csv", encoding="utf-8") as file:
+                    rows = [{key: int(value) for key, value in row.items()} for row in csv.DictReader(file)]
+                masters = {row["image_of"] for row in rows}
+                self.assertEqual(len({row["node"] for row in rows}), len(rows))
+                for row in rows:
+                    apart = points[row["node"] - 1] - points[row["image_of"] - 1]
+                    np.testing.assert_allclose(apart, edges * (row["x"], row["y"], row["z"]), atol=1e-9)
+                    self.assertNotIn(row["node"], masters)
+                on_high = ((points[:, :2] == points.max(0)[:2]).any(1)).sum()
+                self.assertEqual(len(rows), on_high)
+
+    def test_pairs_of_a_mesh_that_is_converted(self):
+        self.mesh("grains.npy", "z", "m.vtkhdf", "--pairs", "first.csv")
+        run("convert", "m.vtkhdf", "n.msh", "--pairs", "second.csv")
+        with open("first.csv", encoding="utf-8") as first, open("second.csv", encoding="utf-8") as second:
+            self.assertEqual(first.read(), second.read())
+
+    def test_refused(self):
+        np.save("uneven.npy", np.ones((8, 8, 7), np.uint8))
+        for options, words in ((("uneven.npy", "--periodic", "x"), "7 voxels along x"),
+                               (("grains.npy", "--periodic", "x", "--size", "3"), "--periodic: works without"),
+                               (("grains.npy", "--periodic", "x", "--keep", "kept"), "without periodic"),
+                               (("grains.npy", "--pairs", "p.csv"), "give --periodic"),
+                               (("grains.npy", "--periodic", "x", "--pairs", "p.txt"), "written as .csv")):
+            with self.subTest(options):
+                done = start("mesh", *options, "-o", "refused.vtu")
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(words, done.stderr)
+        run("mesh", "grains.npy", "-o", "plain.vtu", "--force")
+        done = start("convert", "plain.vtu", "plain.inp", "--pairs", "p.csv")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("not made with --periodic", done.stderr)
+
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX is missing")
+    def test_stiffness_of_a_cell_and_of_the_same_cell_moved(self):
+        labels = grains((24, 24, 24), 6, 4)
+        np.save("cell.npy", labels)
+        np.save("moved.npy", np.roll(labels, 12, 2))
+        first, second = stiffness("cell.npy"), stiffness("moved.npy")
+        self.assertGreater(first, 1.0)
+        self.assertLess(first, 10.0 * 1.35)
+        self.assertLess(abs(first / second - 1), 0.02)
+
+
+def stiffness(volume):
+    """C1111 of a cell whose odd labels have a modulus of 1, the others 10, by its energy."""
+    run("mesh", volume, "-o", "cell.inp", "--force", "--periodic", "xyz", "--pairs", "equations.inp")
+    with open("cell.inp", encoding="utf-8") as file:
+        text = file.read()
+    sets = sorted(set(re.findall(r"ELSET=(LABEL_\d+)", text)))
+    nodes = np.array([line.split(",") for line in text.split("*NODE")[1].split("*")[0].split("\n")
+                      if line.count(",") == 3], float)
+    fixed = int(nodes[nodes[:, 1:].sum(1).argmin(), 0])
+    edge = nodes[:, 1].max()
+    lines = ["*INCLUDE, INPUT=cell.inp", "*INCLUDE, INPUT=equations.inp"]
+    for parity, modulus in ((0, 10.0), (1, 1.0)):
+        lines += [f"*MATERIAL, NAME=M{parity}", "*ELASTIC", f"{modulus}, .3"]
+    lines += [f"*SOLID SECTION, ELSET={name}, MATERIAL=M{int(name[6:]) % 2}" for name in sets]
+    lines += ["*BOUNDARY", f"{fixed},1,3,0.", "*STEP", "*STATIC", "*BOUNDARY", f"PERIODIC_X,1,1,{edge / 100}",
+              "PERIODIC_X,2,3,0.", "PERIODIC_Y,1,3,0.", "PERIODIC_Z,1,3,0."]
+    for name in sets:
+        lines += [f"*EL PRINT, ELSET={name}, TOTALS=ONLY", "ELSE"]
+    with open("job.inp", "w", encoding="utf-8") as file:
+        file.write("\n".join(lines + ["*END STEP", ""]))
+    subprocess.run(["ccx", "job"], check=True, capture_output=True)
+    with open("job.dat", encoding="utf-8") as file:
+        energy = sum(float(line) for line in file if len(line.split()) == 1)
+    return 2 * energy / (0.01**2 * edge**3)
+
+
+if __name__ == "__main__":
+    unittest.main()
