@@ -45,8 +45,8 @@ TEST(SettingTable, LeavesOutNoField) {
     set(setting, changed, samples(setting).good.front());
   }
   const MeshSettings defaults;
-  const auto& [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a_sizes, a13] = changed;
-  const auto& [b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b_sizes, b13] = defaults;
+  const auto& [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a_sizes, a13, a14] = changed;
+  const auto& [b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b_sizes, b13, b14] = defaults;
   const auto& [a_rules, a_gradation, a_inner_vertices, a_count, a_across] = a_sizes;
   const auto& [b_rules, b_gradation, b_inner_vertices, b_count, b_across] = b_sizes;
   EXPECT_NE(a0, b0);
@@ -62,6 +62,7 @@ TEST(SettingTable, LeavesOutNoField) {
   EXPECT_NE(a10, b10);
   EXPECT_NE(a11, b11);
   EXPECT_NE(a13, b13);
+  EXPECT_NE(a14, b14);
   EXPECT_NE(a_rules, b_rules);
   EXPECT_NE(a_gradation, b_gradation);
   EXPECT_NE(a_inner_vertices, b_inner_vertices);
