@@ -32,8 +32,8 @@ constexpr std::size_t kPieceBytes = 1U << 20U;
 constexpr std::size_t kFolderDigits = 2;
 constexpr std::size_t kFileDigits = 30;
 constexpr std::string_view kUnfinished = ".unfinished";
-/// Of the bytes that the files may have: the largest answer that is kept, and what is left of them
-/// when some have to go.
+/// The largest answer that is kept, and what is left when some have to go, as shares of the bytes
+/// that the files may have.
 constexpr std::uint64_t kLargestShare = 8;
 constexpr double kLeftShare = 0.9;
 /// A use within this time of the last one is not noted; an unfinished file that is older was left
