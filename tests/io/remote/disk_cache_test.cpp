@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What a cache finds is what it was given, whoever else is at work in its folder.
+// What a cache finds is what it was given, while others are at work in its folder.
 #include "io/remote/disk_cache.h"
 
 #include <gtest/gtest.h>
