@@ -319,6 +319,8 @@ struct FileOptions {
   /// "NAME=N:LO:HI"; empty: none.
   std::string materials{};
   bool deck = false;  ///< a job for CalculiX (.inp) or FEBio (.feb), as --deck static
+  /// A file for the pairs of nodes of a mesh with the setting periodic, as --pairs; empty: none.
+  std::filesystem::path pairs{};
 };
 
 /// Meshes the volume into a file of any format of `mwmesh convert`, which appears under its name

@@ -91,7 +91,7 @@ mwmesh::Mesh library_mesh(io::MeshData&& mesh) {
 std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
                                         const mwmesh::FileOptions& file, bool has_values,
                                         bool has_wedges) {
-  io::MeshExtras extras{.deck = file.deck, .wedges = has_wedges};
+  io::MeshExtras extras{.deck = file.deck, .wedges = has_wedges, .pairs = file.pairs};
   if (!file.materials.empty()) {
     extras.materials = engine::parse_materials(file.materials);
   } else if (has_values) {

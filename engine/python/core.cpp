@@ -225,11 +225,13 @@ void add_options(py::module_& module) {
       .def_readwrite("certify", &Options::certify)
       .def_readwrite("report", &Options::report);
   py::class_<FileOptions>(module, "FileOptions")
-      .def(py::init([](std::string element, bool values, std::string materials, bool deck) {
+      .def(py::init([](std::string element, bool values, std::string materials, bool deck,
+                       const std::string& pairs) {
         return FileOptions{.element = std::move(element),
                            .values = values,
                            .materials = std::move(materials),
-                           .deck = deck};
+                           .deck = deck,
+                           .pairs = pairs};
       }));
   module.def("bytes_of_text", &bytes_of_text);
 }

@@ -16,6 +16,9 @@ namespace {
 /// Returns the settings once check() has found nothing wrong with them.
 const MeshSettings& checked(const io::DenseVolume& volume, const MeshSettings& settings) {
   check(volume.info(), settings);
+  if (settings.periodic != 0 && volume.raw().scores() != nullptr) {
+    throw Error(ErrorKind::kUsage, "periodic: works with labels, not with --values");
+  }
   check(volume.table(), settings);
   return settings;
 }

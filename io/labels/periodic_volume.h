@@ -15,6 +15,8 @@ class PeriodicVolume : public VolumeView {
   PeriodicVolume(const LabelVolume& volume, Index3 margin);
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+  /// They are of the cell alone.
+  [[nodiscard]] const LabelScores* scores() const override { return nullptr; }
 
   /// Reads each copy that the box meets apart.  Memory: the labels of the largest part.
   void read(const Box3& box, std::span<RawLabel> out) const override;

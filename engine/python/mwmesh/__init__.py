@@ -271,15 +271,15 @@ def mesh(volume, *, progress=None, **arguments):
     return Mesh._of(_run(_core.mesh, volume, arguments, progress))
 
 
-def mesh_to_file(volume, path, *, element="tet4", materials=None, deck=False, progress=None,
-                 **arguments):
+def mesh_to_file(volume, path, *, element="tet4", materials=None, deck=False, pairs=None,
+                 progress=None, **arguments):
     """Meshes as :func:`mesh` does, into a file, so that the mesh is never whole in memory.  Returns
-    the report.  element, materials, deck: those of :meth:`Mesh.save`."""
+    the report.  element, materials, deck, pairs: those of :meth:`Mesh.save`."""
 
     file = path_bytes(path, "path")
 
     def call(*run):
-        return _core.mesh_to_file(file, *run, file_options(element, True, materials, deck))
+        return _core.mesh_to_file(file, *run, file_options(element, True, materials, deck, pairs))
 
     report = _run(call, volume, arguments, progress)
     return json.loads(report) if report else None

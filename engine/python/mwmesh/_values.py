@@ -127,7 +127,8 @@ def name_rows(of, names):
             for key, name in rows]
 
 
-def file_options(element, values, materials, deck):
+def file_options(element, values, materials, deck, pairs):
     """Returns how a file is written."""
     return _core.FileOptions(text(element, "element"), switch(values, "values"),
-                             text(materials, "materials"), switch(deck, "deck"))
+                             text(materials, "materials"), switch(deck, "deck"),
+                             "" if pairs is None else path_bytes(pairs, "pairs"))

@@ -488,6 +488,19 @@ class Copies(InFolder):
 
 class Values(InFolder):
 
+    def test_pairs_of_a_cell_that_repeats_itself(self):
+        labels = np.indices((12, 8, 10)).sum(0) % 3 + 1
+        mesh = mwmesh.mesh(labels.astype(np.uint8), periodic="xy")
+        mesh.save(self.path("m.vtu"), pairs=self.path("p.csv"))
+        rows = np.loadtxt(self.path("p.csv"), delimiter=",", skiprows=1, dtype=int)
+        apart = mesh.points[rows[:, 0] - 1] - mesh.points[rows[:, 1] - 1]
+        np.testing.assert_allclose(apart, rows[:, 2:] * np.ptp(mesh.points, axis=0), atol=1e-9)
+        mwmesh.mesh_to_file(labels.astype(np.uint8), self.path("m.inp"), periodic="xy",
+                            pairs=self.path("q.csv"))
+        np.testing.assert_array_equal(np.loadtxt(self.path("q.csv"), delimiter=",", skiprows=1), rows)
+        with self.assertRaises(mwmesh.Error):
+            mwmesh.mesh(labels.astype(np.uint8)).save(self.path("n.vtu"), pairs=self.path("p.csv"))
+
     def test_of_images_are_those_of_their_voxels(self):
         """Means times volumes add up to the sum of all voxels."""
         labels = grains()
