@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
@@ -94,6 +97,64 @@ unsigned high_axes(const FaceNode& node, const std::vector<PlaceList>& lists, un
   return out;
 }
 
+/// Finds nodes by their rows, and by their places.
+class FaceNodes {
+ public:
+  /// nodes: ascending by row.
+  explicit FaceNodes(std::vector<FaceNode> nodes) : by_row_(std::move(nodes)), placed_(by_row_) {
+    std::sort(placed_.begin(), placed_.end(), by_place);
+  }
+  [[nodiscard]] const std::vector<FaceNode>& all() const { return by_row_; }
+  /// The node at the same place on the low faces of these axes.
+  [[nodiscard]] std::optional<std::uint64_t> partner(FaceNode node, unsigned axes) const {
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((axes >> k & 1U) != 0) node.at[k] = 0;
+    }
+    const auto at = std::lower_bound(placed_.begin(), placed_.end(), node, by_place);
+    return at == placed_.end() || at->at != node.at ? std::nullopt : std::optional(at->row);
+  }
+  /// REQUIRES: the row is that of such a node.
+  [[nodiscard]] const FaceNode& at_row(std::uint64_t row) const {
+    return *std::lower_bound(by_row_.begin(), by_row_.end(), row,
+                             [](const FaceNode& a, std::uint64_t b) { return a.row < b; });
+  }
+
+ private:
+  std::vector<FaceNode> by_row_;
+  std::vector<FaceNode> placed_;
+};
+
+using Triangle = std::array<std::uint64_t, 3>;
+
+/// The triangles of a side, ascending; those of a high one with the partners of their corners,
+/// which are other rows where there is none.
+std::vector<Triangle> triangles_of(GroupedMesh& mesh, const FaceNodes& nodes, unsigned axis,
+                                   bool is_high) {
+  std::vector<Triangle> out;
+  for (const FacetGroup& group : mesh.facet_groups()) {
+    if (static_cast<unsigned>(group.side) != 1 + 2 * axis + (is_high ? 1 : 0)) continue;
+    for (std::uint64_t f = group.facets.begin; f < group.facets.end; ++f) {
+      Triangle rows = mesh.facet(f).rows;
+      for (std::uint64_t& row : rows) {
+        if (is_high) row = nodes.partner(nodes.at_row(row), 1U << axis).value_or(row);
+      }
+      std::sort(rows.begin(), rows.end());
+      out.push_back(rows);
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::uint64_t count_unlike(GroupedMesh& mesh, const FaceNodes& nodes, unsigned axis) {
+  const std::vector<Triangle> low = triangles_of(mesh, nodes, axis, false);
+  const std::vector<Triangle> high = triangles_of(mesh, nodes, axis, true);
+  std::vector<Triangle> unlike;
+  std::set_symmetric_difference(low.begin(), low.end(), high.begin(), high.end(),
+                                std::back_inserter(unlike));
+  return unlike.size();
+}
+
 /// Only this many terms of an equation stand on a line.
 constexpr std::size_t kTermsOnLine = 4;
 
@@ -116,9 +177,10 @@ class PairsWriter : public GroupedWriter {
     const PeriodicPairs found = periodic_pairs(mesh, axes);
     const bool is_whole = record.only_labels.empty() && record.without_labels.empty() &&
                           record.partial_labels.empty();
-    if (is_whole && found.alone > 0) {
+    if (is_whole && found.alone + found.unlike > 0) {
       throw Error(ErrorKind::kInternal,
-                  text(name_, ": ", found.alone, " nodes on a face have no partner"));
+                  text(name_, ": ", found.alone, " nodes on faces have no partner, and ",
+                       found.unlike, " triangles are on one of two faces alone"));
     }
     is_deck_ ? write_equations(mesh, found, axes) : write_table(found);
     file_.commit();
@@ -192,22 +254,19 @@ PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes) {
     nodes.push_back(
         {rows[i], {lists[0].number(s[0]), lists[1].number(s[1]), lists[2].number(s[2])}});
   }
-  std::vector<FaceNode> placed = nodes;
-  std::sort(placed.begin(), placed.end(), by_place);
+  const FaceNodes found(std::move(nodes));
   PeriodicPairs out;
-  for (const FaceNode& node : nodes) {
+  for (const FaceNode& node : found.all()) {
     const unsigned high = high_axes(node, lists, axes);
     if (high == 0) continue;
-    FaceNode partner = node;
-    for (unsigned k = 0; k < 3; ++k) {
-      if ((high >> k & 1U) != 0) partner.at[k] = 0;
-    }
-    const auto at = std::lower_bound(placed.begin(), placed.end(), partner, by_place);
-    if (at == placed.end() || at->at != partner.at) {
-      ++out.alone;
+    if (const auto partner = found.partner(node, high)) {
+      out.pairs.push_back({node.row, *partner, high});
     } else {
-      out.pairs.push_back({node.row, at->row, high});
+      ++out.alone;
     }
+  }
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    if ((axes >> axis & 1U) != 0) out.unlike += count_unlike(mesh, found, axis);
   }
   return out;
 }

@@ -22,6 +22,7 @@ struct PeriodicPair {
 struct PeriodicPairs {
   std::vector<PeriodicPair> pairs;  ///< ascending by node
   std::uint64_t alone = 0;          ///< nodes on a high face without such a partner
+  std::uint64_t unlike = 0;         ///< triangles on one face of an axis that the other lacks
 };
 
 /// Finds the pairs of all nodes on the faces, middles of edges too.
@@ -35,7 +36,7 @@ struct PeriodicPairs {
 /// first of at most three equations, and these name no other node that is.  Nodes have the numbers
 /// that a file for a solver has, from 1 on.
 /// ERRORS: mw::Error(kUsage) for another ending; write() throws it for a mesh whose record has no
-/// periodic axes or doubled vertices, and kInternal when nodes are alone though no label was left
+/// periodic axes or doubled vertices, and kInternal when faces are unlike though no label was left
 /// out.
 [[nodiscard]] std::unique_ptr<GroupedWriter> open_pairs_writer(const std::filesystem::path& path);
 

@@ -120,6 +120,23 @@ class Periodic(unittest.TestCase):
         with open("first.csv", encoding="utf-8") as first, open("second.csv", encoding="utf-8") as second:
             self.assertEqual(first.read(), second.read())
 
+    def test_faces_that_do_not_match(self):
+        """A vertex on a face is moved by one unit of the lattice."""
+        self.mesh("grains.npy", "x", "m.mesh")
+        with open("m.mesh", encoding="utf-8") as file:
+            lines = file.read().split("\n")
+        first = next(i for i, line in enumerate(lines) if line.startswith("Vertices")) + 2
+        moved = next(i for i in range(first, len(lines)) if re.match(r"40 \d+ \d+ ", lines[i])
+                     and not re.match(r"40 (0|24) |40 \d+ (0|32) ", lines[i]))
+        x, y, z, reference = lines[moved].split()
+        lines[moved] = f"{x} {float(y) + 1 / UNITS} {z} {reference}"
+        with open("n.mesh", "w", encoding="utf-8") as file:
+            file.write("\n".join(lines))
+        run("convert", "m.mesh", "m.vtu", "--pairs", "p.csv")
+        done = start("convert", "n.mesh", "n.vtu", "--pairs", "p.csv")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("have no partner", done.stderr)
+
     def test_refused(self):
         np.save("uneven.npy", np.ones((8, 8, 7), np.uint8))
         for options, words in ((("uneven.npy", "--periodic", "x"), "7 voxels along x"),
