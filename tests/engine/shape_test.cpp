@@ -158,14 +158,23 @@ TEST(SmoothSurface, FlatLayersAreFlatToTheLastBit) {
 }
 
 /// The floor holds some vertices back: without it a plate would be flat as well.
+/// Where a plate lies decides by chance which edges are contracted, so a few are less flat.
 TEST(SmoothSurface, PlatesOfOneVoxelAreFlatAndNotThick) {
+  int plates = 0, flat = 0;
+  double bends = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    for (const std::int64_t place : {20, 21}) {
+    for (std::int64_t place = 14; place < 26; ++place) {
       const Result r = run(layers(axis, {place, place + 1}, 40));
+      const double bend = r.report.shape->bend_p95_deg;
       EXPECT_LT(r.volume_error(), 0.05);
-      EXPECT_LT(r.report.shape->bend_p95_deg, 5.0);
+      EXPECT_LT(bend, 8.0);
+      ++plates;
+      flat += bend < 5.0 ? 1 : 0;
+      bends += bend;
     }
   }
+  EXPECT_GE(10 * flat, 9 * plates);
+  EXPECT_LT(bends / plates, 2.5);
 }
 
 /// Notches in its rim would take up to a twelfth of it away.
