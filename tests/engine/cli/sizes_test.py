@@ -75,19 +75,26 @@ class Sizes(unittest.TestCase):
         rows = {row["label"]: row["size"] for row in self.report["shape"]["per_label"]}
         self.assertEqual(rows, {other: 1.5 if other == label else 3 for other in self.labels})
 
-    def test_most_edges_have_the_size_that_was_asked(self):
+    def edges_of_ball(self, radius, centre, size):
+        """Lengths of the edges in a ball, and how many tets it has."""
         z, y, x = np.mgrid[:32, :32, :32] + 0.5
-        ball = (x - 16) ** 2 + (y - 16) ** 2 + (z - 16) ** 2 < 100
+        ball = (x - centre) ** 2 + (y - centre) ** 2 + (z - 16) ** 2 < radius**2
         np.save("b.npy", np.where(ball, 2, 1).astype(np.uint8))
-        counts = []
+        run("mesh", "b.npy", "-o", "b.vtu", "--size", f"2={size}")
+        mesh = Mesh("b.vtu")
+        tets = mesh.tets[mesh.labels == 2]
+        edges = np.unique(np.sort(np.concatenate([tets[:, p] for p in PAIRS])), axis=0)
+        return np.linalg.norm(mesh.points[edges[:, 0]] - mesh.points[edges[:, 1]], axis=1), len(tets)
+
+    def test_most_edges_have_the_size_that_was_asked(self):
+        """Nine of ten on average; of a single ball it may be a few less."""
+        balls, counts = ((10, 16), (10, 16.3), (9.5, 15.8), (11, 16.1)), []
         for size in (3, 4, 5, 6):
-            run("mesh", "b.npy", "-o", "b.vtu", "--size", f"2={size}")
-            mesh = Mesh("b.vtu")
-            tets = mesh.tets[mesh.labels == 2]
-            edges = np.unique(np.sort(np.concatenate([tets[:, p] for p in PAIRS])), axis=0)
-            lengths = np.linalg.norm(mesh.points[edges[:, 0]] - mesh.points[edges[:, 1]], axis=1)
-            self.assertGreater(((lengths > 0.6 * size) & (lengths < 1.5 * size)).mean(), 0.9, size)
-            counts.append(len(tets))
+            found = [self.edges_of_ball(*ball, size) for ball in balls]
+            shares = [((lengths > 0.6 * size) & (lengths < 1.5 * size)).mean() for lengths, _ in found]
+            self.assertGreater(np.mean(shares), 0.9, size)
+            self.assertGreater(min(shares), 0.85, size)
+            counts.append(found[0][1])
         self.assertEqual(counts, sorted(counts, reverse=True))
 
     def test_interfaces_have_sizes_of_their_own(self):
