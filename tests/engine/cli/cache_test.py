@@ -84,6 +84,7 @@ class Cache(unittest.TestCase):
         chance = random.Random(6)
         for name in remote_stores.KINDS:
             with self.subTest(name), Server("stores") as server:
+                shutil.rmtree("kept", ignore_errors=True)
                 self.check(server, name)
                 for file in files_of("kept"):
                     with open(file, "rb") as source:
