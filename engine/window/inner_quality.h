@@ -8,7 +8,7 @@
 namespace mw::engine {
 
 /// Radius ratio where interfaces are everywhere (bench/parameters.md, "Constants").
-inline constexpr double kInnerQuality = 0.445;
+inline constexpr double kInnerQuality = 0.44;
 /// Radius ratio where a mesh is mostly of what is far from them (bench/parameters.md, "Constants").
 inline constexpr double kSparseInnerQuality = 0.38;
 

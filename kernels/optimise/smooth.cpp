@@ -223,7 +223,7 @@ Smoother::Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& opt
       debts_(debts),
       surface_energy_(options.surface.value_or(SurfaceWeights{})) {
   if (fits_interfaces() && options_.surface->with_pressure) {
-    curvature_.measure(mesh, metric, options_.surface->max_curvature);
+    curvature_.measure(mesh, metric);
   }
 }
 

@@ -21,7 +21,7 @@ struct SimplifyOptions {
   /// Contractions of an inner vertex keep to this radius ratio instead: they can wait for better
   /// shapes, because inner vertices are few and the shape of everything around depends on them
   /// (bench/parameters.md, "Constants").
-  double inner_quality = 0.445;
+  double inner_quality = 0.44;
   /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none: unbounded.
   std::optional<double> edge_variance;
   KeptTopology topology = KeptTopology::kLabels;

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <span>
 
 #include "kernels/distance/point_triangle.h"
@@ -73,6 +75,35 @@ MW_WIDE void fit_inside(const MetricPieces& pieces, const StoredLanes& shares, c
   store(weight * share * share, out.squares);
   store(weight * share * height, out.volumes);
 }
+
+/// The curvature that a ring has: the mean of values cut at `most`, or beyond that the least of all
+/// where all bend the same way.  A step among smooth surroundings is no shape, a thread is.
+class RingCurvature {
+ public:
+  explicit RingCurvature(double most) : most_(most) {}
+
+  void add(std::optional<double> known) {
+    if (!known) return;
+    sum_ += std::clamp(*known, -most_, most_);
+    least_ = std::min(least_, *known);
+    greatest_ = std::max(greatest_, *known);
+    count_ += 1.0;
+  }
+  /// 0 where none is known.
+  [[nodiscard]] double value() const {
+    if (count_ == 0.0) return 0.0;
+    if (least_ > most_) return least_;
+    if (greatest_ < -most_) return greatest_;
+    return sum_ / count_;
+  }
+
+ private:
+  double most_;
+  double sum_ = 0.0;
+  double count_ = 0.0;
+  double least_ = std::numeric_limits<double>::infinity();
+  double greatest_ = -std::numeric_limits<double>::infinity();
+};
 
 /// Triangles at v, what is known of each.
 struct KnownTriangles {
@@ -263,7 +294,7 @@ std::span<const VolumeDebt> SurfaceEnergy::debts_at(const Vec3& x) {
   return debts_;
 }
 
-/// For each pair of labels the mean curvature of the ring times what v's move adds to the volume.
+/// For each pair of labels the curvature of the ring times what v's move adds to the volume.
 void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -273,18 +304,15 @@ void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
     };
     const auto end = triangles.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::any_of(triangles.begin(), end, is_same)) continue;
-    double sum = 0.0, count = 0.0;
+    RingCurvature ring(weights_.max_curvature);
     Vec3 volume_gradient = Vec3::Zero();
     for (const SurfaceTriangle& t : triangles) {
       if (!is_same(t)) continue;
       volume_gradient += t.normal(Vec3::Zero()) / 6.0;
-      for (const LocalVertex w : {t.a, t.b}) {
-        const auto known = curvature.at(w);
-        sum += known.value_or(0.0);
-        count += known ? 1.0 : 0.0;
-      }
+      ring.add(curvature.at(t.a));
+      ring.add(curvature.at(t.b));
     }
-    if (count > 0.0) pressure_ += sum / count * volume_gradient;
+    pressure_ += ring.value() * volume_gradient;
   }
 }
 

@@ -21,8 +21,9 @@ struct SurfaceWeights {
   double area = 1.0;            ///< beside the fit, voxels squared; between two labels, off the box
   double junction_area = 0.01;  ///< the same where more labels meet
   double bend = 4.7;
-  /// The most curvature that makes pressure, 1 / voxel.  Among edges of several voxels what is
-  /// sharper than a ball of a few voxels is no shape but a step.
+  /// The most curvature of a vertex that makes pressure, 1 / voxel, unless its whole ring bends as
+  /// much and the same way.  Among edges of several voxels what is sharper than a ball of a few
+  /// voxels is a step, not a shape, except on threads.
   double max_curvature = 0.5;
   bool with_pressure = true;
 };

@@ -204,13 +204,13 @@ std::optional<LocalVertex> SurfaceStar::across(const TetMesh& mesh, const Surfac
   return others == 1 && rises == 1 ? std::optional(other) : std::nullopt;
 }
 
-void CurvatureField::measure(const TetMesh& mesh, const Metric& metric, double most) {
+void CurvatureField::measure(const TetMesh& mesh, const Metric& metric) {
   curvature_.assign(mesh.vertex_count(), kUnknown);
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || !mesh.is_free(v)) continue;
     if (mesh.order(v) != 2 || mesh.planes(v) != 0) continue;
     star_.collect_triangles(mesh, metric, v);
-    curvature_[v] = curvature_of(star_, most);
+    curvature_[v] = curvature_of(star_, kMaxCurvature);
   }
 }
 

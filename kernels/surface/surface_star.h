@@ -110,12 +110,15 @@ class SurfaceStar {
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch
 };
 
+/// The curvature of threads of a voxel, 1 / voxel (bench/parameters.md, "Constants").
+inline constexpr double kMaxCurvature = 4.0;
+
 /// Mean curvature of interfaces (twice its usual value, 1 / length), where it can be told: at free
 /// vertices between two labels, off the box.  Positive where the smaller label is convex.
 class CurvatureField {
  public:
-  /// Measures all vertices at once, as they are now.  Values are cut at `most`, 1 / voxel.
-  void measure(const TetMesh& mesh, const Metric& metric, double most);
+  /// Measures all vertices at once, as they are now.  Values are cut at kMaxCurvature.
+  void measure(const TetMesh& mesh, const Metric& metric);
 
   [[nodiscard]] std::optional<double> at(LocalVertex v) const;
 

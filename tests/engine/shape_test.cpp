@@ -122,15 +122,25 @@ TEST(SmoothSurface, VoxelSurfacesShrinkBalls) {
   EXPECT_LT(run(volume).volume_error(), 0.0025);
 }
 
+/// Which edges are contracted is chance, and a plane near an axis has steps far from each other.
 TEST(SmoothSurface, TiltedPlanesAreFlat) {
-  for (const Vec3& way : {Vec3(0.3, 0.5, 0.81), Vec3(1, 0.1, 0.05), Vec3(1, 1, 1)}) {
+  std::mt19937 random(131);
+  const auto coordinate = [&] { return audit::test::below(random, 2001) / 1000.0 - 1.0; };
+  std::vector<Vec3> ways{{0.3, 0.5, 0.81}, {1, 0.1, 0.05}, {1, 1, 1}};
+  while (ways.size() < 12) ways.emplace_back(coordinate(), coordinate(), coordinate());
+  double tilts = 0.0, bends = 0.0;
+  for (const Vec3& way : ways) {
     const Vec3 normal = way.normalized();
     const Result r = run(body(
         48, 2, [&](const Vec3& p) { return (p - Vec3(24, 24, 24)).dot(normal) < 0 ? 1U : 0U; }));
-    EXPECT_LT(mean_tilt(r.mesh, 48, normal), 0.8);
-    EXPECT_LT(r.report.shape->bend_p95_deg, 10.0);
+    const double tilt = mean_tilt(r.mesh, 48, normal);
+    EXPECT_LT(tilt, 4.0);
     EXPECT_LT(r.volume_error(), 0.001);
+    tilts += tilt;
+    bends += r.report.shape->bend_p95_deg;
   }
+  EXPECT_LT(tilts / static_cast<double>(ways.size()), 1.0);
+  EXPECT_LT(bends / static_cast<double>(ways.size()), 10.0);
 }
 
 /// Layers across an axis, whose labels take turns.
@@ -161,20 +171,22 @@ TEST(SmoothSurface, FlatLayersAreFlatToTheLastBit) {
 /// Where a plate lies decides by chance which edges are contracted, so a few are less flat.
 TEST(SmoothSurface, PlatesOfOneVoxelAreFlatAndNotThick) {
   int plates = 0, flat = 0;
-  double bends = 0.0;
+  double bends = 0.0, errors = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     for (std::int64_t place = 14; place < 26; ++place) {
       const Result r = run(layers(axis, {place, place + 1}, 40));
       const double bend = r.report.shape->bend_p95_deg;
-      EXPECT_LT(r.volume_error(), 0.05);
+      EXPECT_LT(r.volume_error(), 0.06);
       EXPECT_LT(bend, 8.0);
       ++plates;
+      errors += r.volume_error();
       flat += bend < 5.0 ? 1 : 0;
       bends += bend;
     }
   }
   EXPECT_GE(10 * flat, 9 * plates);
   EXPECT_LT(bends / plates, 2.5);
+  EXPECT_LT(errors / plates, 0.025);
 }
 
 /// Notches in its rim would take up to a twelfth of it away.
@@ -222,6 +234,65 @@ TEST(SmoothSurface, ThreadsOfOneVoxelStayWhereEdgesHaveSizes) {
     MeshSettings settings;
     settings.sizes.rules.others = size;
     EXPECT_LT(run(threads, settings).volume_error(), 0.3) << size;
+  }
+}
+
+/// They are neither pulled tight nor begun twice as thick, wherever the cells of the start mesh
+/// lie.
+TEST(SmoothSurface, ThreadsKeepTheirVolume) {
+  for (const StartMesh start : {StartMesh::kCoarse, StartMesh::kDense}) {
+    for (const int width : {1, 2}) {
+      SCOPED_TRACE(width);
+      const Result r = run(body(36, 2,
+                                [&](const Vec3& p) {
+                                  const auto is_on = [&](double x) {
+                                    return static_cast<int>(x + 2.0) % 7 < width;
+                                  };
+                                  return is_on(p[0]) && is_on(p[1]) ? 1U : 0U;
+                                }),
+                           {.start = start});
+      EXPECT_LT(r.volume_error(), width == 1 ? 0.35 : 0.15);
+    }
+  }
+}
+
+/// Faces between voxels of a label and of others.
+std::uint64_t faces_of(const SmallVolume& volume, Label label) {
+  const Box3 all{{0, 0, 0}, volume.shape};
+  const auto is_inside = [&](Index3 v) {
+    return volume.labels[static_cast<std::size_t>(all.offset(v))] == label;
+  };
+  std::uint64_t faces = 0;
+  for_each_index(all, [&](Index3 v) {
+    for (const Index3 step : {Index3{1, 0, 0}, Index3{0, 1, 0}, Index3{0, 0, 1}}) {
+      faces += all.contains(v + step) && is_inside(v) != is_inside(v + step) ? 1U : 0U;
+    }
+  });
+  return faces;
+}
+
+/// Threads of one voxel, each of a label of its own, so near to each other that labels touch in a
+/// mesh of cells of two voxels.
+TEST(SmoothSurface, Promise8HoldsBetweenThreads) {
+  std::mt19937 random(339);
+  for (int i = 0; i < 18; ++i) {
+    const std::int64_t apart = 3 + i % 2, from = 1 + i % 3;
+    const Index3 shape{12 + audit::test::below(random, 6), 12 + audit::test::below(random, 6),
+                       12 + audit::test::below(random, 6)};
+    SmallVolume volume{shape, 1, {}};
+    for_each_index(shape, [&](Index3 v) {
+      const bool is_on = v.x % apart == from % apart && v.y % apart == from % apart;
+      volume.labels.push_back(is_on ? 1 + static_cast<Label>(v.x / apart + 8 * (v.y / apart)) : 0);
+    });
+    volume.label_count = 1 + *std::max_element(volume.labels.begin(), volume.labels.end());
+    MeshSettings settings;
+    if (i % 6 == 0) settings.topology = KeptTopology::kInterfaces;
+    if (i % 6 == 3) settings.start = StartMesh::kDense;
+    const Result r = run(volume, settings);
+    audit::VolumeRow row =
+        audit::volume_row(0, r.report.label_voxels[0], r.report.label_volumes6[0]);
+    row.faces_a_voxel = static_cast<double>(faces_of(volume, 0)) / static_cast<double>(row.voxels);
+    EXPECT_LT(std::abs(row.error), audit::volume_bound(row, 0.05)) << i;
   }
 }
 

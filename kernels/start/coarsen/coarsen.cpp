@@ -17,6 +17,9 @@ namespace {
 
 constexpr std::int64_t kReachPerColour = 2;
 
+/// A label with fewer voxels in a cube is a thread there, which does not take the cube.
+constexpr std::ptrdiff_t kLeastVoxels = 3;
+
 /// The lower voxels of the pairs along x in a cube.
 constexpr std::array<Index3, 4> kPairs{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}}};
 
@@ -89,7 +92,7 @@ class Coarsener {
     });
   }
 
-  /// Labels of the cube, the most frequent first, then by label.
+  /// Labels that may take the cube, the most frequent first, then by label.
   static std::vector<Label> candidates(std::array<Label, 8> labels) {
     std::sort(labels.begin(), labels.end());
     std::vector<std::pair<std::ptrdiff_t, Label>> counted;
@@ -100,7 +103,9 @@ class Coarsener {
     }
     std::sort(counted.begin(), counted.end());
     std::vector<Label> out;
-    for (const auto& [count, label] : counted) out.push_back(label);
+    for (const auto& [count, label] : counted) {
+      if (-count >= kLeastVoxels) out.push_back(label);
+    }
     return out;
   }
 

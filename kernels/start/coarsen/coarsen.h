@@ -26,14 +26,17 @@ struct CoarsenStats {
 /// octree of the start mesh can begin one level coarser at interfaces, with a quarter of the
 /// vertices.  Shape is not lost, because quadrics and samples still come from the input's labels.
 ///
-/// A cube takes the label that most of its voxels have, or the next, when every voxel gets there by
-/// changes of label that keep topology (simple_voxel.h), and when afterwards
+/// A cube takes the label that most of its voxels have, or the next that three of them have, when
+/// every voxel gets there by changes of label that keep topology (simple_voxel.h), and when
+/// afterwards
 ///  - each of its voxels lies within D of an input voxel of that label (output to input), and
 ///  - each input face between two labels that loses its carrier finds another (input to output,
 ///    carrier_faces.h).
-/// Otherwise it stays as it was, and so does a cube where sizes do not allow cells of twice its
-/// edge: vertices could not go back from there to where the input has the interface, as edges may
-/// not become longer on the way.
+/// A label of two voxels would be a thread that becomes four times as thick and touches labels that
+/// it is not near in the input; no face would draw it back from there.
+/// Otherwise the cube stays as it was, and so does a cube where sizes do not allow cells of twice
+/// its edge: vertices could not go back from there to where the input has the interface, as edges
+/// may not become longer on the way.
 ///
 /// Cubes are visited in eight colours, by the parity of their position; cubes of one colour do not
 /// see each other, so the result is a local function: it depends on labels nearer than
