@@ -258,6 +258,9 @@ struct Options {
   std::string sample{};
   Certify certify = Certify::kAuto;
   bool report = true;  ///< false: quality and shape are not measured, and reports are empty
+  /// After drop_specks: voxels of these labels are filled where others hang together by an edge or
+  /// a corner alone.
+  std::vector<std::uint64_t> weld{};
 };
 
 struct Progress {

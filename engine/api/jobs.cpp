@@ -75,6 +75,7 @@ io::InputSteps input_steps(const mwmesh::Options& options) {
   if (options.drop_specks > 0) {
     steps.specks = {.min = options.drop_specks, .diagonal = options.specks_joined_by_corners};
   }
+  steps.weld = options.weld;
   return steps;
 }
 

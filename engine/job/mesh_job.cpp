@@ -223,6 +223,11 @@ void check_scored(const MeshJob& job) {
         "--merge: merged labels have no probabilities or distances; merge these (the sum of "
         "probabilities, the least distance) before they are meshed");
   }
+  if (!job.steps.weld.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "--weld: voxels that it fills have no probabilities or distances; mesh a volume of "
+                "labels, or without it");
+  }
   if (!job.run.keep.folder.empty()) {
     throw Error(ErrorKind::kUsage,
                 "--keep: what is kept is known by its labels alone, and interfaces depend on "
@@ -290,7 +295,8 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   report::FinishedRun run{.volume = volume.info(),
                           .labels = processes.collect_labels(volume, job.run.threads),
                           .sizes = job.settings.sizes,
-                          .specks = input.specks()};
+                          .specks = input.specks(),
+                          .welds = input.welds()};
   run.labels_seconds = meter.read().wall_seconds;
   run.fingerprint = volume.text();
   if (sizes) run.fingerprint += io::text(", sizes ", sizes->fingerprint());

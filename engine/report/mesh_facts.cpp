@@ -249,4 +249,15 @@ void print_specks(const std::optional<io::SpeckFacts>& specks) {
             << " voxels took the labels around them, in " << specks->rounds << " rounds\n";
 }
 
+io::Json welds_json(const std::optional<io::WeldFacts>& welds) {
+  if (!welds) return nullptr;
+  return {{"voxels", welds->voxels}, {"rounds", welds->rounds}};
+}
+
+void print_welds(const std::optional<io::WeldFacts>& welds) {
+  if (!welds) return;
+  std::cout << "welded      " << welds->voxels << " voxels were filled, in " << welds->rounds
+            << " rounds\n";
+}
+
 }  // namespace mw::report

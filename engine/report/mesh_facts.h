@@ -14,6 +14,7 @@
 #include "io/json/json.h"
 #include "io/labels/despeckled_volume.h"
 #include "io/labels/label_table.h"
+#include "io/labels/welded_volume.h"
 #include "io/mesh/mesh_data.h"
 #include "io/names/label_names.h"
 #include "kernels/audit/distance/distance.h"
@@ -98,5 +99,11 @@ void print_distance(const audit::DistanceReport& distance, const io::LabelTable&
 
 /// One line; nothing when none were to be dropped.
 void print_specks(const std::optional<io::SpeckFacts>& specks);
+
+/// "welds" of a report; null when nothing was to be welded.
+[[nodiscard]] io::Json welds_json(const std::optional<io::WeldFacts>& welds);
+
+/// In a line, if something was to be welded.
+void print_welds(const std::optional<io::WeldFacts>& welds);
 
 }  // namespace mw::report

@@ -14,6 +14,7 @@
 #include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
 #include "io/labels/despeckled_volume.h"
+#include "io/labels/welded_volume.h"
 #include "kernels/audit/audit.h"
 #include "kernels/audit/shape/volumes.h"
 
@@ -38,6 +39,7 @@ struct FinishedRun {
   engine::SizeSettings sizes;  ///< as they were kept to, after scaling
   std::optional<CountFacts> count;
   std::optional<io::SpeckFacts> specks;
+  std::optional<io::WeldFacts> welds;
   std::vector<engine::SampleFacts> samples;
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels

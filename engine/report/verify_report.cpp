@@ -115,6 +115,7 @@ void print_verdict(const Verdict& verdict) {
   const auto& checks = verdict.audit.checks;
   if (!verdict.bounds.told.empty()) std::cout << told_text(verdict.bounds) << "\n";
   print_specks(verdict.specks);
+  print_welds(verdict.welds);
   print_bounds(verdict.bounds);
   for (const audit::Check& check : checks) {
     std::string name = check.name;
@@ -161,6 +162,7 @@ Json verdict_json(const Verdict& verdict) {
   return {{"asked", asked_json(verdict.bounds)},
           {"labels", verdict.table.size()},
           {"specks", specks_json(verdict.specks)},
+          {"welds", welds_json(verdict.welds)},
           {"lattice", {{"layers_xyz", {verdict.layers.x, verdict.layers.y, verdict.layers.z}}}},
           {"passed", verdict.audit.passed()},
           {"checks", checks_json(verdict.audit)},

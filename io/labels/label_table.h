@@ -3,12 +3,18 @@
 // Sparse 64-bit labels to dense ones and back.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "io/volume/label_volume.h"
 #include "kernels/core/label.h"
 
 namespace mw::io {
+
+/// As users write it.
+[[nodiscard]] inline std::string label_text(RawLabel label, bool is_signed) {
+  return is_signed ? std::to_string(static_cast<std::int64_t>(label)) : std::to_string(label);
+}
 
 /// The labels of one volume in ascending order; the dense label is the rank.
 class LabelTable {

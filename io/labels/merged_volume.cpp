@@ -11,10 +11,6 @@
 namespace mw::io {
 namespace {
 
-std::string label_text(RawLabel label, bool is_signed) {
-  return is_signed ? text(static_cast<std::int64_t>(label)) : text(label);
-}
-
 LabelTable table_of(const std::vector<MergeRule>& rules, bool is_signed) {
   std::vector<RawLabel> all;
   for (const MergeRule& rule : rules) all.insert(all.end(), rule.from.begin(), rule.from.end());

@@ -7,6 +7,7 @@
 
 #include "io/labels/despeckled_volume.h"
 #include "io/labels/merged_volume.h"
+#include "io/labels/welded_volume.h"
 
 namespace mw::io {
 
@@ -14,18 +15,20 @@ namespace mw::io {
 struct InputSteps {
   std::vector<MergeRule> merge;     ///< empty: none
   std::optional<SpeckRule> specks;  ///< empty: none
+  std::vector<RawLabel> weld;       ///< labels that are filled (WeldedVolume); empty: none
 };
 
 /// A volume after the steps: the reference for all that is promised of a mesh, and what the
 /// fingerprint of a run is taken of.
 class PreparedInput {
  public:
-  /// opened must outlive it.  limits: of the search for specks.
-  /// ERRORS: those of MergedVolume and DespeckledVolume.
+  /// opened must outlive it.  limits: of the search for specks, and of what is welded.
+  /// ERRORS: those of MergedVolume, DespeckledVolume and WeldedVolume.
   PreparedInput(const LabelVolume& opened, const InputSteps& steps, const SpeckLimits& limits = {})
       : volume_(&opened) {
     if (!steps.merge.empty()) volume_ = &merged_.emplace(*volume_, steps.merge);
     if (steps.specks) volume_ = &despeckled_.emplace(*volume_, *steps.specks, limits);
+    if (!steps.weld.empty()) volume_ = &welded_.emplace(*volume_, steps.weld, limits.memory);
   }
 
   PreparedInput(const PreparedInput&) = delete;
@@ -36,15 +39,20 @@ class PreparedInput {
   [[nodiscard]] std::optional<SpeckFacts> specks() const {
     return despeckled_ ? std::optional(despeckled_->facts()) : std::nullopt;
   }
+  /// Empty when nothing was to be welded.
+  [[nodiscard]] std::optional<WeldFacts> welds() const {
+    return welded_ ? std::optional(welded_->facts()) : std::nullopt;
+  }
   /// Bytes that the steps hold, as long as it lives.
   [[nodiscard]] std::uint64_t held_bytes() const {
-    return despeckled_ ? despeckled_->held_bytes() : 0;
+    return (despeckled_ ? despeckled_->held_bytes() : 0) + (welded_ ? welded_->held_bytes() : 0);
   }
 
  private:
   const LabelVolume* volume_;  ///< the last of what follows, or the one that was opened
   std::optional<MergedVolume> merged_;
   std::optional<DespeckledVolume> despeckled_;
+  std::optional<WeldedVolume> welded_;
 };
 
 }  // namespace mw::io

@@ -173,7 +173,7 @@ class Case:
         flags = self.settings.flags
         if (self.judge is None or not meshes or self.volume.turned
                 or {"element", "split", "cohesive", "open-hinges"} & set(flags)
-                or self.settings.chosen or "drop-specks" in self.settings.prepare):
+                or self.settings.chosen or self.settings.changes_voxels()):
             return
         volume = self.prepared(self.settings)
         if self.settings.is_smooth():
@@ -275,7 +275,7 @@ class Case:
         code, text = self.end(process)
         path.write_bytes(before)
         self.remove_work()
-        names_labels = self.settings.chosen or self.settings.merged or "size" in self.settings.flags
+        names_labels = self.settings.names_labels() or "size" in self.settings.flags
         if code not in (0, 3) and not (code == 2 and names_labels):
             raise Failed(f"exit code {code} after labels changed under the run\n{text}")
         if code == 3 and "changed while it was read" not in text:
@@ -303,7 +303,7 @@ class Case:
         """A chain of edits, meshed from what the runs before have kept, some of them killed: the
         files are those of runs that begin afresh."""
         path, flags = self.folder / self.volume.file, self.settings.flags
-        named = self.settings.chosen or self.settings.merged or "size" in flags or "split" in flags
+        named = self.settings.names_labels() or "size" in flags or "split" in flags
         if named or "count" in flags or "periodic" in flags or flags.get("order") == "raster" or path.suffix == ".gz":
             return  # labels that are named may vanish
         before = path.read_bytes()

@@ -28,6 +28,14 @@ class Settings:
     def get(self, name, default):
         return self.flags.get(name, default)
 
+    def changes_voxels(self):
+        """Whether some voxels take other labels than merging gives them."""
+        return bool({"drop-specks", "weld"} & set(self.prepare))
+
+    def names_labels(self):
+        """Whether a run fails where the volume does not have some label."""
+        return bool(self.chosen or self.merged or "weld" in self.prepare)
+
     def is_smooth(self):
         return self.get("surface", "smooth") == "smooth"
 
@@ -59,11 +67,13 @@ def draw_prepare(random, settings, volume, values_of):
         merge(random, settings, values_of(settings))
     if random.random() < 0.10:
         settings.prepare["drop-specks"] = random.choice(["2", "5", "30", "3/26"])
+    elif random.random() < 0.08:
+        settings.prepare["weld"] = str(random.choice(values_of(settings)))
 
 
 def draw_chosen(random, settings, values):
-    """What is written; REQUIRES values of the prepared volume, unless specks are dropped."""
-    if len(values) < 2 or "drop-specks" in settings.prepare:
+    """What is written; REQUIRES values of the prepared volume, unless voxels change labels."""
+    if len(values) < 2 or settings.changes_voxels():
         return
     if random.random() < 0.08:
         some = random.sample(values, random.randint(1, len(values)))
@@ -74,7 +84,7 @@ def draw_chosen(random, settings, values):
 
 def draw_sizes(random, settings, values, spacing):
     """Below 0.8 of the diagonal of a voxel of the lattice a size is refused."""
-    if settings.get("optimizer", "local") == "tetgen" or "drop-specks" in settings.prepare:
+    if settings.get("optimizer", "local") == "tetgen" or settings.changes_voxels():
         return
     if random.random() < 0.08:
         some = random.sample(values, random.randint(1, min(3, len(values))))

@@ -82,6 +82,7 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   if (reads_labels(request)) regions_ = engine::label_regions(input.volume());
   facts_ = facts_of(request, info_, regions_);
   if (input.specks()) facts_["specks"] = specks_json(input.specks());
+  if (input.welds()) facts_["welds"] = welds_json(input.welds());
   if (request.scale) return;
   const auto scales = io::scales_of(request.path, open_options(request));
   if (scales.size() > 1) facts_["scales"] = scales_json(scales);

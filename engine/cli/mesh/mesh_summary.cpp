@@ -173,6 +173,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_background(run, request, tets);
   print_parts(run);
   report::print_specks(run.specks);
+  report::print_welds(run.welds);
   print_lattice(run.engine.lattice);
   print_space(run.volume.space);
   print_count(run);

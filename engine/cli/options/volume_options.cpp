@@ -150,6 +150,13 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .group = kLabelGroup,
                .kind = ValueKind::kIntegerOrText,
                .assign = into(request.steps.specks, parse_specks)});
+  options.add({.name = "weld",
+               .value = "A,B",
+               .help = "fill voxels of A and B where others meet by an edge or corner alone",
+               .group = kLabelGroup,
+               .listed = Listed::kInHelpAll,
+               .has_labels = true,
+               .assign = into(request.steps.weld, parse_labels)});
   options.add({.name = "names",
                .value = "FILE",
                .help = "names and colours: ITK-SNAP, FreeSurfer, Slicer, or CSV id,name",

@@ -180,9 +180,9 @@ std::string facts_table(const std::vector<std::array<std::string, 2>>& rows) {
 }  // namespace
 
 std::string verify_command(const Json& report) {
-  constexpr std::array kNeeded{"spacing", "origin",      "frame",     "shape", "dtype",
-                               "endian",  "dataset",     "scale",     "crop",  "merge",
-                               "labels",  "drop_specks", "background"};
+  constexpr std::array kNeeded{"spacing", "origin",      "frame", "shape",     "dtype",
+                               "endian",  "dataset",     "scale", "crop",      "merge",
+                               "labels",  "drop_specks", "weld",  "background"};
   const Json& settings = report["settings"];
   std::string out = "mwmesh verify " + quoted(flag_text(settings["input"])) + " " +
                     quoted(flag_text(settings["output"]));

@@ -67,18 +67,14 @@ def _size_place(volume, key):
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
              drop_specks=None, workdir=None, resume=False, keep=None, from_kept=False,
              changed=(), sample=None, certify="auto", report=True, parts="all", split=(),
-             cohesive=(), open_hinges=False):
+             cohesive=(), open_hinges=False, weld=None):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:
         size = memory if isinstance(memory, str) else str(whole(memory, "memory", 80))
         with naming("memory"):
             options.memory = _core.bytes_of_text(size)
-    if labels is not None:
-        wanted = [labels] if isinstance(labels, str) or np.ndim(labels) == 0 else labels
-        options.labels = [label(volume, value, "labels") for value in wanted]
-        if not options.labels:
-            raise UsageError("labels: the list is empty")
+    options.labels = _labels(volume, labels, "labels")
     if background is not None:
         options.background = label(volume, background, "background")
     options.parts = text(parts, "parts") if isinstance(parts, str) else str(whole(parts, "parts"))
@@ -95,6 +91,7 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     if corners not in (6, 26):
         raise unexpected("drop_specks", "voxels, or (voxels, 26)", drop_specks)
     options.specks_joined_by_corners = corners == 26
+    options.weld = _labels(volume, weld, "weld")
     options.workdir = path_bytes(workdir, "workdir") if workdir is not None else ""
     options.resume = switch(resume, "resume")
     options.keep = path_bytes(keep, "keep") if keep is not None else ""
@@ -107,6 +104,17 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.certify = known[certify]
     options.report = switch(report, "report")
     return options
+
+
+def _labels(volume, value, name):
+    """The labels of a list or of one label; none without a value."""
+    if value is None:
+        return []
+    wanted = [value] if isinstance(value, str) or np.ndim(value) == 0 else value
+    labels = [label(volume, one, name) for one in wanted]
+    if not labels:
+        raise UsageError(f"{name}: the list is empty")
+    return labels
 
 
 def _pairs_text(volume, value, name):
@@ -172,7 +180,7 @@ def _progress(wanted):
 
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
             "resume", "keep", "from_kept", "changed", "sample", "certify", "report", "parts", "split",
-            "cohesive", "open_hinges")
+            "cohesive", "open_hinges", "weld")
 
 
 def _check_known(arguments):
@@ -230,9 +238,11 @@ def mesh(volume, *, progress=None, **arguments):
         and that the mesh is to have (a number or a list; all others become 0; coarser scales tell
         where to read), whether files that headers name may be outside of their folder, and a folder
         that keeps what servers send for later runs ("DIR", or "DIR,SIZE" with the most bytes).
-    merge, drop_specks
+    merge, drop_specks, weld
         {label: label that it becomes}; then components of fewer voxels than drop_specks take the
-        label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.
+        label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.  Then
+        voxels of the label (or list of labels) weld are filled where others hang together by an
+        edge or a corner alone.
     labels, background
         the labels that the mesh is to have, or the one that is left out; all of them are meshed.
     parts, split, cohesive, open_hinges

@@ -341,7 +341,7 @@ class Mesh:
                          file_options(element, values, materials, deck, pairs))
 
     def verify(self, volume, *, threads=0, memory=None, labels=None, background=None, merge=None,
-               drop_specks=None, **place):
+               drop_specks=None, weld=None, **place):
         """Checks the mesh against its volume.  The arguments are those of :func:`mwmesh.mesh`.
 
         >>> import mwmesh
@@ -352,7 +352,7 @@ class Mesh:
         from . import _options, as_volume
         volume = as_volume(volume, **{"names": self.names, **place})
         options = _options(volume, threads=threads, memory=memory, labels=labels,
-                           background=background, merge=merge, drop_specks=drop_specks)
+                           background=background, merge=merge, drop_specks=drop_specks, weld=weld)
         return Verdict(_core.verify(self._core, volume, options))
 
     def _inner(self):

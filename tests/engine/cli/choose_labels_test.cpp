@@ -87,6 +87,33 @@ TEST_F(ChooseLabelsTest, SpecksAreDroppedForEveryCommand) {
   expect_done("mesh v.npy -o o.vtkhdf --config d.toml --window 8");
 }
 
+/// Two blocks that share an edge hang together, until a row of voxels is filled.
+TEST_F(ChooseLabelsTest, WeldedBlocksAreOnePart) {
+  std::string bytes(12 * 12 * 12, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const std::size_t x = i % 12, y = i / 12 % 12, z = i / 144;
+    if (z < 2 || z >= 10) continue;
+    if (x >= 2 && x < 6 && y >= 2 && y < 6) bytes[i] = 1;
+    if (x >= 6 && x < 10 && y >= 6 && y < 10) bytes[i] = 2;
+  }
+  write("w.raw", bytes);
+  const std::string in = " w.raw --shape 12,12,12 --dtype u8 ",
+                    alone = " --background 0 --report r.json";
+  expect_done("mesh" + in + "-o hangs.vtu" + alone);
+  EXPECT_EQ(json::parse(read("r.json"))["parts"]["found"], 2);
+  EXPECT_TRUE(json::parse(read("r.json"))["welds"].is_null());
+  expect_done("mesh" + in + "-o m.vtu --weld 0" + alone);
+  const json report = json::parse(read("r.json"));
+  EXPECT_EQ(report["parts"]["found"], 1);
+  EXPECT_EQ(report["parts"]["hinge_edges"], 0);
+  EXPECT_EQ(report["welds"], (json{{"rounds", 1}, {"voxels", 8}}));
+  const std::string judged = " --max-volume-error none";
+  expect_done("verify" + in + "m.vtu --weld 0" + judged);
+  EXPECT_EQ(run("verify" + in + "m.vtu" + judged).code, 5);
+  EXPECT_EQ(info(in + "--weld 0")["welds"]["voxels"], 8);
+  expect_failure(2, "info" + in + "--weld 9", "the volume has no label 9");
+}
+
 TEST_F(ChooseLabelsTest, VerifyTakesMeshesOfSomeLabels) {
   make_volume();
   expect_done("mesh v.npy -o some.vtkhdf --labels 2,3,7 --window 8");

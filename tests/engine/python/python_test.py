@@ -755,6 +755,7 @@ class Errors(InFolder):
             "background": (2**70, -1, 0.5, "Air", True, [1]),
             "merge": ({2**64: 1}, {1: 2**64}, {1: -1}, {"a": 1}, {1: 1.5}),
             "drop_specks": (-1, 2.5, 10**30, (5, 7), "x", True),
+            "weld": ([2**64], [-1], [1.5], [True], [], "x", 77),
             "sample": (3, "x", {"hu": 3}, {"2": "a"}, {"hu": "a\0b"}),
             "workdir": (3, "a\0b"), "resume": ("yes", 2), "certify": (True, "maybe", []),
             "report": ("no",), "parts": (0, -1, "most", 1.5, None, True), "open_hinges": ("yes", 2),

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Rounds over tiles: find where solid voxels meet in an edge or a corner only, fill, look again.
+#include "io/labels/welded_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "kernels/core/assert.h"
+#include "kernels/core/error.h"
+#include "kernels/core/index.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::int64_t kTileEdge = 128;
+
+/// Around a voxel lies all that decides whether it is filled, and all that it can make a place of.
+constexpr std::int64_t kReach = 2;
+
+constexpr std::array<Index3, 3> kSteps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+using TileKey = std::tuple<std::int64_t, std::int64_t, std::int64_t>;  // z, y, x
+
+void add_tiles_near(const Box3& box, Index3 shape, std::set<TileKey>& tiles) {
+  const Box3 near = intersection(box, {{0, 0, 0}, shape});
+  const auto tile = [](std::int64_t i) { return i / kTileEdge; };
+  for_each_index(Box3{{tile(near.lo.x), tile(near.lo.y), tile(near.lo.z)},
+                      {tile(near.hi.x - 1) + 1, tile(near.hi.y - 1) + 1, tile(near.hi.z - 1) + 1}},
+                 [&](Index3 t) {
+                   tiles.insert({t.z, t.y, t.x});
+                 });
+}
+
+Box3 voxels_of(const TileKey& key, Index3 shape) {
+  const auto& [z, y, x] = key;
+  const Index3 lo{x * kTileEdge, y * kTileEdge, z * kTileEdge};
+  return intersection({lo, lo + Index3{kTileEdge, kTileEdge, kTileEdge}}, {{0, 0, 0}, shape});
+}
+
+Index3 voxel_at(std::int64_t offset, Index3 shape) {
+  const std::int64_t row = offset / shape.x;
+  return {offset % shape.x, row % shape.y, row / shape.y};
+}
+
+}  // namespace
+
+/// A tile of the volume and what lies around it, and what is to be filled there.
+class WeldedVolume::Tile {
+ public:
+  Tile(const WeldedVolume& volume, const Box3& tile)
+      : volume_(volume),
+        all_{{0, 0, 0}, volume.info().shape},
+        tile_(tile),
+        box_(intersection({tile.lo - Index3{1, 1, 1}, tile.hi + Index3{2, 2, 2}}, all_)),
+        labels_(static_cast<std::size_t>(box_.voxels())),
+        solid_(labels_.size()) {
+    volume.read(box_, labels_);
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      solid_[i] = volume.givers_.contains(labels_[i]) ? 0 : 1;
+    }
+  }
+
+  /// Marks the givers that are in the tile, by their rank.
+  void see_givers(std::vector<char>& seen) const {
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      if (solid_[i] == 0) seen[volume_.givers_.dense(labels_[i])] = 1;
+    }
+  }
+
+  /// What the places whose first voxel is in the tile fill.
+  void find(std::vector<Filled>& out) const {
+    for_each_index(tile_, [&](Index3 v) {
+      at_edge(v, kSteps[0], kSteps[1], out);
+      at_edge(v, kSteps[0], kSteps[2], out);
+      at_edge(v, kSteps[1], kSteps[2], out);
+      at_corner(v, out);
+    });
+  }
+
+ private:
+  [[nodiscard]] std::size_t row(Index3 v) const { return static_cast<std::size_t>(box_.offset(v)); }
+  [[nodiscard]] bool is_solid(Index3 v) const { return box_.contains(v) && solid_[row(v)] != 0; }
+
+  /// The four voxels around the edge between v and v + a + b.
+  void at_edge(Index3 v, Index3 a, Index3 b, std::vector<Filled>& out) const {
+    if (!all_.contains(v + a + b)) return;
+    const bool first = is_solid(v), other = is_solid(v + a);
+    if (first == other || is_solid(v + a + b) != first || is_solid(v + b) != other) return;
+    const Index3 one = first ? v + a : v, two = first ? v + b : v + a + b;
+    fill(solid_neighbours(two) > solid_neighbours(one) ? two : one, out);
+  }
+
+  /// The eight voxels around the corner between v and v + (1, 1, 1): a way of two from one solid
+  /// voxel to the other, along z and along y.
+  void at_corner(Index3 v, std::vector<Filled>& out) const {
+    if (!all_.contains(v + Index3{1, 1, 1})) return;
+    int count = 0;
+    std::array<Index3, 2> solid{};
+    for (int i = 0; i < 8 && count <= 2; ++i) {
+      const Index3 w = v + Index3{i & 1, i >> 1 & 1, i >> 2 & 1};
+      if (!is_solid(w)) continue;
+      if (count < 2) solid[static_cast<std::size_t>(count)] = w;
+      ++count;
+    }
+    const Index3 a = solid[0], b = solid[1];
+    if (count != 2 || a.x == b.x || a.y == b.y || a.z == b.z) return;
+    fill({a.x, a.y, b.z}, out);
+    fill({a.x, b.y, b.z}, out);
+  }
+
+  [[nodiscard]] int solid_neighbours(Index3 v) const {
+    int count = 0;
+    for (const Index3 step : kSteps) {
+      count += (is_solid(v - step) ? 1 : 0) + (is_solid(v + step) ? 1 : 0);
+    }
+    return count;
+  }
+
+  /// REQUIRES: a neighbour of v across a face is solid.
+  void fill(Index3 v, std::vector<Filled>& out) const {
+    std::array<RawLabel, 6> around{};
+    std::size_t count = 0;
+    for (const Index3 step : kSteps) {
+      for (const Index3 w : {v - step, v + step}) {
+        if (is_solid(w)) around[count++] = labels_[row(w)];
+      }
+    }
+    out.push_back({all_.offset(v), most_frequent(std::span<const RawLabel>(around).first(count))});
+  }
+
+  [[nodiscard]] RawLabel most_frequent(std::span<const RawLabel> labels) const {
+    const auto rank = [&](RawLabel label) {
+      const std::ptrdiff_t rare = -std::count(labels.begin(), labels.end(), label);
+      // Signed labels in their order.
+      constexpr RawLabel kSign = RawLabel{1} << 63U;
+      return std::pair(rare, volume_.givers_.is_signed() ? label ^ kSign : label);
+    };
+    return *std::min_element(labels.begin(), labels.end(),
+                             [&](RawLabel a, RawLabel b) { return rank(a) < rank(b); });
+  }
+
+  const WeldedVolume& volume_;
+  Box3 all_;
+  Box3 tile_;
+  Box3 box_;
+  std::vector<RawLabel> labels_;
+  std::vector<char> solid_;
+};
+
+WeldedVolume::WeldedVolume(const LabelVolume& volume, const std::vector<RawLabel>& givers,
+                           std::uint64_t memory)
+    : VolumeView(volume), givers_(givers, has_signed_labels(volume.info())) {
+  const Index3 shape = info().shape;
+  std::set<TileKey> tiles;
+  add_tiles_near({{0, 0, 0}, shape}, shape, tiles);
+  std::vector<char> seen(givers_.size());
+  for (bool is_first = true; !tiles.empty(); is_first = false) {
+    std::vector<Filled> found;
+    for (const TileKey& key : tiles) {
+      const Tile tile(*this, voxels_of(key, shape));
+      if (is_first) tile.see_givers(seen);
+      tile.find(found);
+    }
+    if (is_first) check_givers(seen);
+    tiles.clear();
+    const Index3 reach{kReach, kReach, kReach};
+    for (const Index3 v : take(std::move(found), memory)) {
+      add_tiles_near({v - reach, v + reach + Index3{1, 1, 1}}, shape, tiles);
+    }
+  }
+}
+
+void WeldedVolume::check_givers(const std::vector<char>& seen) const {
+  const auto missing = std::find(seen.begin(), seen.end(), 0);
+  if (missing == seen.end()) return;
+  const RawLabel label = givers_.raw(static_cast<Label>(missing - seen.begin()));
+  throw Error(ErrorKind::kUsage, "--weld: the volume has no label " +
+                                     label_text(label, givers_.is_signed()) +
+                                     "; mwmesh info lists its labels");
+}
+
+std::vector<Index3> WeldedVolume::take(std::vector<Filled> found, std::uint64_t memory) {
+  const auto order = [](const Filled& a, const Filled& b) { return a.at < b.at; };
+  const auto same = [](const Filled& a, const Filled& b) { return a.at == b.at; };
+  std::sort(found.begin(), found.end(), order);
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
+  const std::uint64_t bytes = (filled_.size() + found.size()) * sizeof(Filled);
+  if (bytes > memory) {
+    throw Error(ErrorKind::kResource,
+                "--weld: " + std::to_string(filled_.size() + found.size()) +
+                    " voxels and more would be filled, which takes more than " +
+                    std::to_string(memory >> 20U) +
+                    " MiB, a quarter of --memory: raise it, or drop specks first (--drop-specks)");
+  }
+  std::vector<Index3> out;
+  for (const Filled& f : found) out.push_back(voxel_at(f.at, info().shape));
+  if (!found.empty()) ++facts_.rounds;
+  facts_.voxels += found.size();
+  const auto middle = static_cast<std::ptrdiff_t>(filled_.size());
+  filled_.insert(filled_.end(), found.begin(), found.end());
+  std::inplace_merge(filled_.begin(), filled_.begin() + middle, filled_.end(), order);
+  return out;
+}
+
+void WeldedVolume::read(const Box3& box, std::span<RawLabel> out) const {
+  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+  below().read(box, out);
+  if (filled_.empty() || out.empty()) return;
+  const Box3 all{{0, 0, 0}, info().shape};
+  const std::int64_t width = box.shape().x;
+  const auto before = [](const Filled& f, std::int64_t at) { return f.at < at; };
+  for (Index3 first = box.lo; first.z < box.hi.z; ++first.z) {
+    for (first.y = box.lo.y; first.y < box.hi.y; ++first.y) {
+      const std::int64_t begin = all.offset(first);
+      const auto to = static_cast<std::size_t>(box.offset(first));
+      auto f = std::lower_bound(filled_.begin(), filled_.end(), begin, before);
+      for (; f != filled_.end() && f->at < begin + width; ++f) {
+        out[to + static_cast<std::size_t>(f->at - begin)] = f->label;
+      }
+    }
+  }
+}
+
+}  // namespace mw::io

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A volume in which labels that hang together by an edge or a corner are joined by faces (--weld).
+#pragma once
+
+#include <vector>
+
+#include "io/labels/label_table.h"
+#include "io/volume/label_volume.h"
+
+namespace mw::io {
+
+/// What was changed.
+struct WeldFacts {
+  std::uint64_t voxels = 0;
+  int rounds = 0;
+};
+
+/// Voxels of some labels, the givers, are filled with labels of others, the solid: until no two
+/// solid voxels share an edge of which the other two voxels are givers' (one of these is filled),
+/// or a corner of which the other six are (two are filled).
+///
+/// In a round all such places are found in the volume as it was when the round began.  At an edge
+/// that voxel is filled which has more solid neighbours across faces, the first of two with as
+/// many.  It takes the label that most of these have, the smaller label of two.  Each round makes
+/// the solid larger, so that there is a last one.
+///
+/// The volume is read once in tiles, afterwards only where something changed; what is held are the
+/// voxels that changed.
+/// Thread safety: as the volume below, which must outlive it.
+class WeldedVolume : public VolumeView {
+ public:
+  /// REQUIRES: givers are not empty.
+  /// ERRORS: mw::Error(kUsage) for a giver that the volume does not have; mw::Error(kResource) when
+  /// the voxels that change take more than `memory` bytes; what the volume throws.
+  WeldedVolume(const LabelVolume& volume, const std::vector<RawLabel>& givers,
+               std::uint64_t memory);
+
+  [[nodiscard]] const WeldFacts& facts() const { return facts_; }
+  void read(const Box3& box, std::span<RawLabel> out) const override;
+  /// Bytes, as long as it lives.
+  [[nodiscard]] std::uint64_t held_bytes() const { return filled_.capacity() * sizeof(Filled); }
+
+ private:
+  struct Filled {
+    std::int64_t at = 0;  ///< offset of the voxel, x fastest
+    RawLabel label = 0;
+  };
+  class Tile;
+
+  void check_givers(const std::vector<char>& seen) const;
+  /// Adds what one round fills, and returns those voxels.
+  std::vector<Index3> take(std::vector<Filled> found, std::uint64_t memory);
+
+  LabelTable givers_;
+  std::vector<Filled> filled_;  ///< ascending
+  WeldFacts facts_;
+};
+
+}  // namespace mw::io
