@@ -15,8 +15,8 @@ target_link_options(mwmesh_shared PRIVATE -Wl,--version-script=${exports} -Wl,-z
 set_target_properties(mwmesh_shared PROPERTIES VERSION ${PROJECT_VERSION}
   SOVERSION ${mw_soversion} EXPORT_NAME mwmesh LINK_DEPENDS ${exports})
 
-# One archive of all our objects.  What they need, by its names in pkg-config, and libbz2, which has
-# none there; Debian's hdf5 is named after what it was built for.
+# One archive of all our objects.  What they need, by its names in pkg-config, and libbz2 and DCMTK,
+# which have none there; Debian's hdf5 is named after what it was built for.
 set(mw_needed_modules blosc draco libcrypto libcurl liblz4 liblzma libpng libtiff-4 libzstd pugixml tbb zlib)
 pkg_check_modules(mw_serial_hdf5 QUIET hdf5-serial)
 if(mw_serial_hdf5_FOUND)
@@ -29,7 +29,7 @@ add_library(mwmesh_static STATIC)
 foreach(part ${mw_parts})
   target_sources(mwmesh_static PRIVATE $<TARGET_OBJECTS:${part}>)
 endforeach()
-target_link_libraries(mwmesh_static PRIVATE PkgConfig::mwmesh_needs BZip2::BZip2 Threads::Threads)
+target_link_libraries(mwmesh_static PRIVATE PkgConfig::mwmesh_needs ${mw_dcmtk} BZip2::BZip2 Threads::Threads)
 set_target_properties(mwmesh_static PROPERTIES LINKER_LANGUAGE CXX)
 
 foreach(library mwmesh_shared mwmesh_static)

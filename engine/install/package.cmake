@@ -72,7 +72,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS mwmesh-codt)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library_name} (= ${PROJECT_VERSION})")
 # What the static library is linked with.
-string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libblosc-dev libbz2-dev libcurl4-openssl-dev libdraco-dev
+string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libblosc-dev libbz2-dev libcurl4-openssl-dev libdcmtk-dev libdraco-dev
   libhdf5-dev liblz4-dev liblzma-dev libpng-dev libpugixml-dev libssl-dev
   libtbb-dev libtiff-dev libzstd-dev zlib1g-dev pkgconf)
 if(TARGET mwmesh-codt)

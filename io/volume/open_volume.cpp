@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <string_view>
 
@@ -18,6 +17,7 @@
 #include "io/store/place.h"
 #include "io/volume/checks.h"
 #include "io/volume/cropped_volume.h"
+#include "io/volume/dicom/open_dicom.h"
 #include "io/volume/hdf5/open_hdf5.h"
 #include "io/volume/masks/open_masks.h"
 #include "io/volume/metaimage/open_metaimage.h"
@@ -85,6 +85,11 @@ constexpr std::array kFormats{
                  .is_file = has_nifti_magic,
                  .open_file = open_nifti,
                  .has_masks = true},
+    VolumeFormat{.name = "DICOM segmentation",
+                 .endings = ".dcm .DCM",
+                 .is_file = has_dicom_magic,
+                 .open_file = open_dicom,
+                 .has_masks = true},
     VolumeFormat{.name = "neuroglancer precomputed",
                  .is_store = is_precomputed,
                  .open_store = open_precomputed,
@@ -135,26 +140,12 @@ bool has_ending(const VolumeFormat& format, const std::string& ending) {
   return text(format.endings, " ").find(ending + " ") != std::string::npos;
 }
 
-bool is_dicom(std::span<const std::byte> head, const std::filesystem::path& path) {
-  constexpr std::size_t kAt = 128;
-  constexpr std::string_view kMagic = "DICM";
-  return (head.size() >= kAt + kMagic.size() &&
-          std::memcmp(head.data() + kAt, kMagic.data(), kMagic.size()) == 0) ||
-         path.extension() == ".dcm" || path.extension() == ".DCM";
-}
-
-[[noreturn]] void fail_dicom(const std::filesystem::path& path) {
-  fail_input(path.string(), "format", "DICOM is not read here",
-             "convert it with dcm2niix, or export a NIfTI or NRRD file from 3D Slicer");
-}
-
 /// By content, else by extension, so that the right reader explains what is wrong.
 const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::path path) {
   for (const VolumeFormat& format : kFormats) {
     if (format.is_file != nullptr && format.is_file(head)) return format;
   }
   const std::string file = path.string();
-  if (is_dicom(head, path)) fail_dicom(path);
   if (path.extension() == ".gz") path = path.stem();
   for (const VolumeFormat& format : kFormats) {
     if (has_ending(format, path.extension().string())) return format;
@@ -165,7 +156,7 @@ const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::
                   volume_folders()));
 }
 
-/// Whether one of the first files of the folder is.
+/// Whether one of the first files of the folder is DICOM.
 bool holds_dicom(const std::filesystem::path& folder) {
   int left = 8;
   std::error_code failed;
@@ -173,7 +164,7 @@ bool holds_dicom(const std::filesystem::path& folder) {
        at.increment(failed)) {
     std::error_code ignored;
     if (!at->is_regular_file(ignored)) continue;
-    if (is_dicom(read_prefix(FileSource(at->path()), kNiftiHeaderBytes), at->path())) return true;
+    if (has_dicom_magic(read_prefix(FileSource(at->path()), kNiftiHeaderBytes))) return true;
     if (--left == 0) return false;
   }
   return false;
@@ -184,7 +175,10 @@ const VolumeFormat& format_of_folder(const std::filesystem::path& folder) {
     if (format.is_store != nullptr && format.is_store(folder)) return format;
     if (format.is_folder != nullptr && format.is_folder(folder)) return format;
   }
-  if (holds_dicom(folder)) fail_dicom(folder);
+  if (holds_dicom(folder)) {
+    fail_input(folder.string(), "format", "a folder of DICOM files is not read",
+               "give the file of a DICOM segmentation; images have no labels");
+  }
   fail_input(folder.string(), "format", "the folder is no volume that is known here",
              "give a file in it");
 }

@@ -79,9 +79,9 @@ bool io_may(const Include& include) {
   const std::string& name = include.name;
   if (include.quoted) return is_below(name, {"io/", "kernels/core/"});
   return is_standard(name) || is_posix(name) ||
-         is_below(name,
-                  {"blosc.h", "bzlib.h", "curl/", "draco/", "hdf5.h", "lz4.h", "lzma.h", "openssl/",
-                   "png.h", "pugixml.hpp", "tiffio.h", "zlib.h", "zstd.h", "zstd_errors.h"});
+         is_below(name, {"blosc.h", "bzlib.h", "curl/", "dcmtk/", "draco/", "hdf5.h", "lz4.h",
+                         "lzma.h", "openssl/", "png.h", "pugixml.hpp", "tiffio.h", "zlib.h",
+                         "zstd.h", "zstd_errors.h"});
 }
 
 /// The processes of one run; only engine/mpi/, whose program starts them, includes it.

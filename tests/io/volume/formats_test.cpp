@@ -374,9 +374,9 @@ TEST(VolumeErrors, Nrrd) {
 TEST(VolumeErrors, DicomSaysWhatToDo) {
   const TempDir dir;
   const std::string content = std::string(128, '\0') + "DICM" + std::string(500, 'x');
-  expect_refused(dir, "slice1", content, {"DICOM", "dcm2niix", "3D Slicer"});
-  expect_refused(dir, "slice.dcm", "anything", {"DICOM", "dcm2niix"});
-  expect_error(ErrorKind::kInput, {dir.path().string(), "DICOM", "dcm2niix"},
+  expect_refused(dir, "slice1", content, {"DICOM structure"});
+  expect_refused(dir, "slice.dcm", "anything", {"DICOM structure", "complete"});
+  expect_error(ErrorKind::kInput, {dir.path().string(), "DICOM", "segmentation"},
                [&] { static_cast<void>(open_volume(dir.path())); });
 }
 

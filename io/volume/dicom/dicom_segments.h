@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a DICOM segmentation says: its segments, its frames, and where these lie.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/source/byte_source.h"
+#include "io/volume/volume_space.h"
+
+namespace mw::io {
+
+/// What all frames have in common.  Lengths are in mm, places in DICOM's patient coordinates (LPS).
+struct DicomGrid {
+  std::int32_t rows = 0;
+  std::int32_t columns = 0;
+  std::int32_t bits = 1;       ///< of a voxel: 1, or 8
+  std::int32_t threshold = 1;  ///< the least value of a voxel that belongs to a segment
+  Vector3 along_row{1, 0, 0};  ///< direction from a voxel to the next column
+  Vector3 along_column{0, 1, 0};
+  double column_spacing = 0;  ///< between columns
+  double row_spacing = 0;
+  double slice_spacing = 0;    ///< 0: the file does not say
+  double slice_thickness = 0;  ///< 0: the file does not say
+};
+
+struct DicomSegment {
+  std::int32_t number = 0;
+  std::string name;
+};
+
+/// A slice of one segment.
+struct DicomFrame {
+  std::int32_t segment = 0;
+  Vector3 first{};  ///< the centre of its first voxel
+};
+
+/// Frames follow each other in `pixels` without gaps, rows first, as DICOM packs them: where voxels
+/// have one bit, the lowest bit of a byte comes first.
+struct DicomSegments {
+  DicomGrid grid;
+  std::vector<DicomSegment> segments;
+  std::vector<DicomFrame> frames;
+  std::shared_ptr<const UnlinkedFile> pixels;
+};
+
+/// Reads a file of the class Segmentation Storage, in a process of its own (io/file/wall/apart.h).
+/// Memory: the headers of the frames, some kilobytes each, in that process only; the pixels go to
+/// $TMPDIR.
+/// ENSURES: there are frames, each of a segment that is there, and pixels of all of them; numbers
+/// are finite.
+/// ERRORS: mw::Error(kInput) naming file and attribute for damage, for images and for fields of
+/// probabilities that cannot be masks; kResource when the disk is full or there can be no process.
+[[nodiscard]] DicomSegments read_dicom_segments(const ByteSource& source);
+
+}  // namespace mw::io

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// From frames, each of one segment at one place, to masks on a grid.
+#include "io/volume/dicom/open_dicom.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string_view>
+
+#include "io/file/errors.h"
+#include "io/volume/dicom/dicom_segments.h"
+#include "io/volume/file_space.h"
+#include "io/volume/masks/mask_merger.h"
+#include "kernels/core/assert.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::int64_t kMostSlices = 1 << 20;
+
+/// How far from the grid a frame may lie, in steps: coordinates are decimal texts of 16 characters.
+constexpr double kSlack = 0.05;
+
+/// Slices at most as far from each other, in mm, lie at one place.
+constexpr double kSameSlice = 1e-3;
+
+double dot(const Vector3& a, const Vector3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// first + length * way
+Vector3 beyond(const Vector3& first, double length, const Vector3& way) {
+  return {first[0] + length * way[0], first[1] + length * way[1], first[2] + length * way[2]};
+}
+
+/// Where frames lie along the normal of their plane.
+class SliceGrid {
+ public:
+  /// ERRORS: mw::Error(kInput) unless they are multiples of a step apart, along the normal.
+  SliceGrid(const DicomSegments& dicom, const std::string& file)
+      : normal_(cross(dicom.grid.along_row, dicom.grid.along_column)) {
+    for (const DicomFrame& f : dicom.frames) places_.push_back(dot(normal_, f.first));
+    std::vector<double> sorted = places_;
+    std::sort(sorted.begin(), sorted.end());
+    lowest_ = sorted.front();
+    step_ = step_of(sorted, dicom.grid);
+    const auto is_off = [&](double steps) { return std::abs(steps - std::round(steps)) > kSlack; };
+    if (!(step_ > 0) || !((sorted.back() - lowest_) / step_ < kMostSlices)) {
+      fail(file, "are too far from each other");
+    }
+    if (std::any_of(places_.begin(), places_.end(),
+                    [&](double p) { return is_off((p - lowest_) / step_); })) {
+      fail(file, "are not multiples of a step apart");
+    }
+    first_ = beyond(dicom.frames[0].first, lowest_ - places_[0], normal_);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const Vector3 expected = beyond(first_, places_[i] - lowest_, normal_);
+      const Vector3 beside = beyond(dicom.frames[i].first, -1, expected);
+      const double least = std::min(dicom.grid.row_spacing, dicom.grid.column_spacing);
+      if (!(dot(beside, beside) <= kSlack * kSlack * least * least)) {
+        fail(file, "do not lie behind each other");
+      }
+    }
+  }
+
+  [[nodiscard]] std::int64_t count() const {
+    return 1 + slice(static_cast<std::size_t>(std::max_element(places_.begin(), places_.end()) -
+                                              places_.begin()));
+  }
+  [[nodiscard]] std::int64_t slice(std::size_t frame) const {
+    return std::llround((places_[frame] - lowest_) / step_);
+  }
+  [[nodiscard]] const Vector3& normal() const { return normal_; }
+  [[nodiscard]] const Vector3& first() const { return first_; }
+  [[nodiscard]] double step() const { return step_; }
+
+ private:
+  [[noreturn]] static void fail(const std::string& file, const char* what) {
+    fail_input(file, "Image Position (Patient)", text("the slices ", what),
+               "export them on one grid of equal steps, for instance with 3D Slicer");
+  }
+
+  /// The spacing or the thickness that the file has, if the slices agree, else the least distance
+  /// between two of them, which has the errors of two coordinates.
+  static double step_of(const std::vector<double>& sorted, const DicomGrid& grid) {
+    double least = 0;
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      const double gap = sorted[i] - sorted[i - 1];
+      if (gap > kSameSlice && (least == 0 || gap < least)) least = gap;
+    }
+    for (const double said : {grid.slice_spacing, grid.slice_thickness}) {
+      if (!(said > 0)) continue;
+      if (least == 0) return said;
+      const double steps = std::round(least / said);
+      const bool may_skip = said == grid.slice_spacing;
+      if (steps >= 1 && (steps == 1 || may_skip) && std::abs(least - steps * said) < kSameSlice) {
+        return said;
+      }
+    }
+    return least > 0 ? least : grid.column_spacing;
+  }
+
+  Vector3 normal_;
+  std::vector<double> places_;  ///< of the frames
+  double lowest_ = 0;
+  double step_ = 0;
+  Vector3 first_{};  ///< the centre of the first voxel
+};
+
+/// The voxels of one segment: 1, and 0 elsewhere.
+class SegmentMask : public LabelVolume {
+ public:
+  /// frames: by slice; -1: there is none.
+  SegmentMask(const DicomSegments& dicom, const VolumeInfo& info, std::vector<std::int64_t> frames)
+      : dicom_(dicom), info_(info), frames_(std::move(frames)) {}
+
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+    std::fill(out.begin(), out.end(), 0);
+    const auto width = static_cast<std::size_t>(box.shape().x);
+    for (Index3 v = box.lo; v.z < box.hi.z; ++v.z) {
+      const std::int64_t frame = frames_[static_cast<std::size_t>(v.z)];
+      if (frame < 0) continue;
+      for (v.y = box.lo.y; v.y < box.hi.y; ++v.y) {
+        const std::int64_t first = (frame * info_.shape.y + v.y) * info_.shape.x + v.x;
+        read_row(static_cast<std::uint64_t>(first),
+                 out.subspan(static_cast<std::size_t>(box.offset(v)), width));
+      }
+      v.y = box.lo.y;
+    }
+  }
+
+ private:
+  /// first: voxels of the file before the row.
+  void read_row(std::uint64_t first, std::span<RawLabel> out) const {
+    const auto bits = static_cast<std::uint64_t>(dicom_.grid.bits);
+    const std::uint64_t begin = first * bits / 8, end = ((first + out.size()) * bits + 7) / 8;
+    std::vector<std::byte> bytes(end - begin);
+    dicom_.pixels->read_at(begin, bytes);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::uint64_t bit = (first + i) * bits - 8 * begin;
+      const auto byte = std::to_integer<unsigned>(bytes[bit / 8]);
+      const unsigned value = bits == 1 ? byte >> bit % 8 & 1U : byte;
+      out[i] = value >= static_cast<unsigned>(dicom_.grid.threshold) ? 1 : 0;
+    }
+  }
+
+  const DicomSegments& dicom_;
+  const VolumeInfo& info_;
+  std::vector<std::int64_t> frames_;
+};
+
+/// For each segment the frames by slice.
+using FramesOfSegments = std::map<std::int32_t, std::vector<std::int64_t>>;
+
+FramesOfSegments frames_by_slice(const DicomSegments& dicom, const SliceGrid& slices,
+                                 const std::string& file) {
+  FramesOfSegments out;
+  const std::vector<std::int64_t> none(static_cast<std::size_t>(slices.count()), -1);
+  for (std::size_t i = 0; i < dicom.frames.size(); ++i) {
+    const std::int32_t segment = dicom.frames[i].segment;
+    std::int64_t& frame =
+        out.try_emplace(segment, none).first->second[static_cast<std::size_t>(slices.slice(i))];
+    if (frame >= 0) {
+      fail_input(file, "Image Position (Patient)",
+                 text("frames ", frame + 1, " and ", i + 1, " are both of segment ", segment,
+                      " at one place"),
+                 "export it again with one frame for each slice of a segment");
+    }
+    frame = static_cast<std::int64_t>(i);
+  }
+  return out;
+}
+
+VolumeInfo info_of(const DicomSegments& dicom, const SliceGrid& slices, const std::string& file,
+                   const OpenOptions& options) {
+  const DicomGrid& grid = dicom.grid;
+  const Vector3 none{};
+  FileSpace space;
+  space.steps = {beyond(none, grid.column_spacing, grid.along_row),
+                 beyond(none, grid.row_spacing, grid.along_column),
+                 beyond(none, slices.step(), slices.normal())};
+  space.lengths = Vector3{grid.column_spacing, grid.row_spacing, slices.step()};
+  space.first = slices.first();
+  space.unit = "mm";
+  space.frame = WorldFrame::kLps;
+  space.steps_field = "Pixel Spacing, Image Orientation (Patient)";
+  space.first_field = "Image Position (Patient)";
+  VolumeInfo info{.shape = {grid.columns, grid.rows, slices.count()},
+                  .type = VoxelType::kU8,
+                  .format = "dicom"};
+  info.space = placed(file, space, options);
+  return info;
+}
+
+}  // namespace
+
+bool has_dicom_magic(std::span<const std::byte> head) {
+  constexpr std::size_t kAt = 128;
+  constexpr std::string_view kMagic = "DICM";
+  return head.size() >= kAt + kMagic.size() &&
+         std::memcmp(head.data() + kAt, kMagic.data(), kMagic.size()) == 0;
+}
+
+std::unique_ptr<LabelVolume> open_dicom(std::unique_ptr<ByteSource> source,
+                                        const OpenOptions& options) {
+  const std::string file = source->name();
+  DicomSegments dicom = read_dicom_segments(*source);
+  const SliceGrid slices(dicom, file);
+  const FramesOfSegments frames = frames_by_slice(dicom, slices, file);
+  const VolumeInfo info = info_of(dicom, slices, file, options);
+  std::sort(dicom.segments.begin(), dicom.segments.end(),
+            [](const DicomSegment& a, const DicomSegment& b) { return a.number < b.number; });
+  MaskMerger merger(info, options.overlap, file);
+  const std::vector<std::int64_t> none(static_cast<std::size_t>(slices.count()), -1);
+  for (const DicomSegment& segment : dicom.segments) {
+    const auto found = frames.find(segment.number);
+    const SegmentMask mask(dicom, info, found == frames.end() ? none : found->second);
+    merger.add({.volume = &mask,
+                .value = 1,
+                .file = text(file, ", segment ", segment.number, " '", segment.name, "'"),
+                .name = segment.name,
+                .colour = {}});
+  }
+  return merger.finish();
+}
+
+}  // namespace mw::io

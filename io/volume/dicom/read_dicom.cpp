@@ -1,0 +1,323 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A DICOM segmentation through DCMTK, which sees the file in a child process only.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcfcache.h>
+#include <dcmtk/dcmdata/dcfilefo.h>
+#include <dcmtk/dcmdata/dcpixel.h>
+#include <dcmtk/dcmdata/dcrledrg.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "io/file/errors.h"
+#include "io/file/wall/apart.h"
+#include "io/volume/dicom/dicom_segments.h"
+
+namespace mw::io {
+namespace {
+
+constexpr const char* kCheckDicom = "check that the file is complete, or export it again";
+constexpr std::size_t kPieceBytes = 1 << 20;
+constexpr std::size_t kMostNameBytes = 255;
+/// More would not fit the numbers of segments or the memory of the child.
+constexpr std::int32_t kMostSegments = 65535, kMostFrames = 1 << 22;
+
+/// What the child sends first; then segments, frames and the bytes of the pixels.
+struct SentSizes {
+  DicomGrid grid;
+  std::uint64_t segments = 0;
+  std::uint64_t frames = 0;
+  std::uint64_t pixel_bytes = 0;
+};
+struct SentSegment {
+  std::int32_t number = 0;
+  std::array<char, kMostNameBytes + 1> name{};  ///< ends with 0
+};
+
+std::uint64_t pixel_bytes_of(const DicomGrid& grid, std::uint64_t frames) {
+  const auto voxels =
+      static_cast<std::uint64_t>(grid.rows) * static_cast<std::uint64_t>(grid.columns);
+  return (saturating_product(voxels * static_cast<std::uint64_t>(grid.bits), frames) + 7) / 8;
+}
+
+/// One file in the child.
+class DicomReader {
+ public:
+  DicomReader(const std::string& path, const std::string& name) : name_(name) {
+    DcmRLEDecoderRegistration::registerCodecs();
+    constexpr Uint32 kMostInMemory = 4096;  // pixels stay on the disk
+    check(file_.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, kMostInMemory), "structure");
+    data_ = file_.getDataset();
+    OFString kind;
+    data_->findAndGetOFString(DCM_SOPClassUID, kind);
+    if (kind != UID_SegmentationStorage) {
+      fail_input(name_, "SOP Class UID", "the file is DICOM, but no segmentation",
+                 "images have no labels: export a DICOM segmentation, NIfTI or NRRD file of them, "
+                 "for instance with 3D Slicer");
+    }
+    data_->convertToUTF8();
+    if (data_->findAndGetSequenceItem(DCM_SharedFunctionalGroupsSequence, shared_).bad()) {
+      shared_ = nullptr;
+    }
+  }
+
+  void send(const SendBytes& send) {
+    read_frames();
+    read_grid();
+    read_segments();
+    DcmElement* pixels = nullptr;
+    check(data_->chooseRepresentation(EXS_LittleEndianExplicit, nullptr), "Pixel Data");
+    check(data_->findAndGetElement(DCM_PixelData, pixels), "Pixel Data");
+    const SentSizes sizes{.grid = grid_,
+                          .segments = segments_.size(),
+                          .frames = frames_.size(),
+                          .pixel_bytes = pixel_bytes_of(grid_, frames_.size())};
+    if (pixels->getLength() < sizes.pixel_bytes) {
+      fail_input(
+          name_, "Pixel Data",
+          text("has ", pixels->getLength(), " bytes, and the frames need ", sizes.pixel_bytes),
+          kCheckDicom);
+    }
+    send(std::as_bytes(std::span(&sizes, 1)));
+    send(std::as_bytes(std::span(segments_)));
+    send(std::as_bytes(std::span(frames_)));
+    send_pixels(*pixels, sizes.pixel_bytes, send);
+  }
+
+ private:
+  void check(const OFCondition& done, const char* attribute) const {
+    if (done.good()) return;
+    fail_input(name_, text("DICOM ", attribute), text("cannot be read: ", done.text()),
+               kCheckDicom);
+  }
+  void demand(bool met, const char* attribute, const std::string& otherwise) const {
+    if (!met) fail_input(name_, attribute, otherwise, kCheckDicom);
+  }
+
+  void send_pixels(DcmElement& pixels, std::uint64_t bytes, const SendBytes& send) const {
+    std::vector<std::byte> piece;
+    DcmFileCache cache;
+    for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
+      piece.resize(std::min<std::uint64_t>(kPieceBytes, bytes - at));
+      check(pixels.getPartialValue(piece.data(), static_cast<Uint32>(at),
+                                   static_cast<Uint32>(piece.size()), &cache, EBO_LittleEndian),
+            "Pixel Data");
+      send(piece);
+    }
+  }
+
+  /// Of any kind of number, which all have texts; 0 where there is none.
+  [[nodiscard]] static double number(DcmItem* item, const DcmTagKey& key, unsigned long at = 0) {
+    OFString digits;
+    if (item == nullptr || item->findAndGetOFString(key, digits, at).bad()) return 0;
+    const double value = OFStandard::atof(digits.c_str());
+    return std::isfinite(value) ? value : 0;
+  }
+  [[nodiscard]] std::int32_t whole(const DcmTagKey& key) const {
+    const double value = number(data_, key);
+    return value >= 0 && value <= 1e9 ? static_cast<std::int32_t>(value) : -1;
+  }
+
+  /// A functional group: the frame's own, or the one that all frames share.
+  [[nodiscard]] DcmItem* group(DcmItem* frame, const DcmTagKey& sequence) const {
+    for (DcmItem* from : {frame, shared_}) {
+      DcmItem* found = nullptr;
+      if (from != nullptr && from->findAndGetSequenceItem(sequence, found).good()) return found;
+    }
+    return nullptr;
+  }
+
+  static void add_vector(DcmItem* item, const DcmTagKey& key, unsigned long first, Vector3& out) {
+    for (unsigned k = 0; k < 3; ++k) out[k] = number(item, key, first + k);
+  }
+
+  /// What the frame says about the grid, which must be what all others say.
+  [[nodiscard]] DicomGrid grid_of(DcmItem* frame) const {
+    DicomGrid out;
+    DcmItem* const orientation = group(frame, DCM_PlaneOrientationSequence);
+    add_vector(orientation, DCM_ImageOrientationPatient, 0, out.along_row);
+    add_vector(orientation, DCM_ImageOrientationPatient, 3, out.along_column);
+    DcmItem* const measures = group(frame, DCM_PixelMeasuresSequence);
+    out.row_spacing = number(measures, DCM_PixelSpacing, 0);
+    out.column_spacing = number(measures, DCM_PixelSpacing, 1);
+    out.slice_spacing = number(measures, DCM_SpacingBetweenSlices);
+    out.slice_thickness = number(measures, DCM_SliceThickness);
+    return out;
+  }
+
+  void read_frames() {
+    DcmSequenceOfItems* groups = nullptr;
+    check(data_->findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, groups),
+          "Per-Frame Functional Groups Sequence");
+    const std::int32_t count = whole(DCM_NumberOfFrames);
+    demand(count > 0 && count <= kMostFrames, "Number of Frames", "is no number of frames");
+    DcmObject* next = nullptr;
+    while ((next = groups->nextInContainer(next)) != nullptr) {
+      auto* const frame = dynamic_cast<DcmItem*>(next);
+      if (frame == nullptr) continue;
+      add_frame(frame);
+    }
+    demand(frames_.size() == static_cast<std::size_t>(count),
+           "Per-Frame Functional Groups Sequence",
+           text("has ", frames_.size(), " items for ", count, " frames"));
+  }
+
+  void add_frame(DcmItem* frame) {
+    DicomFrame out;
+    DcmItem* const position = group(frame, DCM_PlanePositionSequence);
+    demand(position != nullptr, "Plane Position Sequence", "a frame has no position");
+    add_vector(position, DCM_ImagePositionPatient, 0, out.first);
+    out.segment = static_cast<std::int32_t>(
+        number(group(frame, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber));
+    const DicomGrid grid = grid_of(frame);
+    demand(grid.along_row != Vector3{} && grid.along_column != Vector3{},
+           "Image Orientation (Patient)", "a frame has none");
+    demand(grid.row_spacing > 0 && grid.column_spacing > 0, "Pixel Spacing", "a frame has none");
+    if (frames_.empty()) grid_ = grid;
+    const bool is_same =
+        grid.along_row == grid_.along_row && grid.along_column == grid_.along_column &&
+        grid.row_spacing == grid_.row_spacing && grid.column_spacing == grid_.column_spacing;
+    demand(is_same, "Plane Orientation Sequence", "frames are turned or spaced differently");
+    frames_.push_back(out);
+  }
+
+  void read_grid() {
+    grid_.rows = whole(DCM_Rows);
+    grid_.columns = whole(DCM_Columns);
+    demand(grid_.rows > 0 && grid_.rows <= 65535 && grid_.columns > 0 && grid_.columns <= 65535,
+           "Rows and Columns", "are no numbers of voxels");
+    grid_.bits = whole(DCM_BitsAllocated);
+    OFString type;
+    data_->findAndGetOFString(DCM_SegmentationType, type);
+    const bool is_binary = type == "BINARY" && grid_.bits == 1;
+    const bool is_fractional = type == "FRACTIONAL" && grid_.bits == 8;
+    if (!is_binary && !is_fractional) {
+      fail_input(name_, "Segmentation Type",
+                 text("'", type.c_str(), "' of ", grid_.bits, " bits is not read"),
+                 "export it as BINARY, or as NIfTI or NRRD");
+    }
+    const std::int32_t most = is_binary ? 1 : whole(DCM_MaximumFractionalValue);
+    demand(most >= 1 && most <= 255, "Maximum Fractional Value", "is not from 1 to 255");
+    grid_.threshold = (most + 1) / 2;
+  }
+
+  void read_segments() {
+    DcmSequenceOfItems* sequence = nullptr;
+    check(data_->findAndGetSequence(DCM_SegmentSequence, sequence), "Segment Sequence");
+    DcmObject* next = nullptr;
+    while ((next = sequence->nextInContainer(next)) != nullptr) {
+      auto* const item = dynamic_cast<DcmItem*>(next);
+      if (item == nullptr) continue;
+      SentSegment out{.number = static_cast<std::int32_t>(number(item, DCM_SegmentNumber))};
+      demand(out.number >= 1 && out.number <= kMostSegments, "Segment Number",
+             text(out.number, " is not from 1 to ", kMostSegments));
+      OFString label;
+      item->findAndGetOFString(DCM_SegmentLabel, label);
+      const std::string_view kept(label.c_str(), std::min(label.size(), kMostNameBytes));
+      std::copy(kept.begin(), kept.end(), out.name.begin());
+      segments_.push_back(out);
+    }
+    for (const DicomFrame& frame : frames_) {
+      const bool is_known = std::any_of(segments_.begin(), segments_.end(),
+                                        [&](const auto& s) { return s.number == frame.segment; });
+      demand(is_known, "Referenced Segment Number",
+             text("a frame is of segment ", frame.segment, ", which is not there"));
+    }
+  }
+
+  const std::string& name_;
+  DcmFileFormat file_;
+  DcmDataset* data_ = nullptr;
+  DcmItem* shared_ = nullptr;
+  DicomGrid grid_;
+  std::vector<SentSegment> segments_;
+  std::vector<DicomFrame> frames_;
+};
+
+/// The bytes in a file that DCMTK can open by a path, however they were packed before.
+FileDescriptor as_file(const ByteSource& source) {
+  UnlinkedFile out(scratch_folder());
+  std::vector<std::byte> piece;
+  const std::uint64_t size = source.size();
+  for (std::uint64_t at = 0; at < size; at += piece.size()) {
+    piece.resize(std::min<std::uint64_t>(kPieceBytes, size - at));
+    source.read_at(at, piece);
+    out.write_at(at, piece);
+  }
+  return out.release();
+}
+
+/// What a child sends, in this process.
+class DicomReceiver {
+ public:
+  explicit DicomReceiver(const std::string& name) : name_(name) {}
+
+  void receive(ApartStream& stream) {
+    SentSizes sizes;
+    if (!stream.read(std::as_writable_bytes(std::span(&sizes, 1)))) return;
+    if (sizes.segments > kMostSegments || sizes.frames > kMostFrames ||
+        sizes.pixel_bytes != pixel_bytes_of(sizes.grid, sizes.frames)) {
+      return;
+    }
+    std::vector<SentSegment> segments(sizes.segments);
+    result_.frames.resize(sizes.frames);
+    if (!stream.read(std::as_writable_bytes(std::span(segments))) ||
+        !stream.read(std::as_writable_bytes(std::span(result_.frames)))) {
+      return;
+    }
+    result_.grid = sizes.grid;
+    for (SentSegment& s : segments) {
+      s.name.back() = '\0';
+      result_.segments.push_back({s.number, s.name.data()});
+    }
+    receive_pixels(stream, sizes.pixel_bytes);
+  }
+
+  /// ERRORS: mw::Error(kInput) unless all has come.
+  [[nodiscard]] DicomSegments result(const std::string& death) && {
+    if (is_complete_ && death.empty()) return std::move(result_);
+    fail_input(name_, "DICOM structure",
+               text("the DCMTK library could not read it: ",
+                    death.empty() ? "its answer is broken" : death),
+               kCheckDicom);
+  }
+
+ private:
+  void receive_pixels(ApartStream& stream, std::uint64_t bytes) {
+    auto pixels = std::make_shared<UnlinkedFile>(scratch_folder());
+    std::vector<std::byte> piece;
+    for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
+      piece.resize(std::min<std::uint64_t>(kPieceBytes, bytes - at));
+      if (!stream.read(piece)) return;
+      pixels->write_at(at, piece);
+    }
+    result_.pixels = std::move(pixels);
+    is_complete_ = true;
+  }
+
+  const std::string& name_;
+  DicomSegments result_;
+  bool is_complete_ = false;
+};
+
+}  // namespace
+
+DicomSegments read_dicom_segments(const ByteSource& source) {
+  constexpr std::uint64_t kBytesASecond = 4 << 20, kSeconds = 10;
+  const FileDescriptor file = as_file(source);
+  DicomReceiver receiver(source.name());
+  const std::string death = stream_apart(
+      {},
+      [&](const SendBytes& send) {
+        allow_cpu_seconds(kSeconds + source.size() / kBytesASecond);
+        DicomReader(text("/proc/self/fd/", file.get()), source.name()).send(send);
+      },
+      [&](ApartStream& stream) { receiver.receive(stream); });
+  return std::move(receiver).result(death);
+}
+
+}  // namespace mw::io
