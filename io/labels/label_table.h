@@ -11,7 +11,7 @@
 
 namespace mw::io {
 
-/// As users write it.
+/// Returns the number as users write it.
 [[nodiscard]] inline std::string label_text(RawLabel label, bool is_signed) {
   return is_signed ? std::to_string(static_cast<std::int64_t>(label)) : std::to_string(label);
 }

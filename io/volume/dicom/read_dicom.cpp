@@ -110,7 +110,7 @@ class DicomReader {
     }
   }
 
-  /// Of any kind of number, which all have texts; 0 where there is none.
+  /// Returns a number of whatever kind, as all have texts; 0 where there is none.
   [[nodiscard]] static double number(DcmItem* item, const DcmTagKey& key, unsigned long at = 0) {
     OFString digits;
     if (item == nullptr || item->findAndGetOFString(key, digits, at).bad()) return 0;
