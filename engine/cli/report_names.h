@@ -17,10 +17,10 @@ using report::label_text;
 using report::named_row_json;
 using report::print_specks;
 using report::specks_json;
-using report::welds_json;
 using report::TakeRow;
 using report::volume_row_json;
 using report::volume_summary_json;
+using report::welds_json;
 using report::write_json;
 
 }  // namespace mw::cli
