@@ -15,13 +15,11 @@
 namespace mw::io {
 namespace {
 
-constexpr double kMaxStep = (1 << kDracoBits) - 1;
+constexpr std::int32_t kMaxStep = (1 << kDracoBits) - 1;
 
-/// What the file says, in the numbers that it has.
-struct FloatBox {
-  std::array<float, 3> origin{};
-  std::array<float, 3> shape{};
-};
+/// Levels of detail at most, and how few triangles need no coarser one.
+constexpr int kMostLevels = 8;
+constexpr std::size_t kFewTriangles = 200;
 
 /// Around all vertices; no side has the length 0, by which readers would divide.
 FloatBox box_of(const std::vector<Position>& vertices) {
@@ -37,16 +35,22 @@ FloatBox box_of(const std::vector<Position>& vertices) {
   return box;
 }
 
-std::array<std::int32_t, 3> steps_of(const Position& p, const FloatBox& box) {
+/// A level's box is twice as large as that of the level before it.  Rounded so that nothing of a
+/// coarse level lies beyond the half of its box, where readers cut it.
+std::array<std::int32_t, 3> steps_of(const Position& p, const FloatBox& box, int level) {
+  const int most = kMaxStep >> level;
+  const double whole = std::ldexp(kMaxStep, -level);
   std::array<std::int32_t, 3> steps{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double share = (p[k] - static_cast<double>(box.origin[k])) / box.shape[k];
-    steps[k] = static_cast<std::int32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kMaxStep));
+    const double step = std::round(std::clamp(share, 0.0, 1.0) * whole);
+    steps[k] = std::min(static_cast<std::int32_t>(step), most);
   }
   return steps;
 }
 
-void add_positions(const std::vector<Position>& vertices, const FloatBox& box, draco::Mesh& mesh) {
+void add_positions(const std::vector<Position>& vertices, const FloatBox& box, int level,
+                   draco::Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(vertices.size());
   mesh.set_num_points(count);
   draco::GeometryAttribute attribute;
@@ -54,7 +58,7 @@ void add_positions(const std::vector<Position>& vertices, const FloatBox& box, d
                  3 * sizeof(std::int32_t), 0);
   const int id = mesh.AddAttribute(attribute, true, count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::array<std::int32_t, 3> steps = steps_of(vertices[i], box);
+    const std::array<std::int32_t, 3> steps = steps_of(vertices[i], box, level);
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), steps.data());
   }
 }
@@ -74,16 +78,25 @@ void append_floats(AtomicFile& file, const std::array<float, 3>& numbers) {
   for (const float number : numbers) append_little(file, number);
 }
 
-void write_manifest(const std::filesystem::path& path, const FloatBox& box, std::size_t bytes) {
+/// What the manifest says of a level.
+struct LevelFacts {
+  float scale = 0;  ///< lengths below it do not show, nm
+  std::uint32_t bytes = 0;
+};
+
+void write_manifest(const std::filesystem::path& path, const FloatBox& box,
+                    const std::vector<LevelFacts>& levels) {
   AtomicFile file(path);
   append_floats(file, box.shape);
   append_floats(file, box.origin);
-  append_little(file, std::uint32_t{1});                              // levels of detail
-  append_little(file, 1.0F);                                          // scale of the level
-  append_floats(file, {0, 0, 0});                                     // its offset
-  append_little(file, std::uint32_t{1});                              // its fragments
-  for (int k = 0; k < 3; ++k) append_little(file, std::uint32_t{0});  // place of the fragment
-  append_little(file, static_cast<std::uint32_t>(bytes));
+  append_little(file, static_cast<std::uint32_t>(levels.size()));
+  for (const LevelFacts& level : levels) append_little(file, level.scale);
+  for (std::size_t i = 0; i < levels.size(); ++i) append_floats(file, {0, 0, 0});  // offsets
+  for (std::size_t i = 0; i < levels.size(); ++i) append_little(file, std::uint32_t{1});
+  for (const LevelFacts& level : levels) {
+    for (int k = 0; k < 3; ++k) append_little(file, std::uint32_t{0});  // place of the fragment
+    append_little(file, level.bytes);
+  }
   file.commit();
 }
 
@@ -92,25 +105,25 @@ void write_manifest(const std::filesystem::path& path, const FloatBox& box, std:
 void DracoSink::begin(const SurfaceHeader& header) {
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max() / 3;
   check_max(segment_.string(), "triangles", header.triangles(), kMax);
-  vertices_.reserve(header.vertices());
-  triangles_.reserve(header.triangles());
+  surface_.vertices.reserve(header.vertices());
+  surface_.triangles.reserve(header.triangles());
 }
 
 void DracoSink::write_vertices(std::span<const Position> positions) {
   for (const auto& [x, y, z] : positions) {
-    vertices_.push_back({x * nm_per_unit_, y * nm_per_unit_, z * nm_per_unit_});
+    surface_.vertices.push_back({x * nm_per_unit_, y * nm_per_unit_, z * nm_per_unit_});
   }
 }
 
 void DracoSink::write_triangles(std::span<const Triangle> triangles) {
-  triangles_.insert(triangles_.end(), triangles.begin(), triangles.end());
+  surface_.triangles.insert(surface_.triangles.end(), triangles.begin(), triangles.end());
 }
 
-void DracoSink::finish() {
-  const FloatBox box = box_of(vertices_);
+std::uint32_t DracoSink::append_level(const TriangleSurface& surface, const FloatBox& box,
+                                      int level, AtomicFile& file) const {
   draco::Mesh mesh;
-  add_positions(vertices_, box, mesh);
-  add_faces(triangles_, mesh);
+  add_positions(surface.vertices, box, level, mesh);
+  add_faces(surface.triangles, mesh);
   draco::Encoder encoder;
   // Triangles may go round the other way or in another order, but not away.
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
@@ -121,10 +134,27 @@ void DracoSink::finish() {
                 text(segment_.string(), ": Draco: ", status.error_msg_string()));
   }
   check_max(segment_.string(), "bytes", buffer.size(), std::numeric_limits<std::uint32_t>::max());
-  AtomicFile file(segment_);
   file.append(std::string_view(buffer.data(), buffer.size()));
+  return static_cast<std::uint32_t>(buffer.size());
+}
+
+/// Coarser levels are clustered in cubes of 2, 4, 8 mean edges, as long as that leaves a surface.
+void DracoSink::finish() {
+  const FloatBox box = box_of(surface_.vertices);
+  const Position origin{box.origin[0], box.origin[1], box.origin[2]};
+  double scale = mean_edge_length(surface_);
+  AtomicFile file(segment_);
+  std::vector<LevelFacts> levels{{static_cast<float>(scale), append_level(surface_, box, 0, file)}};
+  TriangleSurface level = surface_;
+  while (level.triangles.size() > kFewTriangles && levels.size() < kMostLevels) {
+    scale *= 2;
+    level = clustered(surface_, origin, scale);
+    if (level.triangles.empty()) break;
+    const int number = static_cast<int>(levels.size());
+    levels.push_back({static_cast<float>(scale), append_level(level, box, number, file)});
+  }
   file.commit();
-  write_manifest(segment_.string() + ".index", box, buffer.size());
+  write_manifest(segment_.string() + ".index", box, levels);
 }
 
 }  // namespace mw::io

@@ -3,8 +3,12 @@
 // One segment of neuroglancer's multi-resolution meshes.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 
+#include "io/file/sink/atomic_file.h"
+#include "io/surface/precomputed/coarser_surface.h"
 #include "io/surface/surface_sink.h"
 
 namespace mw::io {
@@ -12,10 +16,18 @@ namespace mw::io {
 /// Bits of a coordinate within the box of a segment: 10 or 16.
 inline constexpr int kDracoBits = 16;
 
-/// FOLDER/ID.index, the manifest: one level of detail, one fragment, the box of the segment; and
-/// FOLDER/ID, the fragment: a Draco mesh, coordinates whole numbers from 0 to 2^16 - 1 in the box.
-/// Vertices that are rounded to the same place stay apart, so the surface stays as closed as it is.
-/// Memory: the segment, some 200 bytes a triangle: Draco takes it at once.
+/// The box of a segment in the numbers that its file has.
+struct FloatBox {
+  std::array<float, 3> origin{};
+  std::array<float, 3> shape{};
+};
+
+/// FOLDER/ID.index, the manifest: levels of detail, each in one fragment, and the box of the
+/// segment; and FOLDER/ID, the fragments: Draco meshes, coordinates whole numbers in a box that is
+/// twice as large for each level.  The first level is the surface itself: vertices that are rounded
+/// to the same place stay apart, so it stays as closed as it is.  Each level after it may be twice
+/// as far from it (clustered()); there is none after one of few triangles.
+/// Memory: the segment, some 300 bytes a triangle: Draco takes it at once.
 class DracoSink : public SurfaceSink {
  public:
   /// segment: FOLDER/ID.
@@ -28,10 +40,13 @@ class DracoSink : public SurfaceSink {
   void finish() override;
 
  private:
+  /// Returns how many bytes it appends.
+  [[nodiscard]] std::uint32_t append_level(const TriangleSurface& surface, const FloatBox& box,
+                                           int level, AtomicFile& file) const;
+
   std::filesystem::path segment_;
   double nm_per_unit_;
-  std::vector<Position> vertices_;  ///< nm
-  std::vector<Triangle> triangles_;
+  TriangleSurface surface_;  ///< nm
 };
 
 }  // namespace mw::io

@@ -29,7 +29,7 @@ class LegacySink : public SurfaceSink {
 
 enum class FragmentKind : std::uint8_t {
   kLegacy,  ///< "neuroglancer_legacy_mesh": plain numbers
-  kDraco,   ///< "neuroglancer_multilod_draco", one level of detail in one piece
+  kDraco,   ///< "neuroglancer_multilod_draco", each level of detail in one piece
 };
 
 /// How a folder is written.

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// A surface with less detail, for viewers that look at it from afar.
+#pragma once
+
+#include <vector>
+
+#include "io/surface/surface_sink.h"
+
+namespace mw::io {
+
+struct TriangleSurface {
+  std::vector<Position> vertices;
+  std::vector<Triangle> triangles;
+};
+
+/// All vertices in one cube of a grid become one, at their mean, and triangles that are left with
+/// fewer than three corners go, as do copies of others (vertex clustering of Rossignac and Borrel).
+/// Topology is not kept.
+/// origin: a corner of the grid, not above any vertex; cell: the edge of its cubes, positive.
+/// ENSURES: no vertex moves by more than the diagonal of a cube; each is the corner of a triangle;
+/// the same result for the same surface.  Cost: O(n log n).
+[[nodiscard]] TriangleSurface clustered(const TriangleSurface& fine, const Position& origin,
+                                        double cell);
+
+/// The mean length of the edges of all triangles; 0 where there are none.
+[[nodiscard]] double mean_edge_length(const TriangleSurface& surface);
+
+}  // namespace mw::io
