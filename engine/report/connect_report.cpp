@@ -74,6 +74,7 @@ std::string connect_text(const engine::ConnectFacts& facts) {
   if (facts.hinge_vertices + facts.hinge_edges > 0) {
     add(io::text("hinges: ", facts.hinge_vertices, " vertices, ", facts.hinge_edges, " edges"));
   }
+  if (facts.hanging > 0) add("see --weld and --open-hinges");
   if (facts.copies > 0) {
     add(io::text(facts.doubled, " vertices doubled by ", facts.copies,
                  " copies, parts after that: ", facts.parts_after));
