@@ -61,7 +61,8 @@ class WeldedVolume::Tile {
         solid_(labels_.size()) {
     volume.read(box_, labels_);
     for (std::size_t i = 0; i < labels_.size(); ++i) {
-      solid_[i] = volume.givers_.contains(labels_[i]) ? 0 : 1;
+      const bool is_known = i > 0 && labels_[i] == labels_[i - 1];
+      solid_[i] = is_known ? solid_[i - 1] : volume.givers_.contains(labels_[i]) ? 0 : 1;
     }
   }
 
@@ -75,6 +76,7 @@ class WeldedVolume::Tile {
   /// What the places whose first voxel is in the tile fill.
   void find(std::vector<Filled>& out) const {
     for_each_index(tile_, [&](Index3 v) {
+      if (is_uniform(v)) return;
       at_edge(v, kSteps[0], kSteps[1], out);
       at_edge(v, kSteps[0], kSteps[2], out);
       at_edge(v, kSteps[1], kSteps[2], out);
@@ -85,6 +87,17 @@ class WeldedVolume::Tile {
  private:
   [[nodiscard]] std::size_t row(Index3 v) const { return static_cast<std::size_t>(box_.offset(v)); }
   [[nodiscard]] bool is_solid(Index3 v) const { return box_.contains(v) && solid_[row(v)] != 0; }
+
+  /// True if the eight voxels from v on are all solid or all givers', as most are.
+  [[nodiscard]] bool is_uniform(Index3 v) const {
+    if (!box_.contains(v + Index3{1, 1, 1})) return false;
+    const std::int64_t width = box_.shape().x, layer = width * box_.shape().y;
+    const char* const first = solid_.data() + row(v);
+    const char* const last = first + layer;
+    const int count = first[0] + first[1] + first[width] + first[width + 1] + last[0] + last[1] +
+                      last[width] + last[width + 1];
+    return count == 0 || count == 8;
+  }
 
   /// The four voxels around the edge between v and v + a + b.
   void at_edge(Index3 v, Index3 a, Index3 b, std::vector<Filled>& out) const {
