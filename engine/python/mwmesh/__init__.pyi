@@ -138,6 +138,7 @@ class Mesh:
         background: _Label | None = None,
         merge: Mapping[_Label, _Label] | None = None,
         drop_specks: _Specks | None = None,
+        weld: _Label | Iterable[_Label] | None = None,
         **place: Any,
     ) -> Verdict: ...
     def plot(self, labels: Iterable[_Label] | None = None, **arguments: Any) -> Any: ...
@@ -179,6 +180,7 @@ def mesh(
     background: _Label | None = ...,
     merge: Mapping[_Label, _Label] | None = ...,
     drop_specks: _Specks | None = ...,
+    weld: _Label | Iterable[_Label] | None = ...,
     workdir: _Path | None = ...,
     resume: bool = ...,
     keep: _Path | None = ...,

@@ -354,6 +354,18 @@ class Figures(unittest.TestCase):
         self.assertIn("P2 orientation", [name for name, passed, _ in verdict.checks if not passed])
         self.assertIn("FAIL", repr(verdict))
 
+    def test_what_hangs_is_welded(self):
+        blocks = np.zeros((12, 12, 12), np.uint8)
+        blocks[2:10, 2:6, 2:6] = 1
+        blocks[2:10, 6:10, 6:10] = 2
+        hanging = mwmesh.mesh(blocks, background=0)
+        whole = mwmesh.mesh(blocks, background=0, weld=0)
+        self.assertEqual(hanging.report["parts"]["found"], 2)
+        self.assertEqual(whole.report["parts"]["found"], 1)
+        self.assertEqual(whole.report["welds"]["voxels"], 8)
+        self.assertTrue(whole.verify(blocks, weld=[0]))
+        self.assertFalse(whole.verify(blocks))
+
     def test_parts_and_splits(self):
         labels = np.zeros((12, 12, 20), np.uint8)
         labels[2:10, 2:10, 2:6] = 1
