@@ -260,7 +260,7 @@ class Case:
         """Writes other labels into the file under a run, which meshes what it read first or says
         so; then the file is as it was."""
         path = self.folder / self.volume.file
-        if path.suffix == ".gz" or b"gzip" in path.read_bytes()[:400]:
+        if "," in self.volume.file or path.suffix == ".gz" or b"gzip" in path.read_bytes()[:400]:
             return  # unpacked once, at the start
         before = path.read_bytes()
         after = self.random.uniform(0, 1) * self.seconds
@@ -302,6 +302,8 @@ class Case:
     def edited_runs(self):
         """A chain of edits, meshed from what the runs before have kept, some of them killed: the
         files are those of runs that begin afresh."""
+        if "," in self.volume.file:
+            return  # masks
         path, flags = self.folder / self.volume.file, self.settings.flags
         named = self.settings.names_labels() or "size" in flags or "split" in flags
         if named or "count" in flags or "periodic" in flags or flags.get("order") == "raster" or path.suffix == ".gz":

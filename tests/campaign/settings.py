@@ -161,7 +161,7 @@ def draw_periodic(random, settings, volume):
 def draw_values(random, settings, volume):
     """The file of labels is an image, too: on its own grid, also where only a part is meshed."""
     arguments = volume.arguments
-    if settings.output == "m.mesh" or "--shape" in arguments or "voxel" in arguments:
+    if settings.output == "m.mesh" or "--shape" in arguments or "voxel" in arguments or "," in volume.file:
         return
     if random.random() < 0.15:
         statistic = random.choice(["mean", "min", "max", "mode"])

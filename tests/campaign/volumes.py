@@ -32,7 +32,7 @@ class Volume:
     spacing: tuple = (1.0, 1.0, 1.0)
     origin: tuple = (0.0, 0.0, 0.0)
     turned: list = None
-    file: str = "v.npy"
+    file: str = "v.npy"  # or a list of masks
     arguments: list = field(default_factory=list)  # how the program is told of the file
 
     def values(self):
@@ -272,6 +272,23 @@ def write_nifti(path, volume, squeezed):
         file.write(gzip.compress(data, 1) if squeezed else data)
 
 
+def can_be_masks(volume):
+    """Whether labels are those that masks get: 1, 2, 3 and so on, 0 elsewhere."""
+    values = volume.values()
+    return values == list(range(len(values))) and 2 <= len(values) <= 9
+
+
+def write_masks(folder, volume):
+    """A file for each label; what a list of them has are labels of 16 bits."""
+    files = []
+    for label in volume.values()[1:]:
+        mask = Volume(volume.kind, volume.shape, [int(l == label) for l in volume.labels], "u8",
+                      volume.spacing, volume.origin, volume.turned)
+        files.append(f"m{label}.nii")
+        write_nifti(folder / files[-1], mask, False)
+    volume.file, volume.dtype = ",".join(files), "u16"
+
+
 def write(random, volume, folder):
     """Writes the file and sets `file` and `arguments`."""
     place = ["--spacing", triple(volume.spacing), "--origin=" + triple(volume.origin)]
@@ -287,7 +304,9 @@ def write(random, volume, folder):
     else:
         volume.turned = draw_turn(random)
         squeezed = random.random() < 0.3
-        if way < 0.88:
+        if way < 0.80 and can_be_masks(volume):
+            write_masks(folder, volume)
+        elif way < 0.88:
             volume.file = "v.nrrd"
             write_nrrd(folder / volume.file, volume, squeezed)
         else:
