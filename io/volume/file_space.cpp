@@ -44,10 +44,6 @@ double length_of(const FileSpace& space, std::size_t axis) {
   return tidied(std::abs(stated - length) <= kAgree * length ? stated : length);
 }
 
-double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 void check_steps(std::string_view file, const FileSpace& space) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3& step = space.steps[i];
@@ -55,10 +51,6 @@ void check_steps(std::string_view file, const FileSpace& space) {
         text(space.steps_field, " (", std::string_view("xyz").substr(i, 1), ")");
     check_spacing(file, field, std::hypot(step[0], step[1], step[2]));
   }
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// The nearest axes at right angles: half-way to the inverse of the transpose, again and again, by

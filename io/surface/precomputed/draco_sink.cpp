@@ -145,11 +145,12 @@ void DracoSink::finish() {
   double scale = mean_edge_length(surface_);
   AtomicFile file(segment_);
   std::vector<LevelFacts> levels{{static_cast<float>(scale), append_level(surface_, box, 0, file)}};
-  TriangleSurface level = surface_;
-  while (level.triangles.size() > kFewTriangles && levels.size() < kMostLevels) {
+  std::size_t triangles = surface_.triangles.size();
+  while (triangles > kFewTriangles && levels.size() < kMostLevels) {
     scale *= 2;
-    level = clustered(surface_, origin, scale);
-    if (level.triangles.empty()) break;
+    const TriangleSurface level = clustered(surface_, origin, scale);
+    triangles = level.triangles.size();
+    if (triangles == 0) break;
     const int number = static_cast<int>(levels.size());
     levels.push_back({static_cast<float>(scale), append_level(level, box, number, file)});
   }

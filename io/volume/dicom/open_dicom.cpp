@@ -26,14 +26,6 @@ constexpr double kSlack = 0.05;
 /// Slices at most as far from each other, in mm, lie at one place.
 constexpr double kSameSlice = 1e-3;
 
-double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// first + length * way
 Vector3 beyond(const Vector3& first, double length, const Vector3& way) {
   return {first[0] + length * way[0], first[1] + length * way[1], first[2] + length * way[2]};
@@ -134,7 +126,6 @@ class SegmentMask : public LabelVolume {
         read_row(static_cast<std::uint64_t>(first),
                  out.subspan(static_cast<std::size_t>(box.offset(v)), width));
       }
-      v.y = box.lo.y;
     }
   }
 
@@ -158,17 +149,18 @@ class SegmentMask : public LabelVolume {
   std::vector<std::int64_t> frames_;
 };
 
-/// For each segment the frames by slice.
+/// For each segment the frames by slice; -1: there is none.
 using FramesOfSegments = std::map<std::int32_t, std::vector<std::int64_t>>;
 
 FramesOfSegments frames_by_slice(const DicomSegments& dicom, const SliceGrid& slices,
                                  const std::string& file) {
   FramesOfSegments out;
-  const std::vector<std::int64_t> none(static_cast<std::size_t>(slices.count()), -1);
+  for (const DicomSegment& s : dicom.segments) {
+    out[s.number].assign(static_cast<std::size_t>(slices.count()), -1);
+  }
   for (std::size_t i = 0; i < dicom.frames.size(); ++i) {
     const std::int32_t segment = dicom.frames[i].segment;
-    std::int64_t& frame =
-        out.try_emplace(segment, none).first->second[static_cast<std::size_t>(slices.slice(i))];
+    std::int64_t& frame = out[segment][static_cast<std::size_t>(slices.slice(i))];
     if (frame >= 0) {
       fail_input(file, "Image Position (Patient)",
                  text("frames ", frame + 1, " and ", i + 1, " are both of segment ", segment,
@@ -220,10 +212,8 @@ std::unique_ptr<LabelVolume> open_dicom(std::unique_ptr<ByteSource> source,
   std::sort(dicom.segments.begin(), dicom.segments.end(),
             [](const DicomSegment& a, const DicomSegment& b) { return a.number < b.number; });
   MaskMerger merger(info, options.overlap, file);
-  const std::vector<std::int64_t> none(static_cast<std::size_t>(slices.count()), -1);
   for (const DicomSegment& segment : dicom.segments) {
-    const auto found = frames.find(segment.number);
-    const SegmentMask mask(dicom, info, found == frames.end() ? none : found->second);
+    const SegmentMask mask(dicom, info, frames.at(segment.number));
     merger.add({.volume = &mask,
                 .value = 1,
                 .file = text(file, ", segment ", segment.number, " '", segment.name, "'"),
