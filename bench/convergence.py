@@ -6,7 +6,7 @@
 Usage: bench/convergence.py [SIZE...]     default: 8 6 5 4 3 2, voxels
 A ball of radius 14 and conductivity 10 lies in a box of 48^3 voxels of conductivity 1, in a field along
 z.  The solution is known; the boundary has its values.  Linear elements solve for it on the default mesh, on
-meshes of `--size SIZE`, on six tets a cell of a staircase that is sampled at SIZE, and, if
+meshes of `--size SIZE`, quadratic ones on the same meshes with `--element tet10` and `tet10-curved`, linear ones on six tets a cell of a staircase that is sampled at SIZE, and, if
 MW_PEER (default: build/release/cgal_mesh, see bench/README.md) is there, on CGAL's meshes with cells and facets of
 SIZE.  The table has the relative errors of the gradient (H1) and of the value (L2), in the norm that
 conductivity weighs, by a rule of 11 points in each tet that is exact to degree 4.
@@ -60,23 +60,50 @@ def rule():
 
 def on_boundary(tets, count):
     """Which points are on the outside of the mesh: CGAL rounds the box, and has the solution's values there, too."""
-    faces = np.sort(np.concatenate([np.delete(tets, i, 1) for i in range(4)]), 1)
-    _, first, uses = np.unique(faces, axis=0, return_index=True, return_counts=True)
+    sides = [[n for n in range(4) if n != i] for i in range(4)]
+    corners = np.sort(np.concatenate([tets[:, side] for side in sides]), 1)
+    if tets.shape[1] == 10:
+        sides = [side + [4 + e for e, (a, b) in enumerate(EDGES) if a in side and b in side] for side in sides]
+    faces = np.concatenate([tets[:, side] for side in sides])
+    _, first, uses = np.unique(corners, axis=0, return_index=True, return_counts=True)
     out = np.zeros(count, bool)
     out[faces[first[uses == 1]]] = True
     return out
 
 
+EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))  # where nodes 4 to 9 are
+
+
+def shapes(at, nodes):
+    """Values [nodes] of the functions of four or ten nodes at a barycentric point, and their derivatives [nodes, 3]
+    towards corners 1 to 3."""
+    if nodes == 4:
+        values, slopes = at, np.eye(4)
+    else:
+        values = np.array([*(at * (2 * at - 1)), *(4 * at[a] * at[b] for a, b in EDGES)])
+        slopes = np.zeros((10, 4))
+        slopes[range(4), range(4)] = 4 * at - 1
+        for e, (a, b) in enumerate(EDGES):
+            slopes[4 + e, a], slopes[4 + e, b] = 4 * at[b], 4 * at[a]
+    return values, slopes[:, 1:] - slopes[:, :1]
+
+
+def at_points(points, tets):
+    """For each point of the rule: shares of the volume [tets], values, gradients [tets, nodes, 3] of the functions."""
+    for at, weight in zip(*rule()):
+        values, slopes = shapes(at, tets.shape[1])
+        jacobians = np.einsum("tnk,nd->tdk", points[tets], slopes)
+        yield weight * np.abs(np.linalg.det(jacobians)) / 6, values, np.einsum(
+            "tkd,nd->tnk", np.linalg.inv(jacobians), slopes)
+
+
 def errors(points, tets, labels):
-    """Number of unknowns, relative H1 and L2 errors."""
-    corners = points[tets]
-    edges = corners[:, 1:] - corners[:, :1]
-    volumes = np.abs(np.linalg.det(edges)) / 6
-    slopes = np.linalg.inv(edges)  # columns: gradients of corners 1 to 3
-    slopes = np.concatenate([-slopes.sum(2, keepdims=True), slopes], 2)
-    stiffness = np.where(labels == 1, INSIDE, 1.0)[:, None, None] * volumes[:, None, None]
-    stiffness = stiffness * np.einsum("tki,tkj->tij", slopes, slopes)
-    rows, columns = np.repeat(tets, 4, 1).ravel(), np.tile(tets, 4).ravel()
+    """Number of unknowns, relative H1 and L2 errors; elements have the mesh's own nodes, four or ten."""
+    conductivity = np.where(labels == 1, INSIDE, 1.0)
+    stiffness = sum(np.einsum("t,tik,tjk->tij", conductivity * share, gradients, gradients)
+                    for share, _, gradients in at_points(points, tets))
+    nodes = tets.shape[1]
+    rows, columns = np.repeat(tets, nodes, 1).ravel(), np.tile(tets, nodes).ravel()
     matrix = scipy.sparse.csr_matrix((stiffness.ravel(), (rows, columns)), (len(points),) * 2)
     used = np.zeros(len(points), bool)
     used[tets] = True
@@ -86,13 +113,13 @@ def errors(points, tets, labels):
     right = -matrix[free][:, outer] @ u[outer]
     u[free] = scipy.sparse.linalg.spsolve(matrix[free][:, free].tocsc(), right)
 
-    gradients = np.einsum("tki,ti->tk", slopes, u[tets])
     sums = np.zeros(4)
-    for barycentric, weight in zip(*rule()):
-        value, gradient, k = solution(np.einsum("i,tik->tk", barycentric, corners))
-        share = weight * volumes * k
-        sums += [(share * ((gradients - gradient)**2).sum(1)).sum(), (share * (gradient**2).sum(1)).sum(),
-                 (share * (u[tets] @ barycentric - value)**2).sum(), (share * value**2).sum()]
+    for share, values, gradients in at_points(points, tets):
+        value, gradient, k = solution(np.einsum("n,tnk->tk", values, points[tets]))
+        got = np.einsum("tnk,tn->tk", gradients, u[tets])
+        share = share * k
+        sums += [(share * ((got - gradient)**2).sum(1)).sum(), (share * (gradient**2).sum(1)).sum(),
+                 (share * (u[tets] @ values - value)**2).sum(), (share * value**2).sum()]
     return len(free), np.sqrt(sums[0] / sums[1]), np.sqrt(sums[2] / sums[3])
 
 
@@ -121,17 +148,16 @@ def staircase(size):
 
 def read(path):
     mesh = meshio.read(path)
-    tets = np.concatenate([block.data for block in mesh.cells if block.type == "tetra"])
-    labels = np.concatenate([data for block, data in zip(mesh.cells, mesh.cell_data["medit:ref"])
-                             if block.type == "tetra"])
-    return mesh.points, tets, labels
+    labels = mesh.cell_data["label" if "label" in mesh.cell_data else "medit:ref"]
+    kept = [(block.data, data) for block, data in zip(mesh.cells, labels) if block.type.startswith("tetra")]
+    return mesh.points, np.concatenate([tets for tets, _ in kept]), np.concatenate([data for _, data in kept])
 
 
-def meshed(program, *options):
+def meshed(program, *options, out="mesh.mesh"):
     """The mesh that a program makes of volume.npy."""
     settings = {name: value for name, value in os.environ.items() if not name.startswith("MW_")}
-    subprocess.run([program, *options, "-o", "mesh.mesh"], check=True, stdout=subprocess.DEVNULL, env=settings)
-    return read("mesh.mesh")
+    subprocess.run([program, *options, "-o", out], check=True, stdout=subprocess.DEVNULL, env=settings)
+    return read(out)
 
 
 def row(name, mesh):
@@ -149,6 +175,11 @@ def main():
         row("default", meshed(*mesh))
         for size in sizes:
             row(f"`--size {size:g}`", meshed(*mesh, "--size", f"{size:g}"))
+        for element in ("tet10", "tet10-curved"):
+            row(f"default, {element}", meshed(*mesh, "--element", element, out="mesh.vtu"))
+            for size in sizes:
+                row(f"`--size {size:g}`, {element}",
+                    meshed(*mesh, "--size", f"{size:g}", "--element", element, out="mesh.vtu"))
         if PEER.exists():
             row("CGAL, default", meshed(PEER, "volume.npy"))
             for size in sizes:

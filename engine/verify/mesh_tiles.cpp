@@ -10,8 +10,10 @@
 #include "io/mesh/array_axes.h"
 #include "io/volume/volume_space.h"
 #include "kernels/audit/partition/validity.h"
+#include "kernels/audit/shape/volumes.h"
 #include "kernels/core/error.h"
 #include "kernels/core/layers.h"
+#include "kernels/core/ten_nodes.h"
 
 namespace mw::engine {
 
@@ -26,7 +28,14 @@ MeshTiles::MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table,
       memory_bytes_(junction.memory_bytes),
       positions_(junction.folder),
       labels_(table.size()),
-      tets_(junction.folder, grid_.size(), junction.memory_bytes) {}
+      tets_(junction.folder, grid_.size(), junction.memory_bytes),
+      curved_tets_(junction.folder),
+      beyond_parts_(table.size()) {}
+
+void MeshTiles::begin(const io::MeshHeader& header) {
+  header_ = header;
+  if (header.in_parts) curved_.emplace();
+}
 
 audit::Frame MeshTiles::frame() const {
   if (!is_upright_) return {.spacing = volume_.space.spacing, .origin = {}};
@@ -72,6 +81,7 @@ bool MeshTiles::in_range(const io::TetRows& tet) {
 void MeshTiles::write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) {
   for (std::size_t i = 0; i < tets.size(); ++i) {
     if (in_range(tets[i])) add(tets[i], labels[i]);
+    if (curved_) keep_nodes(tets[i], labels[i]);
     ++tet_count_;
   }
 }
@@ -93,7 +103,41 @@ void MeshTiles::add(const io::TetRows& tet, RawLabel label) {
   for (auto tile = tiles.begin(); tile != end; ++tile) tets_.add(*tile, record);
 }
 
+/// A part at a corner has that corner and the middles of the edges there.
+void MeshTiles::keep_nodes(const io::TetRows& part, RawLabel label) {
+  const std::size_t number = tet_count_ % kTetParts.size();
+  for (std::size_t i = 0; i < part.size(); ++i) next_.rows[kTetParts[number][i]] = part[i];
+  next_.label = table_.find(label);
+  if (number + 1 == kTetParts.size()) curved_tets_.append(std::as_bytes(std::span(&next_, 1)));
+}
+
+void MeshTiles::measure_curved() {
+  std::uint64_t tet = 0;
+  const audit::Frame lattice = audit::layered_frame(frame(), layers_);
+  const double voxel = lattice.spacing[0] * lattice.spacing[1] * lattice.spacing[2];
+  curved_tets_.each_batch<CurvedTet>([&](std::span<const CurvedTet> batch) {
+    std::vector<std::uint64_t> ids;
+    for (const CurvedTet& t : batch) ids.insert(ids.end(), t.rows.begin(), t.rows.end());
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    std::vector<audit::Position> places;
+    read_positions(ids, places);
+    for (const CurvedTet& t : batch) {
+      audit::TenNodes nodes;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto found = std::lower_bound(ids.begin(), ids.end(), t.rows[i]);
+        nodes[i] = in_array(places[static_cast<std::size_t>(found - ids.begin())]);
+      }
+      if (is_mirrored_) nodes = audit::mirrored(nodes);
+      curved_->add(tet++, nodes);
+      if (t.label >= beyond_parts_.size()) continue;
+      beyond_parts_[t.label].add(audit::volume_beyond_parts(nodes) / voxel);
+    }
+  });
+}
+
 void MeshTiles::finish() {
+  if (curved_ && range_error_.empty() && endless_.count() == 0) measure_curved();
   for (std::size_t v = 0; v < is_used_.size(); ++v) {
     if (!is_used_[v]) unused_.add([v] { return std::to_string(v); });
   }

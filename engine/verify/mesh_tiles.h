@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "engine/verify/tile_buckets.h"
@@ -13,6 +14,8 @@
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/audit/check.h"
+#include "kernels/audit/compensated_sum.h"
+#include "kernels/audit/shape/curved.h"
 
 namespace mw::engine {
 
@@ -49,7 +52,7 @@ class MeshTiles : public io::MeshSink {
   /// volume and table outlive this.
   MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table, const Place& junction);
 
-  void begin(const io::MeshHeader& header) override { header_ = header; }
+  void begin(const io::MeshHeader& header) override;
   void write_vertices(std::span<const io::Position> positions) override;
   void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
   void finish() override;
@@ -61,6 +64,13 @@ class MeshTiles : public io::MeshSink {
   [[nodiscard]] audit::Check input_check() const;
   /// Vertices in no tet.
   [[nodiscard]] const audit::Offenders& unused() const { return unused_; }
+  /// What tets of ten nodes are like, where the mesh came in their parts.  The tets in the tiles
+  /// are the parts.
+  [[nodiscard]] const std::optional<audit::CurvedMeter>& curved() const { return curved_; }
+  /// What curved tets have beyond their parts, by dense label, in voxels of the lattice.
+  [[nodiscard]] const std::vector<audit::CompensatedSum>& beyond_parts() const {
+    return beyond_parts_;
+  }
   /// Which labels of the volume it has, by dense label.
   [[nodiscard]] const audit::KeptLabels& labels() const { return labels_; }
   /// Whether the mesh lies in other axes than the array's, and whether in a mirror.
@@ -83,6 +93,8 @@ class MeshTiles : public io::MeshSink {
   /// Whether all vertices of these tets have been written; takes note of the first that is not.
   [[nodiscard]] bool in_range(const io::TetRows& tet);
   void add(const io::TetRows& tet, RawLabel label);
+  void keep_nodes(const io::TetRows& part, RawLabel label);
+  void measure_curved();
   [[nodiscard]] audit::Position in_array(const io::Position& p) const;
   [[nodiscard]] LoadedMesh make(const std::vector<Tet>& tets) const;
   void read_positions(std::span<const std::uint64_t> ids, std::vector<audit::Position>& out) const;
@@ -102,6 +114,15 @@ class MeshTiles : public io::MeshSink {
   audit::KeptLabels labels_;
   TileBuckets<Tet> tets_;
   std::uint64_t tet_count_ = 0;
+  /// A curved tet as it waits for the last vertex.
+  struct CurvedTet {
+    std::array<std::uint64_t, 10> rows{};
+    std::uint64_t label = 0;  ///< dense
+  };
+  io::ScratchFile curved_tets_;
+  CurvedTet next_;
+  std::vector<audit::CompensatedSum> beyond_parts_;
+  std::optional<audit::CurvedMeter> curved_;
   std::string range_error_;
   audit::Offenders endless_{"vertices that are not finite"};
   audit::Offenders unused_{"vertices in no tet"};

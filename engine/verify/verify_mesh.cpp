@@ -45,6 +45,7 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
       look_at_volume(volume, mesh.grid(), task, {with_distance ? &pieces : nullptr, ledger});
   findings.validity = audit::judge_validity(found.validity, validity);
   findings.validity.checks.insert(findings.validity.checks.begin(), input);
+  if (mesh.curved()) findings.validity.checks.push_back(mesh.curved()->jacobians());
   if (found.overlap) findings.validity.checks.push_back(*found.overlap);
   findings.voxels = std::move(voxels.betti);
   findings.mesh = std::move(found.betti);
@@ -53,8 +54,14 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
     if (audit::is_partial(task.options.partial, label)) voxels.places.volumes[label] = 0;
   }
   findings.place = audit::judge_places(voxels.places, found.places, volume.info().shape);
-  findings.quality = found.quality.report();
+  findings.quality = (mesh.curved() ? mesh.curved()->corners() : found.quality).report();
   findings.distance = std::move(voxels.distance);
+  if (mesh.curved()) {
+    found.volumes.is_exact = false;
+    for (std::size_t label = 0; label < mesh.beyond_parts().size(); ++label) {
+      found.volumes.rounded[label].add(mesh.beyond_parts()[label]);
+    }
+  }
   findings.volumes =
       audit::compare_volumes(voxels.voxels, found.volumes, task.options.layers.product());
   findings.shape = found.shape.report();

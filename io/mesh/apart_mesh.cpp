@@ -24,6 +24,7 @@ struct Head {
   Message message = Message::kFinish;
   std::uint64_t count = 0;  ///< rows; of kBegin the tets of the mesh
   std::uint64_t labels_signed = 0;
+  std::uint64_t in_parts = 0;
   std::uint64_t names = 0;         ///< with kBegin: how many follow
   std::uint64_t record_bytes = 0;  ///< with kBegin: of the record as text, ahead of the names
   std::uint64_t value_bytes = 0;   ///< with kBegin: of names of values, each with ';' behind it
@@ -53,8 +54,8 @@ class SendingSink : public MeshSink {
     std::string values;
     for (const std::string& name : header.values) values += name + ";";
     columns_ = header.values.size();
-    send_(bytes_of(Head{Message::kBegin, header.tets, header.labels_signed ? 1U : 0U, names.size(),
-                        record.size(), values.size()}));
+    send_(bytes_of(Head{Message::kBegin, header.tets, header.labels_signed ? 1U : 0U,
+                        header.in_parts ? 1U : 0U, names.size(), record.size(), values.size()}));
     send_(std::as_bytes(std::span(record)));
     send_(std::as_bytes(std::span(values)));
     for (const LabelName& row : names) {
@@ -113,7 +114,8 @@ class Receiver {
                  .labels_signed = head.labels_signed != 0,
                  .names = LabelNames(std::move(rows)),
                  .record = parse_record(record, "the mesh's record"),
-                 .values = std::move(values)});
+                 .values = std::move(values),
+                 .in_parts = head.in_parts != 0});
     while (next(head)) {
       if (head.message == Message::kFinish) return true;
       if (head.count > kMaxApartRows) return false;

@@ -16,18 +16,25 @@ namespace mw::io {
 enum class Element : std::uint8_t {
   kTet4,   ///< its corners
   kTet10,  ///< and the middles of its edges, on straight edges
+  kCurvedTet10,  ///< ten nodes, with edges of interfaces curved (grouped/curved_nodes.h)
 };
 
-[[nodiscard]] constexpr std::uint64_t node_count(Element element) {
-  return element == Element::kTet10 ? 10 : 4;
+/// True if tets have nodes on their edges.
+[[nodiscard]] constexpr bool has_middles(Element element) {
+  return element != Element::kTet4;
 }
 
-/// "tet4", "tet10".  ERRORS: mw::Error(kUsage).
+[[nodiscard]] constexpr std::uint64_t node_count(Element element) {
+  return has_middles(element) ? 10 : 4;
+}
+
+/// "tet4", "tet10", "tet10-curved".  ERRORS: mw::Error(kUsage).
 [[nodiscard]] inline Element parse_element(std::string_view text) {
   if (text == "tet4") return Element::kTet4;
   if (text == "tet10") return Element::kTet10;
+  if (text == "tet10-curved") return Element::kCurvedTet10;
   throw Error(ErrorKind::kUsage,
-              "'" + std::string(text) + "' is no element; those are tet4 and tet10");
+              "'" + std::string(text) + "' is no element; those are tet4, tet10 and tet10-curved");
 }
 
 /// Cell types of VTK's files; the ten nodes of theirs are in the order of kTetEdges.
@@ -35,12 +42,12 @@ inline constexpr std::uint8_t kVtkTetra = 10;
 inline constexpr std::uint8_t kVtkQuadraticTetra = 24;
 
 [[nodiscard]] constexpr std::uint8_t vtk_type(Element element) {
-  return element == Element::kTet10 ? kVtkQuadraticTetra : kVtkTetra;
+  return has_middles(element) ? kVtkQuadraticTetra : kVtkTetra;
 }
 
 /// Nodes of a wedge between tets of that kind.
 [[nodiscard]] constexpr std::uint64_t wedge_node_count(Element element) {
-  return element == Element::kTet10 ? 12 : 6;
+  return has_middles(element) ? 12 : 6;
 }
 
 /// VTK's cell types for wedges: the second has nodes in the middles of the edges of its two
@@ -49,7 +56,7 @@ inline constexpr std::uint8_t kVtkWedge = 13;
 inline constexpr std::uint8_t kVtkQuadraticLinearWedge = 31;
 
 [[nodiscard]] constexpr std::uint8_t vtk_wedge_type(Element element) {
-  return element == Element::kTet10 ? kVtkQuadraticLinearWedge : kVtkWedge;
+  return has_middles(element) ? kVtkQuadraticLinearWedge : kVtkWedge;
 }
 
 [[nodiscard]] constexpr bool is_vtk_wedge(std::uint64_t type) {

@@ -25,6 +25,7 @@ struct MeshData {
   LabelNames names;
   MeshRecord record;
   std::vector<TetValues> values;
+  bool in_parts = false;  ///< see MeshHeader
 };
 
 /// Writes the tets of a mesh; where they have values, batch by batch with these.
@@ -49,7 +50,8 @@ inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
   MeshHeader header{.tets = mesh.tets.size(),
                     .labels_signed = mesh.labels_signed,
                     .names = mesh.names,
-                    .record = mesh.record};
+                    .record = mesh.record,
+                    .in_parts = mesh.in_parts};
   for (const TetValues& column : mesh.values) header.values.push_back(column.name);
   sink.begin(header);
   sink.write_vertices(mesh.vertices);
@@ -64,6 +66,7 @@ class MeshDataSink : public MeshSink {
     mesh_.labels_signed = header.labels_signed;
     mesh_.names = header.names;
     mesh_.record = header.record;
+    mesh_.in_parts = header.in_parts;
     for (const std::string& name : header.values) mesh_.values.push_back({name, {}});
     mesh_.tets.reserve(header.tets);
     mesh_.labels.reserve(header.tets);

@@ -22,6 +22,7 @@ constexpr const char* kOnly = "only_labels";
 constexpr const char* kWithout = "without_labels";
 constexpr const char* kPartial = "partial_labels";
 constexpr const char* kDoubled = "doubled_vertices";
+constexpr const char* kCurved = "curved";
 constexpr const char* kCohesiveKey = "cohesive";
 constexpr const char* kPeriodic = "periodic";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
@@ -150,6 +151,7 @@ std::string record_text(const MeshRecord& record) {
   add_labels(record.without_labels, kWithout, out);
   add_labels(record.partial_labels, kPartial, out);
   if (record.has_doubles) out[kDoubled] = true;
+  if (record.curved) out[kCurved] = true;
   if (record.cohesive.any()) out[kCohesiveKey] = cohesive_json(record.cohesive);
   return out.empty() ? std::string() : out.dump();
 }
@@ -170,6 +172,7 @@ MeshRecord parse_record(std::string_view text, std::string_view file) {
   record.without_labels = labels_in(fields, kWithout);
   record.partial_labels = labels_in(fields, kPartial);
   record.has_doubles = fields.has(kDoubled) && fields.flag(kDoubled);
+  record.curved = fields.has(kCurved) && fields.flag(kCurved);
   record.cohesive = cohesive_in(fields);
   if (!record.only_labels.empty() && !record.without_labels.empty()) {
     fields.fail(kWithout, "contradicts only_labels");

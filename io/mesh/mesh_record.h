@@ -66,6 +66,8 @@ struct MeshRecord {
   std::vector<RawLabel> partial_labels;
   /// Whether there are vertices that were doubled (--split, --cohesive, --open-hinges).
   bool has_doubles = false;
+  /// Whether tets have ten nodes, and curved edges on interfaces.
+  bool curved = false;
   /// The wedges are no content of their own: they follow from the tets and the doubled vertices.
   CohesiveRule cohesive{};
 
@@ -76,7 +78,7 @@ struct MeshRecord {
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none",
 /// "periodic": "xy"},
 /// "frame": "ras", "only_labels": [...], "without_labels": [...], "partial_labels": [...],
-/// "doubled_vertices": true, "cohesive": [1, 2, 1, 3]}, without what is not known; empty when
+/// "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3]}, without what is not known; empty when
 /// nothing is.  "cohesive" has the labels under and on top of wedges by turns, or is true: all.
 /// Labels are numbers of 64 bits with a sign.  ASCII, no line end; numbers come back to the bit.
 [[nodiscard]] std::string record_text(const MeshRecord& record);

@@ -35,6 +35,9 @@ struct MeshHeader {
   MeshRecord record;                  ///< of the run that made it
   std::vector<std::string> values{};  ///< names of numbers that each tet has: letters, digits, '_'
   WedgeHeader wedges{};               ///< set by CellWriter alone (grouped/grouped_mesh.h)
+  /// Set by readers alone: the file's tets are curved, and come as kTetParts
+  /// (kernels/core/ten_nodes.h), the eight of each tet one after the other.
+  bool in_parts = false;
 };
 
 /// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink

@@ -69,7 +69,7 @@ struct MeshFormat {
     return std::find(kWithTwelve.begin(), kWithTwelve.end(), extension) != kWithTwelve.end();
   }
   [[nodiscard]] bool has_wedges(Element element) const {
-    return element == Element::kTet10 ? has_wedges12() : has_wedges6();
+    return has_middles(element) ? has_wedges12() : has_wedges6();
   }
 };
 
@@ -128,7 +128,7 @@ class StreamedCells : public MeshSink {
 /// A sink that knows tets of both kinds.
 template <class Sink>
 std::unique_ptr<MeshSink> open_streamed(const std::filesystem::path& path, Element element) {
-  if (element == Element::kTet10) return open_cells<Sink>(path, element);
+  if (has_middles(element)) return open_cells<Sink>(path, element);
   return std::make_unique<StreamedCells>(path, std::make_unique<Sink>(path));
 }
 
@@ -334,7 +334,7 @@ void require_place_for_wedges(const std::filesystem::path& path, Element element
   const MeshFormat* const format = find_format(path);
   const bool is_known = format != nullptr;
   if (is_known && format->is_written() && format->has_wedges(element)) return;
-  const bool quadratic = element == Element::kTet10;
+  const bool quadratic = has_middles(element);
   const bool would_take_six = is_known && quadratic && format->has_wedges6();
   throw Error(
       ErrorKind::kUsage,

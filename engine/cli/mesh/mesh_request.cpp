@@ -188,10 +188,10 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .required = true,
                .assign = into(request.output)});
   options.add({.name = "element",
-               .help = "nodes of a tet; tet10: with the middles of edges",
+               .help = "nodes of a tet; tet10: with the middles of edges, on curved interfaces if so said",
                .group = kOutputGroup,
                .fallback = "tet4",
-               .choices = {"tet4", "tet10"},
+               .choices = {"tet4", "tet10", "tet10-curved"},
                .assign = into(request.element, parse_element)});
   add_connect_options(options, request.job.connect);
   options.add({.name = "report",
@@ -277,6 +277,15 @@ void require_room_for_wedges(const MeshRequest& request) {
   io::require_place_for_wedges(request.output, request.element);
 }
 
+void require_single_vertices_for_curves(const MeshRequest& request) {
+  const engine::ConnectOptions& connect = request.job.connect;
+  if (request.element != io::Element::kCurvedTet10) return;
+  if (!connect.split.any() && !connect.cohesive.any() && !connect.open_hinges) return;
+  throw Error(ErrorKind::kUsage,
+              "--element tet10-curved: not with --split, --cohesive or --open-hinges, which double "
+              "vertices; tet10 is");
+}
+
 void require_periodic_for_pairs(const MeshRequest& request) {
   if (request.extras.pairs.empty() || request.job.settings.periodic != 0) return;
   throw Error(ErrorKind::kUsage,
@@ -349,6 +358,7 @@ void check_mesh_request(MeshRequest& request) {
   require_memory_for_page(request);
   require_room_for_values(request);
   require_room_for_wedges(request);
+  require_single_vertices_for_curves(request);
   require_periodic_for_pairs(request);
   engine::check(request.job.settings);
   if (request.job.settings.optimizer == engine::Optimizer::kTetgen)

@@ -126,7 +126,7 @@ void InpWriter::write_nodes(GroupedMesh& mesh) {
 }
 
 void InpWriter::write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name) {
-  const bool quadratic = mesh.element() == Element::kTet10;
+  const bool quadratic = has_middles(mesh.element());
   line(text("*ELEMENT, TYPE=", quadratic ? "C3D10" : "C3D4", ", ELSET=", name));
   for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
     std::string numbers = text(t + 1);

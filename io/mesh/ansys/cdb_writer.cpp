@@ -77,7 +77,7 @@ void CdbWriter::check_counts(const GroupedMesh& mesh, std::uint64_t elements) co
 }
 
 void CdbWriter::write_head(const GroupedMesh& mesh) {
-  const bool ten = mesh.element() == Element::kTet10;
+  const bool ten = has_middles(mesh.element());
   line(text("/COM,mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
   line("/COM,Materials are placeholders.  Components X_MIN and FACE_1_2 are nodes of sides and");
   line("/COM,interfaces; F_X_MIN, F_FACE_1_2 their triangles, which no solution sees (MESH200).");

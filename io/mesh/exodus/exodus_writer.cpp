@@ -160,7 +160,7 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
 }
 
 std::vector<int> ExodusWriter::define_blocks(const GroupedMesh& mesh, Plan& plan) {
-  const bool quadratic = mesh.element() == Element::kTet10;
+  const bool quadratic = has_middles(mesh.element());
   std::vector<int> out;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const bool has_tets = b < mesh.table().size();

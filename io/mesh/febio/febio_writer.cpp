@@ -116,7 +116,7 @@ void FebioWriter::write_nodes(GroupedMesh& mesh) {
 }
 
 void FebioWriter::write_part(GroupedMesh& mesh, RowRange tets, const std::string& name) {
-  const bool ten = mesh.element() == Element::kTet10;
+  const bool ten = has_middles(mesh.element());
   file_.append(text("    <Elements type=\"", ten ? "tet10" : "tet4", "\" name=\"", name, "\">\n"));
   for (std::uint64_t tet = tets.begin; tet < tets.end; ++tet) {
     append_cell(file_, "elem", tet + 1, mesh.tet_nodes(tet));
@@ -137,7 +137,7 @@ void FebioWriter::write_surfaces(GroupedMesh& mesh) {
 
 void FebioWriter::write_surface(GroupedMesh& mesh, RowRange facets, const std::string& name,
                                 bool is_turned) {
-  const char* const tag = mesh.element() == Element::kTet10 ? "tri6" : "tri3";
+  const char* const tag = has_middles(mesh.element()) ? "tri6" : "tri3";
   file_.append(text("    <Surface name=\"", name, "\">\n"));
   for (std::uint64_t i = facets.begin; i < facets.end; ++i) {
     const NodeRows nodes = mesh.facet_nodes(mesh.facet(i));

@@ -14,7 +14,7 @@ void Msh2Writer::write(GroupedMesh& mesh) {
   out_.begin_section("MeshFormat");
   out_.add_line("2.2 0 8");
   out_.end_section("MeshFormat");
-  write_cohesive_record(out_, mesh);
+  write_record(out_, mesh);
   write_physical_names(out_, mesh, numbers);
   write_nodes(mesh);
   write_elements(mesh, numbers);
@@ -34,7 +34,7 @@ void Msh2Writer::write_nodes(GroupedMesh& mesh) {
 }
 
 void Msh2Writer::write_elements(GroupedMesh& mesh, const LabelNumbers& numbers) {
-  const bool quadratic = mesh.element() == Element::kTet10;
+  const bool quadratic = has_middles(mesh.element());
   out_.begin_section("Elements");
   out_.add_line(text(mesh.facet_count() + mesh.tet_count() + mesh.wedge_count()));
   const std::vector<FacetGroup>& groups = mesh.facet_groups();

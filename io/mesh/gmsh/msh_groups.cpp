@@ -71,8 +71,8 @@ std::int32_t wedge_volume(const LabelNumbers& labels, const GroupedMesh& mesh, s
   return above(labels, kSides + mesh.facet_groups().size() + group);
 }
 
-void write_cohesive_record(MshEncoder& out, const GroupedMesh& mesh) {
-  if (mesh.wedge_groups().empty()) return;
+void write_record(MshEncoder& out, const GroupedMesh& mesh) {
+  if (mesh.wedge_groups().empty() && !mesh.header().record.curved) return;
   out.begin_section("Comments");
   out.add_line(kMshRecord, record_text(mesh.header().record));
   out.add_line("$EndComments");

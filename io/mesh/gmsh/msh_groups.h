@@ -38,9 +38,9 @@ inline constexpr std::string_view kMshRecord = "mwmesh ";
 [[nodiscard]] std::int32_t wedge_volume(const LabelNumbers& labels, const GroupedMesh& mesh,
                                         std::size_t group);
 
-/// Writes a section of comments with the record of the run, where the mesh has wedges: without it
-/// they could not be found again in what is read.
-void write_cohesive_record(MshEncoder& out, const GroupedMesh& mesh);
+/// Writes a section of comments with the record of the run, where the mesh has wedges, which without
+/// it could not be found again in what is read, or curved tets.
+void write_record(MshEncoder& out, const GroupedMesh& mesh);
 
 /// Writes the section of the names of all physical surfaces and volumes (see MshWriter).
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels);

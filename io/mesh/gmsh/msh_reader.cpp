@@ -64,6 +64,7 @@ void read_comments(MshInput& in, MshContent& out) {
   if (line == "$EndComments") return;
   if (line.starts_with(kMshRecord)) {
     out.record = parse_record(std::string_view(line).substr(kMshRecord.size()), in.name());
+    if (out.record.curved) in.fail("its tets are curved; those are read from .vtkhdf and .vtu");
   }
   in.skip_section("Comments");
 }

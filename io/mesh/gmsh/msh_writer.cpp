@@ -30,7 +30,7 @@ std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh,
 void MshWriter::write(GroupedMesh& mesh) {
   Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh, folder_)};
   write_format();
-  write_cohesive_record(out_, mesh);
+  write_record(out_, mesh);
   write_physical_names(out_, mesh, contents.numbers);
   write_entities(contents);
   write_nodes(contents);
@@ -139,7 +139,7 @@ void MshWriter::put_nodes(Contents& contents, std::size_t entity) {
 
 void MshWriter::write_elements(const Contents& contents) {
   GroupedMesh& mesh = contents.mesh;
-  const bool quadratic = mesh.element() == Element::kTet10;
+  const bool quadratic = has_middles(mesh.element());
   const std::size_t groups = mesh.facet_groups().size();
   const std::size_t behind_tets = groups + mesh.table().size();
   const std::size_t blocks = behind_tets + mesh.wedge_groups().size();

@@ -20,6 +20,7 @@ GroupedMesh::GroupedMesh(const std::filesystem::path& folder)
       middles_(folder) {}
 
 Position GroupedMesh::node(std::uint64_t row) {
+  if (curved_) return curved_->get(row);
   if (row < vertices_.size()) return vertices_[row];
   const auto [a, b] = edges_[row - vertices_.size()];
   const Position p = vertices_[a];
@@ -119,7 +120,7 @@ Side BoxSides::side_of(const std::array<Position, 3>& corners) const {
 NodeRows GroupedMesh::tet_nodes(std::uint64_t number) {
   NodeRows out;
   out.add(tets_[number]);
-  if (element_ == Element::kTet10) out.add(middles_[number]);
+  if (has_middles(element_)) out.add(middles_[number]);
   return out;
 }
 
@@ -135,7 +136,7 @@ Facet GroupedMesh::of_second(const Facet& facet) {
 NodeRows GroupedMesh::facet_nodes(const Facet& facet) {
   NodeRows out;
   out.add(facet.rows);
-  if (element_ == Element::kTet10) out.add(facet_middles(facet));
+  if (has_middles(element_)) out.add(facet_middles(facet));
   return out;
 }
 

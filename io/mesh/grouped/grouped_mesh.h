@@ -6,15 +6,18 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "io/file/scratch/paged_array.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/element.h"
 #include "io/mesh/grouped/box_sides.h"
 #include "io/mesh/mesh_record.h"
 #include "io/mesh/mesh_sink.h"
+#include "kernels/core/ten_nodes.h"
 
 namespace mw::io {
 
@@ -62,11 +65,7 @@ struct Wedge {
   std::uint64_t top_tet = 0;
 };
 
-/// The six edges of a tet by its corners, in the order of VTK's, Abaqus' and FEBio's ten nodes.
-inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
-    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-
-/// Nodes of a tet, a facet or a wedge: its corners, and with kTet10 behind them the middles of its
+/// Nodes of a tet, a facet or a wedge: its corners, and with ten nodes a tet behind them the middles of its
 /// edges, those of a tet in the order of kTetEdges, those of a facet as edges 0 1, 1 2 and 2 0.  A
 /// wedge has the corners of bottom and top, then the middles of the bottom's and the top's edges.
 class NodeRows {
@@ -99,7 +98,7 @@ class GroupedMesh {
   [[nodiscard]] const MeshBox& box() const { return box_; }
   [[nodiscard]] Element element() const { return element_; }
 
-  /// Return the number of vertices, and of nodes: with kTet10 each edge adds one.
+  /// Return the number of vertices, and of nodes: where tets have middles each edge adds one.
   [[nodiscard]] std::uint64_t vertex_count() const { return vertices_.size(); }
   [[nodiscard]] std::uint64_t node_count() const { return vertices_.size() + edges_.size(); }
   /// Position of a node.  REQUIRES: row < node_count().
@@ -112,7 +111,7 @@ class GroupedMesh {
   /// Returns the numbers of each label's tets, by rank of label.
   [[nodiscard]] const std::vector<RowRange>& label_tets() const { return label_tets_; }
   [[nodiscard]] Label label_of(std::uint64_t tet) const;
-  /// Rows of the middles of kTetEdges.  REQUIRES: kTet10.
+  /// Rows of the middles of kTetEdges.  REQUIRES: has_middles(element()).
   [[nodiscard]] std::array<std::uint64_t, 6> middles(std::uint64_t tet) { return middles_[tet]; }
   [[nodiscard]] NodeRows tet_nodes(std::uint64_t number);
   /// The tet's number under the name header().values[column].
@@ -127,7 +126,7 @@ class GroupedMesh {
   [[nodiscard]] Facet facet(std::uint64_t number) { return facets_[number]; }
   /// The facet of an interface as label `second` has it: other rows where vertices were doubled.
   [[nodiscard]] Facet of_second(const Facet& facet);
-  /// Rows of the middles of the facet's edges 0 1, 1 2 and 2 0.  REQUIRES: kTet10.
+  /// Rows of the middles of the facet's edges 0 1, 1 2 and 2 0.  REQUIRES: has_middles(element()).
   [[nodiscard]] std::array<std::uint64_t, 3> facet_middles(const Facet& facet);
   [[nodiscard]] NodeRows facet_nodes(const Facet& facet);
 
@@ -138,7 +137,7 @@ class GroupedMesh {
   /// none.
   [[nodiscard]] std::uint64_t wedge_count() const { return wedges_.size(); }
   [[nodiscard]] Wedge wedge(std::uint64_t number) { return wedges_[number]; }
-  /// 6 nodes; with kTet10 12.
+  /// 6 nodes; with middles 12.
   [[nodiscard]] NodeRows wedge_nodes(const Wedge& wedge);
 
  private:
@@ -158,8 +157,9 @@ class GroupedMesh {
   std::vector<FacetGroup> facet_groups_;
   PagedFile<Wedge> wedges_;
   std::vector<WedgeGroup> wedge_groups_;
-  PagedFile<std::array<std::uint64_t, 2>> edges_;    ///< corners of each edge; kTet10 only
-  PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet; kTet10 only
+  PagedFile<std::array<std::uint64_t, 2>> edges_;    ///< corners of each edge, with middles only
+  PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet, likewise
+  std::optional<PagedArray<Position>> curved_;       ///< all nodes, with kCurvedTet10 only
 };
 
 /// Writes a grouped mesh into one file, which its constructor has opened.

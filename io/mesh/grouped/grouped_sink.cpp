@@ -8,6 +8,7 @@
 #include "io/file/errors.h"
 #include "io/file/scratch/external_sort.h"
 #include "io/labels/label_set.h"
+#include "io/mesh/grouped/curved_nodes.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/merged_vertices.h"
 #include "io/mesh/mesh_sink.h"
@@ -35,7 +36,18 @@ class MeshGrouping {
   MeshGrouping(const std::filesystem::path& folder, Element element);
 
   void begin(const MeshHeader& header) {
+    if (mesh_.element_ == Element::kCurvedTet10 && header.record.has_doubles) {
+      throw Error(ErrorKind::kUsage,
+                  "tet10-curved: not for a mesh with doubled vertices (--split, --cohesive, "
+                  "--open-hinges); tet10 is");
+    }
     mesh_.header_ = header;
+    mesh_.header_.record.curved = mesh_.element_ == Element::kCurvedTet10;
+    auto& promises = mesh_.header_.record.promises;
+    if (mesh_.header_.record.curved && promises) {
+      promises->quality_floor *= kCurvedFloor;
+      promises->max_distance.reset();
+    }
     if (header.record.has_doubles) doubles_.emplace(folder_, kSortBytes);
   }
   void add_vertices(std::span<const Position> positions);
@@ -120,7 +132,8 @@ void MeshGrouping::group() {
   }
   number_facets(facets);
   find_wedges();
-  if (mesh_.element_ == Element::kTet10) find_middles();
+  if (has_middles(mesh_.element_)) find_middles();
+  if (mesh_.element_ == Element::kCurvedTet10) mesh_.curved_.emplace(curve_nodes(mesh_, folder_));
 }
 
 void MeshGrouping::find_box() {
@@ -328,7 +341,9 @@ void GroupedSink::finish() {
 std::uint64_t GroupedSink::buffer_bytes() const {
   constexpr std::uint64_t kOfCorners = 64 << 20;
   constexpr std::uint64_t kOfMiddles = 32 << 20;
-  return element_ == Element::kTet10 ? kOfCorners + kOfMiddles : kOfCorners;
+  constexpr std::uint64_t kOfCurves = 32 << 20;
+  return kOfCorners + (has_middles(element_) ? kOfMiddles : 0) +
+         (element_ == Element::kCurvedTet10 ? kOfCurves : 0);
 }
 
 GroupedMesh& GroupedSink::mesh() {

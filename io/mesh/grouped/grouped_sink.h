@@ -10,10 +10,12 @@ namespace mw::io {
 class MeshGrouping;
 
 /// Collects a mesh; finish() groups it and has it written.
-/// Memory: 64 MiB, 96 with kTet10, whatever the mesh; the rest waits in temporary files in
-/// `folder`, at most some 400 bytes a tet (1,000 with kTet10).
+/// Memory: 64 MiB, 96 with kTet10, 128 with kCurvedTet10, whatever the mesh; the rest waits in
+/// temporary files in `folder`, at most some 400 bytes a tet (1,000 with kTet10, 1,300 with curved
+/// ones).
 /// ERRORS: see MeshSink; kInput when a tet names a vertex that never came, or three tets share a
-/// triangle: no facet would bound anything then.
+/// triangle: no facet would bound anything then; begin() throws kUsage where kCurvedTet10 is asked
+/// of a mesh with doubled vertices.
 class GroupedSink : public MeshSink {
  public:
   /// writer: may be empty, for who takes the mesh.  REQUIRES: an existing folder.

@@ -34,7 +34,7 @@ void LsdynaWriter::write(GroupedMesh& mesh) {
                                         max, " are needed; write .exo or .vtkhdf"));
   }
   constexpr std::uint64_t kTet4Form = 10, kTet10Form = 16;
-  const bool ten = mesh.element() == Element::kTet10;
+  const bool ten = has_middles(mesh.element());
   const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
   const PlainNames names(mesh);
   line("*KEYWORD");

@@ -12,12 +12,14 @@
 #include "io/mesh/apart_mesh.h"
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"
+#include "io/mesh/tet_parts.h"
 #include "io/mesh/vtkhdf/hdf5_array.h"
 
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kBatchRows = kMaxApartRows;
+/// Of cells; each may become several tets.
+constexpr std::uint64_t kBatchRows = kMaxApartRows / kTetParts.size();
 std::string type_of(hid_t group) {
   const Hdf5Handle attribute(H5Aopen(group, "Type", H5P_DEFAULT), &H5Aclose);
   const Hdf5Handle type(H5Aget_type(attribute.get()), &H5Tclose);
@@ -42,6 +44,8 @@ class Reader {
         cell_counts_(counts(group.get(), "NumberOfCells")),
         labels_(label_array(group.get())),
         header_(std::move(facts)) {
+    header_.in_parts = header_.record.curved;
+    header_.record.curved = false;
     find_values(group.get());
   }
 
@@ -51,10 +55,10 @@ class Reader {
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) survey(part);
     if (labels_) check_rows(*labels_, cells);
     for (const Hdf5Array& array : values_) check_rows(array, cells);
-    header_.tets = cells - wedges_;
+    header_.tets = (cells - wedges_) * parts();
     header_.labels_signed = labels_ && labels_->is_signed();
     sink_.begin(header_);
-    if (ten_nodes_) find_middles();
+    if (drops_middles()) find_middles();
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {
       read_points(part);
       read_cells(part);
@@ -64,6 +68,10 @@ class Reader {
 
  private:
   using Numbers = std::vector<std::uint64_t>;
+
+  /// How many tets of the mesh a tet of the file is.
+  [[nodiscard]] std::size_t parts() const { return header_.in_parts ? kTetParts.size() : 1; }
+  [[nodiscard]] bool drops_middles() const { return ten_nodes_ && !header_.in_parts; }
 
   [[nodiscard]] std::vector<std::uint64_t> counts(hid_t group, const char* name) const {
     const Hdf5Array array(group, name, file_);
@@ -191,12 +199,16 @@ class Reader {
       fail_input(file_, text("a cell behind row ", row),
                  text("type ", type, " is no tetrahedron (10 or 24)"), "keep only the tetrahedra");
     }
+    if (header_.in_parts && type == kVtkTetra) {
+      fail_input(file_, text("a cell behind row ", row),
+                 "the curved mesh has a tet without ten nodes");
+    }
     ten_nodes_ = ten_nodes_ || type == kVtkQuadraticTetra;
     return nodes;
   }
 
-  /// Calls take(corners, middles, types) on batches of a partition's cells; corners and middles are
-  /// those of tets.  Wedges, of which the record tells, follow from the tets.
+  /// Calls take(tets, middles, types) on batches of a partition's cells; middles are those of tets.
+  /// Curved tets come in their parts, without middles.  Wedges, of which the record tells, follow from the tets.
   template <class Take>
   void each_batch(std::size_t part, Take take) {
     std::vector<std::uint64_t> types, middles;
@@ -219,10 +231,15 @@ class Reader {
           next += nodes_of(type, at);
           continue;
         }
-        TetRows& tet = tets.emplace_back();
-        for (std::uint64_t& row : tet) row = row_of(part, *next++);
-        const std::uint64_t behind = nodes_of(type, at) - tet.size();
-        for (std::uint64_t i = 0; i < behind; ++i) middles.push_back(row_of(part, *next++));
+        std::array<std::uint64_t, 10> rows{};
+        const std::size_t row_count = nodes_of(type, at);
+        for (std::size_t i = 0; i < row_count; ++i) rows[i] = row_of(part, *next++);
+        if (header_.in_parts) {
+          add_parts(rows, tets);
+          continue;
+        }
+        tets.push_back({rows[0], rows[1], rows[2], rows[3]});
+        for (std::size_t i = 4; i < row_count; ++i) middles.push_back(rows[i]);
       }
       take(tets, middles, types);
     }
@@ -254,7 +271,7 @@ class Reader {
 
   void read_points(std::size_t part) {
     const std::uint64_t first = parts_[part].points;
-    stream_points(points_, {first, first + point_counts_[part]}, ten_nodes_ ? &rows_ : nullptr,
+    stream_points(points_, {first, first + point_counts_[part]}, drops_middles() ? &rows_ : nullptr,
                   sink_);
   }
 
@@ -262,7 +279,7 @@ class Reader {
     std::vector<RawLabel> of_cells, labels;
     std::uint64_t at = parts_[part].cells;
     each_batch(part, [&](std::vector<TetRows>& tets, const auto&, const Numbers& types) {
-      if (ten_nodes_) {
+      if (drops_middles()) {
         for (TetRows& tet : tets) {
           for (std::uint64_t& row : tet) row = rows_[row];
         }
@@ -271,7 +288,7 @@ class Reader {
       read_labels(*labels_, at, of_cells);
       labels.clear();
       for (std::size_t i = 0; i < types.size(); ++i) {
-        if (!is_vtk_wedge(types[i])) labels.push_back(of_cells[i]);
+        if (!is_vtk_wedge(types[i])) labels.insert(labels.end(), parts(), of_cells[i]);
       }
       sink_.write_tets(tets, labels);
       pass_values(at, types);
@@ -282,13 +299,14 @@ class Reader {
   /// Passes on the values of the tets among the cells of these types.
   void pass_values(std::uint64_t first, const Numbers& types) {
     if (values_.empty()) return;
-    std::vector<double> rows(types.size() * values_.size()), column(types.size());
+    std::vector<double> rows(types.size() * parts() * values_.size()), column(types.size());
     std::size_t tets = 0;
     for (std::size_t i = 0; i < values_.size(); ++i) {
       values_[i].read(first, types.size(), column.data());
       tets = 0;
       for (std::size_t cell = 0; cell < types.size(); ++cell) {
-        if (!is_vtk_wedge(types[cell])) rows[tets++ * values_.size() + i] = column[cell];
+        if (is_vtk_wedge(types[cell])) continue;
+        for (std::size_t p = 0; p < parts(); ++p) rows[tets++ * values_.size() + i] = column[cell];
       }
     }
     rows.resize(tets * values_.size());

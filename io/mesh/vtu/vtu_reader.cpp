@@ -10,6 +10,7 @@
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/kept_rows.h"
+#include "io/mesh/tet_parts.h"
 #include "io/mesh/vtu/vtu_layout.h"
 #include "io/vtk_xml/vtk_document.h"
 
@@ -70,17 +71,28 @@ void read_points(pugi::xml_node piece, VtkDocument& document, MeshData& mesh) {
   }
 }
 
-/// Cells of a piece.
+/// Cells of a piece.  Each tet becomes `parts` tets of the mesh.
 struct VtuCells {
   std::vector<std::uint64_t> types;
   std::vector<std::uint64_t> ends;  ///< of the nodes of each
+  std::size_t parts = 1;
+
+  /// Calls visit(cell) for each tet, as often as it has parts.
+  template <class Visit>
+  void each_part(Visit visit) const {
+    for (std::size_t cell = 0; cell < types.size(); ++cell) {
+      if (is_vtk_wedge(types[cell])) continue;
+      for (std::size_t part = 0; part < parts; ++part) visit(cell);
+    }
+  }
 };
 
 /// Wedges are left out where the mesh's record tells of them, and follow from the tets.
 VtuCells read_kinds(pugi::xml_node cells, std::uint64_t count, VtkDocument& document,
                     const MeshRecord& record) {
   VtuCells out{.types = document.integers(named_array(cells, "types", document), count),
-               .ends = document.integers(named_array(cells, "offsets", document), count)};
+               .ends = document.integers(named_array(cells, "offsets", document), count),
+               .parts = record.curved ? kTetParts.size() : 1};
   std::uint64_t last = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t nodes = vtk_nodes_of(out.types[i], record.cohesive.any());
@@ -89,6 +101,9 @@ VtuCells read_kinds(pugi::xml_node cells, std::uint64_t count, VtkDocument& docu
                  text("type ", out.types[i], " is no tetrahedron (10 or 24)"),
                  "keep only the tetrahedra");
     }
+    if (record.curved && out.types[i] != kVtkQuadraticTetra) {
+      fail_input(document.file(), text("cell ", i), "the curved mesh has a tet without ten nodes");
+    }
     last += nodes;
     if (out.ends[i] == last) continue;
     fail_input(document.file(), text("offset of cell ", i), text(out.ends[i], " is not ", last));
@@ -96,7 +111,7 @@ VtuCells read_kinds(pugi::xml_node cells, std::uint64_t count, VtkDocument& docu
   return out;
 }
 
-/// Corners of tets, and which nodes are middles.
+/// Corners of tets, and which nodes are middles; of curved tets the parts.
 void read_corners(pugi::xml_node cells, const VtuCells& kinds, VtkDocument& document,
                   MeshData& mesh, KeptRows& middles) {
   const std::vector<std::uint64_t>& ends = kinds.ends;
@@ -110,17 +125,19 @@ void read_corners(pugi::xml_node cells, const VtuCells& kinds, VtkDocument& docu
       at = ends[i];
       continue;
     }
-    mesh.tets.emplace_back();
+    std::array<std::uint64_t, 10> rows_of_tet{};
     for (std::size_t n = 0; at < ends[i]; ++n, ++at) {
       if (nodes[at] >= rows) {
         fail_input(document.file(), text("cell ", i),
                    text("names point ", nodes[at], ", there are ", rows));
       }
-      if (n < 4) {
-        mesh.tets.back()[n] = first_row + nodes[at];
-      } else {
-        middles.middle(first_row + nodes[at]);
-      }
+      rows_of_tet[n] = first_row + nodes[at];
+      if (n >= 4 && !mesh.record.curved) middles.middle(rows_of_tet[n]);
+    }
+    if (mesh.record.curved) {
+      add_parts(rows_of_tet, mesh.tets);
+    } else {
+      mesh.tets.push_back({rows_of_tet[0], rows_of_tet[1], rows_of_tet[2], rows_of_tet[3]});
     }
   }
 }
@@ -142,9 +159,7 @@ void read_values(pugi::xml_node cell_data, const VtuCells& kinds, std::size_t be
     if (column->numbers.size() > before) continue;  // the name was there before in this piece
     column->numbers.resize(before, std::nan(""));
     const std::vector<double> numbers = document.reals(array, kinds.types.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      if (!is_vtk_wedge(kinds.types[i])) column->numbers.push_back(numbers[i]);
-    }
+    kinds.each_part([&](std::size_t cell) { column->numbers.push_back(numbers[cell]); });
   }
   for (TetValues& column : mesh.values) column.numbers.resize(mesh.tets.size(), std::nan(""));
 }
@@ -158,9 +173,7 @@ void read_cells(pugi::xml_node piece, VtkDocument& document, MeshData& mesh, Kep
   read_corners(piece.child("Cells"), kinds, document, mesh, middles);
   const pugi::xml_node array = label_array(piece.child("CellData"), document);
   const auto labels = document.integers(array, count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!is_vtk_wedge(kinds.types[i])) mesh.labels.push_back(labels[i]);
-  }
+  kinds.each_part([&](std::size_t cell) { mesh.labels.push_back(labels[cell]); });
   const auto type = parse_number_type(array.attribute("type").as_string());
   mesh.labels_signed = mesh.labels_signed || type->is_signed;
   read_values(piece.child("CellData"), kinds, tets_before, document, mesh);
@@ -201,6 +214,8 @@ MeshData read_vtu(const ByteSource& source) {
   mesh.record = read_vtu_record(document);
   read_grid(document, mesh, middles);
   drop_middles(mesh, middles);
+  mesh.in_parts = mesh.record.curved;
+  mesh.record.curved = false;
   mesh.names = read_vtu_names(document);
   return mesh;
 }

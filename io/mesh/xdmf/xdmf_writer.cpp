@@ -64,14 +64,14 @@ std::string topology_text(const XdmfFacts& facts, const char* type, const Item& 
 }
 
 std::string tets_text(const XdmfFacts& facts) {
-  const bool ten = facts.element == Element::kTet10;
+  const bool ten = has_middles(facts.element);
   return topology_text(
       facts, ten ? "Tetrahedron_10" : "Tetrahedron",
       {.path = "/Mesh/mesh/topology", .rows = facts.tets, .components = node_count(facts.element)});
 }
 
 std::string facets_text(const XdmfFacts& facts) {
-  const bool ten = facts.element == Element::kTet10;
+  const bool ten = has_middles(facts.element);
   return topology_text(
       facts, ten ? "Triangle_6" : "Triangle",
       {.path = "/MeshTags/facet_tags/topology", .rows = facts.facets, .components = ten ? 6U : 3U});
@@ -275,7 +275,7 @@ Hdf5DataSet XdmfWriter::cell_tags(const GroupedMesh& mesh, const LabelNumbers& n
 }
 
 Hdf5DataSet XdmfWriter::facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs) {
-  const std::uint64_t nodes = mesh.element() == Element::kTet10 ? 6 : 3, count = facets_of(runs);
+  const std::uint64_t nodes = has_middles(mesh.element()) ? 6 : 3, count = facets_of(runs);
   auto column = column_of<std::uint64_t>(numbers_, nodes * count);
   for (const NumberedFacets& run : runs) {
     for (std::uint64_t i = run.facets.begin; i < run.facets.end; ++i) {

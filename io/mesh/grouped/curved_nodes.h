@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Curved interfaces: where the ten nodes of each tet lie.
+#pragma once
+
+#include "io/file/scratch/paged_array.h"
+#include "io/mesh/grouped/grouped_mesh.h"
+
+namespace mw::io {
+
+/// Finds places for all nodes of a mesh with kCurvedTet10, from its straight tets alone.
+///
+/// Interfaces of straight triangles that enclose the right volume have their corners outside of a
+/// smooth convex surface, and the middles of their edges on it or inside.  Here both come to lie on
+/// the surface, as a normal at each corner tells it (Max 1999): an edge bulges as a parabola with
+/// these normals at its ends does, and a corner goes back by the mean bulge of its edges.  Then
+/// corners move along their normals until the volume on each side of the surface is what it was,
+/// corner by corner.
+///
+/// Where an interface ends (at other labels, or in the box) and where it bends by more than 60
+/// degrees its edges form lines.  These are curved likewise, by tangents; in a side of the box they
+/// stay in it.  Corners at the ends of lines stay, and so does a side of a periodic box.
+///
+/// Guarantees: the Jacobian of each tet is at least kLeastJacobian of what it was, everywhere in
+/// it, proven by its Bernstein coefficients, and so are the parts of kTetParts; the straight tets
+/// between the corners keep the quality floor of the mesh's record, which is kCurvedFloor of the
+/// straight mesh's.  Nodes go half the way, or a
+/// quarter, or nowhere, where that takes them.  Edges inside of labels are straight, with their
+/// nodes in the middle.
+/// Memory: 24 MiB.  Disk: some 400 bytes a vertex and 120 an edge.
+/// ERRORS: see ScratchFile.
+/// REQUIRES: facets and middles were found; no vertex is doubled.
+[[nodiscard]] PagedArray<Position> curve_nodes(GroupedMesh& mesh,
+                                               const std::filesystem::path& folder);
+
+/// The least share of six times a straight tet's volume that the Jacobian of the curved one keeps.
+inline constexpr double kLeastJacobian = 0.1;
+/// The share of the quality floor that the straight tets between the corners keep.
+inline constexpr double kCurvedFloor = 0.5;
+
+}  // namespace mw::io

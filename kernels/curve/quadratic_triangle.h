@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Triangles of six nodes, and the volume between two of them.
+#pragma once
+
+#include <array>
+
+#include "kernels/core/metric.h"
+
+namespace mw {
+
+/// The corners 0, 1 and 2, then the middles of the edges 0 1, 1 2 and 2 0.
+using QuadraticTriangle = std::array<Vec3, 6>;
+
+/// Returns the signed volume that the surface sweeps over while its nodes go straight from `from`
+/// to `to`, weighted by the hat function of each corner; positive where it moves along the normal
+/// by the right hand.  The three add up to the volume between the two, sides included, so that sums
+/// over a closed surface are the difference of the volumes that it encloses.  Exact but for
+/// rounding: the quadrature is of degree 5 in the triangle (Radon 1948) and Simpson's rule in time.
+[[nodiscard]] std::array<double, 3> swept_volumes(const QuadraticTriangle& from,
+                                                  const QuadraticTriangle& to);
+
+}  // namespace mw
