@@ -316,7 +316,7 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
 
 /// How a mesh is written into a file.
 struct FileOptions {
-  std::string element = "tet4";  ///< or "tet10"
+  std::string element = "tet4";  ///< or "tet10", or "tet10-curved" (io/README.md, "Curved tets")
   bool values = true;            ///< whether the values of tets are written
   /// Materials by equal ranges of a value, as `mwmesh mesh --materials` has them: "NAME=N" or
   /// "NAME=N:LO:HI"; empty: none.

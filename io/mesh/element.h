@@ -14,8 +14,8 @@
 namespace mw::io {
 
 enum class Element : std::uint8_t {
-  kTet4,   ///< its corners
-  kTet10,  ///< and the middles of its edges, on straight edges
+  kTet4,         ///< its corners
+  kTet10,        ///< and the middles of its edges, on straight edges
   kCurvedTet10,  ///< ten nodes, with edges of interfaces curved (grouped/curved_nodes.h)
 };
 

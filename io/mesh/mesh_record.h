@@ -78,9 +78,10 @@ struct MeshRecord {
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none",
 /// "periodic": "xy"},
 /// "frame": "ras", "only_labels": [...], "without_labels": [...], "partial_labels": [...],
-/// "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3]}, without what is not known; empty when
-/// nothing is.  "cohesive" has the labels under and on top of wedges by turns, or is true: all.
-/// Labels are numbers of 64 bits with a sign.  ASCII, no line end; numbers come back to the bit.
+/// "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3]}, without what is not known;
+/// empty when nothing is.  "cohesive" has the labels under and on top of wedges by turns, or is
+/// true: all. Labels are numbers of 64 bits with a sign.  ASCII, no line end; numbers come back to
+/// the bit.
 [[nodiscard]] std::string record_text(const MeshRecord& record);
 
 /// Nothing of an empty text.  ERRORS: mw::Error(kInput) naming file and field.  Whether a run can

@@ -8,8 +8,8 @@
 
 namespace mw {
 
-/// The six edges of a tet by its corners, in the order of VTK's, Abaqus' and FEBio's ten nodes: node
-/// 4 + e is the middle of edge e.
+/// The six edges of a tet by its corners, in the order of VTK's, Abaqus' and FEBio's ten nodes:
+/// node 4 + e is the middle of edge e.
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 

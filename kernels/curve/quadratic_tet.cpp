@@ -3,7 +3,6 @@
 // The Jacobian in Bernstein form.
 #include "kernels/curve/quadratic_tet.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 

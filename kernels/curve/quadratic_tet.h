@@ -3,6 +3,7 @@
 // Tets of ten nodes: where they are positive.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 
 #include "kernels/core/metric.h"

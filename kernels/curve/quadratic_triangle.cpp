@@ -3,8 +3,6 @@
 // Quadrature over triangles of six nodes.
 #include "kernels/curve/quadratic_triangle.h"
 
-#include <Eigen/Geometry>
-
 namespace mw {
 namespace {
 
@@ -63,7 +61,8 @@ std::array<double, 3> swept_volumes(const QuadraticTriangle& from, const Quadrat
   std::array<double, 3> out{};
   for (std::size_t step = 0; step < kSimpson.size(); ++step) {
     QuadraticTriangle now = from;
-    for (std::size_t i = 0; i < now.size(); ++i) now[i] += 0.5 * static_cast<double>(step) * move[i];
+    for (std::size_t i = 0; i < now.size(); ++i)
+      now[i] += 0.5 * static_cast<double>(step) * move[i];
     for (const QuadraturePoint& point : kPoints) {
       const Vec3 normal = sum_of(point.along1, now).cross(sum_of(point.along2, now));
       const double volume =

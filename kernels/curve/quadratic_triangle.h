@@ -3,6 +3,7 @@
 // Triangles of six nodes, and the volume between two of them.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 
 #include "kernels/core/metric.h"

@@ -164,6 +164,21 @@ class Case:
             raise Failed(f"{path} has another digest")
         return path
 
+    def curved(self):
+        """Curved tets of the same mesh are positive, and their labels what they were."""
+        if ({"split", "cohesive", "open-hinges"} & set(self.settings.flags)
+                or self.settings.output.split(".")[1] not in settings_of.KEEP_PROMISES
+                or self.random.random() < 0.6):
+            return
+        (self.folder / "k").mkdir()
+        path = "k/k." + self.random.choice(("vtu", "vtkhdf"))
+        self.run(["convert", "a/" + self.settings.output, path, "--element", "tet10-curved"])
+        arguments = [f"--{name}={value}" for name, value in self.settings.prepare.items()]
+        text = self.run(["verify", self.volume.file, *self.volume.arguments, *arguments, path])[1]
+        if "P2 Jacobians" not in text:
+            raise Failed("verify does not look at Jacobians")
+        self.did.append("curved")
+
     def judged(self, converted):
         """Another program's opinion, where there is one and it can read what was made."""
         meshes = [p for p in ("a/" + self.settings.output, converted)
@@ -353,6 +368,7 @@ class Case:
         self.verify()
         self.check_report()
         self.judged(self.converted())
+        self.curved()
         self.disturbed_run()
         if self.random.random() < 0.5:
             self.edited_runs()

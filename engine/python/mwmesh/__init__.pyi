@@ -22,7 +22,7 @@ _Specks: TypeAlias = int | tuple[int, int]
 _Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
 _Certify: TypeAlias = Literal["auto", "on", "off"]
 _Axes: TypeAlias = Literal["zyx", "xyz"]
-_Element: TypeAlias = Literal["tet4", "tet10"]
+_Element: TypeAlias = Literal["tet4", "tet10", "tet10-curved"]
 #: A label by its number or by its name.
 _Label: TypeAlias = int | str
 _Names: TypeAlias = Mapping[int, str] | Sequence[str | None] | _Path

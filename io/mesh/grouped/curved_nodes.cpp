@@ -3,7 +3,6 @@
 // Bulges of edges, moves of corners, and the balance of volumes.
 #include "io/mesh/grouped/curved_nodes.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -22,18 +21,18 @@ constexpr double kMaxBulge = 0.125;
 constexpr double kMaxMove = 0.25;
 /// How much of normals may cancel at a corner that has one.
 constexpr double kLeastAgreement = 0.5;
-/// How often volumes are balanced; what is left after two rounds is a tenth of a per mille.
-constexpr int kRounds = 2;
+/// How often volumes are balanced; what is left then is some tenth of a per mille.
+constexpr int kRounds = 3;
 
 enum class CornerKind : std::uint8_t { kStays, kOnSurface, kOnLine };
 
 struct Corner {
   Position direction{};  ///< unit normal on a surface, unit tangent on a line; sums before
   Position move{};
-  double lengths = 0;  ///< of the summands of `direction`
-  double area = 0;     ///< a third of that of its triangles
-  double volume = 0;   ///< that it is to move over
-  double shortest = 0;  ///< of its edges on interfaces
+  double lengths = 0;                   ///< of the summands of `direction`
+  double area = 0;                      ///< a third of that of its triangles
+  double volume = 0;                    ///< that it is to move over
+  double shortest = 0;                  ///< of its edges on interfaces
   std::array<std::uint64_t, 2> line{};  ///< the first two corners that its lines go to
   std::uint32_t group = 0;
   std::uint32_t facets = 0;
@@ -146,8 +145,8 @@ class Curving {
     const Vec3 normal = (at[1] - at[0]).cross(at[2] - at[0]);
     const double length = normal.norm();
     for (std::size_t i = 0; i < 3; ++i) {
-      const double weight = 1 / ((at[(i + 1) % 3] - at[i]).squaredNorm() *
-                                 (at[(i + 2) % 3] - at[i]).squaredNorm());
+      const double weight =
+          1 / ((at[(i + 1) % 3] - at[i]).squaredNorm() * (at[(i + 2) % 3] - at[i]).squaredNorm());
       corners_.change(facet.rows[i], [&](Corner& corner) {
         if (corner.facets++ == 0) corner.group = group;
         corner.has_more_groups = corner.has_more_groups || corner.group != group;
@@ -162,8 +161,8 @@ class Curving {
           edge.group = group;
           edge.normal = position_of(unit);
         } else {
-          edge.is_bent = edge.is_bent || edge.group != group ||
-                         unit.dot(vector_of(edge.normal)) < kLineCosine;
+          edge.is_bent =
+              edge.is_bent || edge.group != group || unit.dot(vector_of(edge.normal)) < kLineCosine;
         }
       });
     }
@@ -193,7 +192,8 @@ class Curving {
       kind = CornerKind::kOnSurface;
       direction.normalize();
     } else if (may_follow_line(corner)) {
-      const Vec3 before = place(v) - place(corner.line[0]), after = place(corner.line[1]) - place(v);
+      const Vec3 before = place(v) - place(corner.line[0]),
+                 after = place(corner.line[1]) - place(v);
       const double one = before.norm(), other = after.norm();
       if (before.dot(after) >= kLineCosine * one * other) {
         // The tangent of the circle through the three corners.
@@ -274,8 +274,8 @@ class Curving {
   void go_back(std::uint64_t v) {
     const Corner corner = corners_.get(v);
     if (corner.kind == CornerKind::kStays) return;
-    Vec3 move = vector_of(corner.move) /
-                (corner.kind == CornerKind::kOnLine ? corner.lines : corner.edges);
+    Vec3 move =
+        vector_of(corner.move) / (corner.kind == CornerKind::kOnLine ? corner.lines : corner.edges);
     const Vec3 direction = vector_of(corner.direction);
     if (corner.kind == CornerKind::kOnSurface) move = move.dot(direction) * direction;
     corners_.change(v, [&](Corner& c) { c.move = position_of(within(move, c)); });

@@ -65,9 +65,10 @@ struct Wedge {
   std::uint64_t top_tet = 0;
 };
 
-/// Nodes of a tet, a facet or a wedge: its corners, and with ten nodes a tet behind them the middles of its
-/// edges, those of a tet in the order of kTetEdges, those of a facet as edges 0 1, 1 2 and 2 0.  A
-/// wedge has the corners of bottom and top, then the middles of the bottom's and the top's edges.
+/// Nodes of a tet, a facet or a wedge: its corners, and with ten nodes a tet behind them the
+/// middles of its edges, those of a tet in the order of kTetEdges, those of a facet as edges 0 1, 1
+/// 2 and 2 0.  A wedge has the corners of bottom and top, then the middles of the bottom's and the
+/// top's edges.
 class NodeRows {
  public:
   [[nodiscard]] const std::uint64_t* begin() const { return rows_.data(); }

@@ -34,8 +34,7 @@ class Straightening {
       const NodeRows rows = mesh_.tet_nodes(number);
       const QuadraticTet tet = moved(rows);
       for (std::size_t i = 4; i < tet.size(); ++i) {
-        out.change(rows.begin()[i],
-                   [&](Position& p) { p = {tet[i][0], tet[i][1], tet[i][2]}; });
+        out.change(rows.begin()[i], [&](Position& p) { p = {tet[i][0], tet[i][1], tet[i][2]}; });
       }
     }
     return out;

@@ -11,8 +11,8 @@ namespace mw::io {
 /// Where a node is to go from its place in the straight mesh.
 struct NodeMove {
   Position move{};
-  bool has_own = false;      ///< a middle that does not follow from its corners
-  std::uint8_t shorter = 0;  ///< 0 all of the way, 1 half of it, 2 a quarter, 3 nothing
+  bool has_own = false;       ///< a middle that does not follow from its corners
+  std::uint8_t shorter = 0;   ///< 0 all of the way, 1 half of it, 2 a quarter, 3 nothing
   bool is_held_back = false;  ///< goes less far from the next round on
   bool was_changed = false;   ///< in the last round
 };

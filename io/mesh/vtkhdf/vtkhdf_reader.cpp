@@ -208,7 +208,8 @@ class Reader {
   }
 
   /// Calls take(tets, middles, types) on batches of a partition's cells; middles are those of tets.
-  /// Curved tets come in their parts, without middles.  Wedges, of which the record tells, follow from the tets.
+  /// Curved tets come in their parts, without middles.  Wedges, of which the record tells, follow
+  /// from the tets.
   template <class Take>
   void each_batch(std::size_t part, Take take) {
     std::vector<std::uint64_t> types, middles;

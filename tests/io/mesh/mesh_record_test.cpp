@@ -31,6 +31,7 @@ MeshRecord random_record(unsigned seed) {
   if (seed % 5 == 2) record.without_labels = labels;
   if (seed % 7 == 1) record.partial_labels = labels;
   record.has_doubles = seed % 7 == 2;
+  record.curved = seed % 5 == 3;
   if (seed % 11 == 6) record.cohesive.pairs = {{labels[0], labels[1]}, {labels[2], labels[0]}};
   if (seed % 11 == 7) record.cohesive.all = true;
   if (seed % 3 == 0) return record;
@@ -57,6 +58,7 @@ TEST(MeshRecord, ComesBackThroughFilesAndIsNoPartOfTheDigest) {
   const std::string digest = mesh_digest(mesh);
   for (unsigned seed = 1; seed < 6; ++seed) {
     mesh.record = random_record(seed);
+    mesh.record.curved = false;  // these tets have four nodes
     mesh.names = seed % 2 == 0 ? LabelNames() : LabelNames({{1, "a", {}}});
     for (const char* name : {"m.vtkhdf", "m.vtu", "m.mesh", "m.xdmf"}) {
       write_mesh(mesh, *open_mesh_sink(dir.path() / name));
