@@ -38,8 +38,8 @@ inline constexpr std::string_view kMshRecord = "mwmesh ";
 [[nodiscard]] std::int32_t wedge_volume(const LabelNumbers& labels, const GroupedMesh& mesh,
                                         std::size_t group);
 
-/// Writes a section of comments with the record of the run, where the mesh has wedges, which without
-/// it could not be found again in what is read, or curved tets.
+/// Writes a section of comments with the record of the run, where the mesh has curved tets or
+/// wedges, which could not be found again without it.
 void write_record(MshEncoder& out, const GroupedMesh& mesh);
 
 /// Writes the section of the names of all physical surfaces and volumes (see MshWriter).

@@ -18,8 +18,9 @@
 namespace mw::io {
 namespace {
 
-/// Of cells; each may become several tets.
+/// The number of cells read at a time, each of which may become several tets.
 constexpr std::uint64_t kBatchRows = kMaxApartRows / kTetParts.size();
+
 std::string type_of(hid_t group) {
   const Hdf5Handle attribute(H5Aopen(group, "Type", H5P_DEFAULT), &H5Aclose);
   const Hdf5Handle type(H5Aget_type(attribute.get()), &H5Tclose);

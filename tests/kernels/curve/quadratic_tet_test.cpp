@@ -43,7 +43,7 @@ Vec3 place_in(const QuadraticTet& t, const Barycentric& l) {
   return out;
 }
 
-/// By central differences, which are exact for polynomials of degree 2 but for rounding.
+/// By central differences, which are exact for polynomials of degree 2 except for rounding.
 double jacobian_at(const QuadraticTet& t, const Barycentric& l) {
   constexpr double kStep = 1e-2;
   Eigen::Matrix3d slopes;
