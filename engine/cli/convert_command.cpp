@@ -94,13 +94,13 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .flags = "OUT,-o,--out",
                .required = true,
                .assign = into(job.to)});
-  options.add(
-      {.name = "element",
-       .help = "nodes of a tet; tet10: with the middles of edges, on curved interfaces if so said",
-       .group = kOutputGroup,
-       .fallback = "tet4",
-       .choices = {"tet4", "tet10", "tet10-curved"},
-       .assign = into(job.element, parse_element)});
+  options.add({.name = "element",
+               .value = "NAME",
+               .help = "tet4; tet10: also nodes on edges; tet10-curved: on curves",
+               .group = kOutputGroup,
+               .fallback = "tet4",
+               .choices = {"tet4", "tet10", "tet10-curved"},
+               .assign = into(job.element, parse_element)});
   options.add({.name = "ascii",
                .help = "a .msh as text instead of binary",
                .group = kOutputGroup,

@@ -187,13 +187,13 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .flags = "-o,--output",
                .required = true,
                .assign = into(request.output)});
-  options.add(
-      {.name = "element",
-       .help = "nodes of a tet; tet10: with the middles of edges, on curved interfaces if so said",
-       .group = kOutputGroup,
-       .fallback = "tet4",
-       .choices = {"tet4", "tet10", "tet10-curved"},
-       .assign = into(request.element, parse_element)});
+  options.add({.name = "element",
+               .value = "NAME",
+               .help = "tet4; tet10: also nodes on edges; tet10-curved: on curves",
+               .group = kOutputGroup,
+               .fallback = "tet4",
+               .choices = {"tet4", "tet10", "tet10-curved"},
+               .assign = into(request.element, parse_element)});
   add_connect_options(options, request.job.connect);
   options.add({.name = "report",
                .value = "FILE.json",
