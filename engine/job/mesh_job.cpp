@@ -4,11 +4,13 @@
 #include "engine/job/mesh_job.h"
 
 #include <atomic>
+#include <cmath>
 #include <sstream>
 
 #include "engine/connect/connected_sink.h"
 #include "engine/job/certificate.h"
 #include "engine/job/count_pilot.h"
+#include "engine/job/halving.h"
 #include "engine/job/unpacking.h"
 #include "engine/job/volume_delta.h"
 #include "engine/keep/keep_folder.h"
@@ -277,6 +279,11 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   MeshJob job = asked;
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
+  const int halvings = halvings_of(opened.info(), asked);
+  const double coarser = std::ldexp(1.0, halvings);
+  job.settings.sizes.rules = asked.settings.sizes.rules.scaled(coarser);
+  const int cuts = 1 << halvings;
+  job.settings.sizes.across = (asked.settings.sizes.across + cuts - 1) / cuts;
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
   const io::LabelScores* const scores = opened.scores();
@@ -284,6 +291,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   check_unpacking(opened, reading_room(job, scores != nullptr));
   for (const SampleImage& sample : job.samples) check_unpacking(*sample.image, reading_room(job));
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
+  if (sizes) sizes.emplace(sizes->scaled(coarser));
   const StoppableVolume from_file(opened, job.stop);
   KeptInput kept(from_file, job);
   const io::LabelVolume& stoppable = kept.volume();
@@ -294,7 +302,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   Processes& processes = job.run.processes == nullptr ? one_process() : *job.run.processes;
   report::FinishedRun run{.volume = volume.info(),
                           .labels = processes.collect_labels(volume, job.run.threads),
-                          .sizes = job.settings.sizes,
+                          .sizes = asked.settings.sizes,
                           .specks = input.specks(),
                           .welds = input.welds()};
   run.labels_seconds = meter.read().wall_seconds;
@@ -319,6 +327,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   io::MeshSink& target = connected ? static_cast<io::MeshSink&>(*connected) : sink;
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, target, job.stop);
+  const bool has_edges = job.is_measured && run.sizes.rules.any();
+  Halving halving(halvings, certifier ? certifier->sink() : target, job, run.labels,
+                  has_edges ? edge_sizes(run.sizes.rules, run.labels) : std::vector<double>{});
   std::optional<ImageSampler> sampler;
   if (!job.samples.empty()) {
     sampler.emplace(job.samples, opened.info(), thread_count(job.run.threads));
@@ -328,7 +339,8 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     hooks.output.values = sampler ? &*sampler : nullptr;
     hooks.sizes = sizes ? &*sizes : nullptr;
     hooks.keep.opened = kept.folder();
-    run.engine = march(labels, job, certifier ? certifier->sink() : target, std::move(hooks));
+    run.engine = march(labels, job, halving.sink(), std::move(hooks));
+    halving.report(run.engine);
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kCheckFailed) {
       refuse_changed_input(input.volume(), volume.sum(), job.run.threads);
@@ -345,9 +357,11 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     run.engine.tets = run.connected->tets;
   }
   if (sampler) run.samples = sampler->facts();
+  io::MeshPromises promises = promises_of(job.settings);
+  promises.halvings = halvings;
+  run.radius_ratio_floor = floor_of(promises);
   run.why_no_certificate = plan.why_not;
-  run.why_no_volumes =
-      scores != nullptr ? kVolumesOfScores : why_no_volumes(promises_of(job.settings));
+  run.why_no_volumes = scores != nullptr ? kVolumesOfScores : why_no_volumes(promises);
   if (certifier) run.certificate = certifier->report();
   run.resources = meter.read();
   return run;

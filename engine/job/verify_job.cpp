@@ -113,7 +113,8 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
                     (kept.told.empty() ? "of some" : kept.told));
   }
   if (asked.max_distance) bounds.max_distance = *asked.max_distance;
-  bounds.quality_floor = asked.quality_floor.value_or(bounds.quality_floor);
+  bounds.quality_floor = asked.quality_floor.value_or(floor_of(bounds));
+  bounds.halvings = 0;
   bounds.smooth = asked.smooth.value_or(bounds.smooth);
   bounds.interfaces = asked.interfaces.value_or(bounds.interfaces && kept.labels.empty());
   if (!out.of_run) {
@@ -188,7 +189,7 @@ audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& t
 
 audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::VolumeSpace& space) {
   audit::AuditOptions options;
-  options.radius_ratio_floor = promises.quality_floor;
+  options.radius_ratio_floor = floor_of(promises);
   options.count_junctions = promises.interfaces;
   options.max_distance = promises.max_distance;
   options.layers = promises.smooth ? mw::layers_of(space.spacing) : Index3{1, 1, 1};

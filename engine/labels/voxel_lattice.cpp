@@ -71,17 +71,12 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
 /// count sizes are weights, and the factor that is found for them keeps to that.
 void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
   if (!settings.sizes.rules.any() || settings.sizes.count > 0) return;
-  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
-  const double diagonal = std::sqrt(x * x + y * y + z * z);
-  const double least = settings.sizes.rules.least();
-  if (SizeRules::kLongest * least >= diagonal) return;
-  // Rounded up, so that what is told can be kept.
-  const double min = diagonal / SizeRules::kLongest;
-  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(min)));
+  const double least = settings.sizes.rules.least(), kept = least_size(volume, settings);
+  if (least >= kept) return;
   throw Error(
       ErrorKind::kUsage,
-      io::text("size ", least, " is too small: the finest start mesh has the diagonals of voxels (",
-               x, " x ", y, " x ", z, "); ", std::ceil(scale * min) / scale, " can be kept"));
+      io::text("size ", least, " is too small: the finest start mesh has the diagonals of voxels; ",
+               told_size(kept), " can be kept"));
 }
 
 /// Largest absolute coordinate of the box.
@@ -124,6 +119,16 @@ void check_coordinates(const io::VolumeInfo& volume, const MeshSettings& setting
 }
 
 }  // namespace
+
+double least_size(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
+  return std::sqrt(x * x + y * y + z * z) / SizeRules::kLongest;
+}
+
+double told_size(double size) {
+  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(size)));
+  return std::ceil(scale * size) / scale;
+}
 
 Index3 layers_of(const io::VolumeInfo& volume, Surface surface) {
   return surface == Surface::kSmooth ? mw::layers_of(volume.space.spacing) : Index3{1, 1, 1};

@@ -13,6 +13,13 @@ namespace mw::engine {
 /// surfaces, else one.
 [[nodiscard]] Index3 layers_of(const io::VolumeInfo& volume, Surface surface);
 
+/// Returns the least size of edges that the marches keep: the diagonal of a voxel of the lattice
+/// may be SizeRules::kLongest times as long.
+[[nodiscard]] double least_size(const io::VolumeInfo& volume, const MeshSettings& settings);
+
+/// Returns a size rounded up to three digits, so that what is told can be kept.
+[[nodiscard]] double told_size(double size);
+
 /// A volume and the lattice that it is meshed on.  The volume must outlive it.
 class VoxelLattice {
  public:
@@ -36,7 +43,7 @@ class VoxelLattice {
 /// Checks before any work that a volume fits the settings of a run.
 /// ERRORS: those of check(settings); kInput when the lattice has too many voxels along an axis;
 ///         kUsage when the quality floor cannot be kept at this spacing, with the floor that can,
-///         or when a size is less than the diagonal of a voxel of the lattice.
+///         or when a size is below least_size().
 void check(const io::VolumeInfo& volume, const MeshSettings& settings);
 
 /// Checks that a volume's labels fit the settings of a run.

@@ -28,14 +28,19 @@ class LongestEdges {
   /// positions: of the block's rows.
   void add(std::span<const BlockTet> tets, std::span<const io::Position> positions) {
     for (const BlockTet& t : tets) {
-      double& longest = squared_[t.label];
-      const double size = sizes_[t.label];
-      for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t j = i + 1; j < 4; ++j) {
-          const double edge = squared(positions[t.vertices[i]], positions[t.vertices[j]]);
-          longest = std::max(longest, edge);
-          if (size > 0.0) ratios_.add(std::sqrt(edge) / size);
-        }
+      const auto& [a, b, c, d] = t.vertices;
+      add(t.label, {positions[a], positions[b], positions[c], positions[d]});
+    }
+  }
+
+  void add(Label label, const std::array<io::Position, 4>& corners) {
+    double& longest = squared_[label];
+    const double size = sizes_[label];
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const double edge = squared(corners[i], corners[j]);
+        longest = std::max(longest, edge);
+        if (size > 0.0) ratios_.add(std::sqrt(edge) / size);
       }
     }
   }

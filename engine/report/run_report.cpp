@@ -158,6 +158,12 @@ Json shape_json(const FinishedRun& run) {
   return out;
 }
 
+Json run_quality_json(const FinishedRun& run) {
+  Json out = quality_json(run.engine.quality.value());
+  out["radius_ratio_floor"] = run.radius_ratio_floor;
+  return out;
+}
+
 Json count_json(const FinishedRun& run) {
   if (!run.count) return nullptr;
   const CountFacts& count = *run.count;
@@ -187,6 +193,7 @@ Json across_json(const FinishedRun& run) {
 /// What was asked of sizes; each label's own and its longest edge are in the rows of labels.
 Json size_json(const FinishedRun& run) {
   Json out{{"labels", run.sizes.rules.labels.size()},
+           {"halvings", run.engine.halvings},
            {"inner_vertices_added", run.engine.inner_vertices},
            {"count", count_json(run)},
            {"across", across_json(run)}};
@@ -255,7 +262,7 @@ Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json 
            {"lattice", lattice_json(run.engine.lattice)},
            {"output", output_json(run, mesh)},
            {"parts", run.connected ? connect_json(*run.connected, run.labels.is_signed()) : Json()},
-           {"quality", quality_json(run.engine.quality.value())},
+           {"quality", run_quality_json(run)},
            {"shape", shape_json(run)},
            {"size", size_json(run)},
            {"distance", run_distance_json(run)},

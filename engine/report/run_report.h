@@ -49,6 +49,7 @@ struct FinishedRun {
   std::optional<audit::AuditReport> certificate;  ///< empty: none was made
   std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
   std::optional<engine::ConnectFacts> connected;  ///< empty: nobody counted, or nobody could
+  double radius_ratio_floor = 0;                  ///< of the tets that were written
   std::string why_no_certificate;
   std::string why_no_volumes;  ///< empty: the run promises volumes of labels (P8)
 };

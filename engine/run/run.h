@@ -37,6 +37,7 @@ struct RunReport : VisitStats {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
   std::uint64_t tets_within = 0;  ///< see OutputOptions::within
+  int halvings = 0;               ///< how often tets were cut into eight when they were written
   ThinParts thin_parts;           ///< of SizeSettings::across
   int threads = 1;
   double inner_quality = 0.0;    ///< the value that was used, see MeshSettings

@@ -7,6 +7,7 @@
 
 #include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"
+#include "kernels/quality/halved_tet.h"
 
 namespace mw::engine {
 namespace {
@@ -36,6 +37,12 @@ io::MeshPromises promises_of(const MeshSettings& settings) {
           .smooth = settings.surface == Surface::kSmooth,
           .optimised = settings.optimizer != Optimizer::kNone,
           .periodic = settings.periodic};
+}
+
+double floor_of(const io::MeshPromises& promises) {
+  double floor = promises.quality_floor;
+  for (int i = 0; i < promises.halvings; ++i) floor = halved_floor(floor);
+  return floor;
 }
 
 std::string why_no_volumes(const io::MeshPromises& promises) {

@@ -12,6 +12,10 @@ namespace mw::engine {
 
 [[nodiscard]] io::MeshPromises promises_of(const MeshSettings& settings);
 
+/// Returns the radius ratio that no tet is below: that of the run, or where tets were cut what is
+/// left of it.
+[[nodiscard]] double floor_of(const io::MeshPromises& promises);
+
 /// Why volumes are not promised where labels come from scores (io::LabelScores): a crossing may be
 /// half a voxel from the face, and the volume of the scores is the better one.
 inline constexpr const char* kVolumesOfScores =

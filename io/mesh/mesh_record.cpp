@@ -25,6 +25,7 @@ constexpr const char* kDoubled = "doubled_vertices";
 constexpr const char* kCurved = "curved";
 constexpr const char* kCohesiveKey = "cohesive";
 constexpr const char* kPeriodic = "periodic";
+constexpr const char* kHalvings = "halvings";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 Json box_json(const MeshBox& box) {
@@ -56,6 +57,7 @@ Json promises_json(const MeshPromises& promises) {
            {"surface", promises.smooth ? kSmooth : kVoxel}};
   if (!promises.optimised) out["optimizer"] = kNone;
   if (promises.periodic != 0) out[kPeriodic] = axes_text(promises.periodic);
+  if (promises.halvings != 0) out[kHalvings] = promises.halvings;
   return out;
 }
 
@@ -84,6 +86,14 @@ bool word_in(const JsonFields& fields, const char* key, std::string_view first,
   return word == first;
 }
 
+int halvings_in(const JsonFields& fields) {
+  const std::int64_t times = fields.integer(kHalvings);
+  if (times < 1 || times > kMostHalvings) {
+    fields.fail(kHalvings, text("is ", times, ", not from 1 to ", kMostHalvings));
+  }
+  return static_cast<int>(times);
+}
+
 MeshPromises promises_in(const JsonFields& fields) {
   MeshPromises out;
   if (fields.has("max_distance")) out.max_distance = number_in(fields, "max_distance");
@@ -92,6 +102,7 @@ MeshPromises promises_in(const JsonFields& fields) {
   out.smooth = word_in(fields, "surface", kSmooth, kVoxel);
   out.optimised = !fields.has("optimizer") || !word_in(fields, "optimizer", kNone, kNone);
   if (fields.has(kPeriodic)) out.periodic = axes_in(fields, kPeriodic);
+  if (fields.has(kHalvings)) out.halvings = halvings_in(fields);
   return out;
 }
 

@@ -34,9 +34,14 @@ struct MeshPromises {
   bool optimised = true;               ///< not --optimizer none
   /// Axes of the volume whose two faces have the same triangles (--periodic): bit 0 = x.
   unsigned periodic = 0;
+  /// How often each tet was cut into eight after the run; quality_floor is that of before.
+  int halvings = 0;
 
   friend bool operator==(const MeshPromises&, const MeshPromises&) = default;
 };
+
+/// How often tets are cut at most.
+inline constexpr int kMostHalvings = 2;
 
 /// Interfaces between whose two sides there are wedges of no thickness (--cohesive).
 struct CohesiveRule {
@@ -76,7 +81,7 @@ struct MeshRecord {
 
 /// {"box": {"origin": [...], "x": [...], "y": [...], "z": [...]}, "promises": {"max_distance": 1.5,
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none",
-/// "periodic": "xy"},
+/// "periodic": "xy", "halvings": 1},
 /// "frame": "ras", "only_labels": [...], "without_labels": [...], "partial_labels": [...],
 /// "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3]}, without what is not known;
 /// empty when nothing is.  "cohesive" has the labels under and on top of wedges by turns, or is

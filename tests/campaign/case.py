@@ -197,7 +197,7 @@ class Case:
         command = [self.judge, "--volume", "j.npy", "--mesh", meshes[0], "--threads", "1",
                    "--spacing", volumes.triple(volume.spacing),
                    "--origin", volumes.triple(volume.origin), "--require-positive",
-                   "--min-radius-ratio", self.settings.get("quality-floor", "0.2")]
+                   "--min-radius-ratio", self.settings.floor()]
         if self.settings.max_distance() is not None:
             command += ["--max-distance", repr(self.settings.max_distance())]
         self.commands.append(shlex.join(["judge", *command[1:]]))

@@ -17,6 +17,7 @@ class Settings:
     output: str = "m.vtu"
     merged: dict = field(default_factory=dict)  # old label -> new
     crop: tuple = None
+    halvings: int = 0  # how often sizes ask for tets to be cut, at most
 
     def arguments(self):
         out = []
@@ -38,6 +39,13 @@ class Settings:
 
     def is_smooth(self):
         return self.get("surface", "smooth") == "smooth"
+
+    def floor(self):
+        """The radius ratio that no tet is below, as `kernels/quality/halved_tet.h` has it."""
+        floor = float(self.get("quality-floor", "0.2"))
+        for _ in range(self.halvings):
+            floor = 1.79 * min(floor, 0.4) ** 2
+        return repr(floor)
 
     def max_distance(self):
         """In voxels of the lattice; None without a bound."""
@@ -83,12 +91,15 @@ def draw_chosen(random, settings, values):
 
 
 def draw_sizes(random, settings, values, spacing):
-    """Below 0.8 of the diagonal of a voxel of the lattice a size is refused."""
+    """Below 0.8 of the diagonal of a voxel of the lattice tets are cut, at most twice."""
     if settings.get("optimizer", "local") == "tetgen" or settings.changes_voxels():
         return
     if random.random() < 0.08:
         some = random.sample(values, random.randint(1, min(3, len(values))))
         least = sum(h * h for h in spacing) ** 0.5 / 1.25
+
+        settings.halvings = random.choice([0, 0, 0, 1, 1, 2])
+        shortest = f"{least * random.uniform(1.01, 1.9) / 2 ** settings.halvings:.6g}"
 
         def size():
             return f"{least * random.uniform(1.01, 5):.6g}"
@@ -100,6 +111,8 @@ def draw_sizes(random, settings, values, spacing):
             rules.append(f"{some[0]}|{some[1]}={size()}")
         if random.random() < 0.2:
             rules = rules[-1:]
+        if settings.halvings > 0:
+            rules[-1] = rules[-1].rpartition("=")[0] + "=" * ("=" in rules[-1]) + shortest
         settings.flags["size"] = ",".join(rules)
         if random.random() < 0.5:
             settings.flags["gradation"] = random.choice(["0", "0.2", "2"])
@@ -198,7 +211,7 @@ def verify_arguments(random, settings):
     tells = settings.output.split(".")[1] in KEEP_PROMISES
     if not tells or random.random() < 0.3:
         bound = settings.get("max-distance", "1.5")
-        floor = settings.get("quality-floor", "0.2")
+        floor = settings.floor()
         out += [f"--max-distance={bound}", f"--quality-floor={floor}",
                 f"--surface={settings.get('surface', 'smooth')}"]
         if not settings.chosen:

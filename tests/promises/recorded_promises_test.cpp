@@ -253,6 +253,10 @@ class RecordedPromises : public testing::Test {
     for (const char* floor : {"0", "1e-9", "0.1", "-1", "1", "null"}) {
       all.push_back(promises("1.5", floor));
     }
+    for (const char* halvings : {"1", "2", "3", "-1", "0.5"}) {
+      const std::string more = std::string(R"(, "halvings": )") + halvings;
+      all.push_back(promises("1.5", "0.2", "labels", "smooth", more));
+    }
     for (const char* topology : {"interfaces", "none", ""}) {
       all.push_back(promises("1.5", "0.2", topology));
     }

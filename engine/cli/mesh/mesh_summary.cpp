@@ -70,6 +70,15 @@ void print_count(const report::FinishedRun& run) {
   }
 }
 
+void print_halvings(const report::FinishedRun& run) {
+  const int times = run.engine.halvings;
+  if (times == 0) return;
+  std::cout << "halved      " << (times == 1 ? "once" : "twice")
+            << ": sizes are below what voxels allow, so each tet of the marches was cut into "
+            << (times == 1 ? 8 : 64) << "; none has a radius ratio below "
+            << format_figure(run.radius_ratio_floor) << "\n";
+}
+
 void print_parts(const report::FinishedRun& run) {
   if (!run.connected) return;
   const std::string parts = report::connect_text(*run.connected);
@@ -83,7 +92,7 @@ void print_across(const report::FinishedRun& run) {
   if (parts.too_thin == 0) return;
   log_warning(io::text("--across ", run.sizes.across, ": ", parts.too_thin, " of ", parts.voxels,
                        " voxels amid thin parts are in parts too thin for that, as edges are at "
-                       "least as long as the diagonal of a voxel"));
+                       "least as long as the diagonal of a voxel; a --size below that cuts tets"));
 }
 
 void print_samples(const report::FinishedRun& run) {
@@ -177,6 +186,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_lattice(run.engine.lattice);
   print_space(run.volume.space);
   print_count(run);
+  print_halvings(run);
   print_sizes(run);
   print_across(run);
   print_samples(run);

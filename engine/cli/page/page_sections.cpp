@@ -62,7 +62,7 @@ Verdict unchecked(const char* name, const char* promise, std::string evidence) {
 
 Verdict shape_verdict(const Json& report) {
   const double min = report["quality"]["radius_ratio_min"].number();
-  const double floor = report["settings"]["quality_floor"].number();
+  const double floor = report["quality"]["radius_ratio_floor"].number();
   const std::string found = "least radius ratio " + format_fixed(min, 4);
   constexpr const char* kPromise = "No tet is below the quality floor.";
   if (floor <= 0) return unchecked("P3", kPromise, found + "; the run had no floor");
@@ -192,11 +192,8 @@ std::string verify_command(const Json& report) {
     std::replace(flag.begin(), flag.end(), '_', '-');
     out += " --" + flag + " " + quoted(flag_text(settings[key]));
   }
-  for (const std::string key : {"max_distance", "quality_floor"}) {
-    std::string flag = key;
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    out += " --" + flag + " " + quoted(flag_text(settings[key]));
-  }
+  out += " --max-distance " + quoted(flag_text(settings["max_distance"])) + " --quality-floor " +
+         flag_text(report["quality"]["radius_ratio_floor"]);
   if (settings["topology"] != "labels") out += " --topology " + flag_text(settings["topology"]);
   if (settings["surface"] != "smooth") {
     out += " --surface " + flag_text(settings["surface"]) + " --max-volume-error none";

@@ -97,6 +97,37 @@ class Sizes(unittest.TestCase):
             counts.append(found[0][1])
         self.assertEqual(counts, sorted(counts, reverse=True))
 
+    def test_sizes_below_a_voxel_cut_the_tets_of_the_marches(self):
+        """Edges have the sizes that are asked, the mesh proves itself, and nothing but the volume and
+        the settings decides its bytes."""
+        label, first = self.labels[2], set()
+        for size, times, ways in ((0.55, 1, (("--threads=1",), ("--threads=2", "--memory=300MiB"))),
+                                  (0.27, 2, (("--threads=2",),))):
+            for options in ways:
+                done = run("mesh", "v.npy", *SPACING, "--force", "-o", "f.vtu", "--report", "f.json", "--certify=auto",
+                           "--size", f"{label}={size},*=1.5", *options)
+                self.assertIn("halved", done)
+                first.add((size, run("digest", "f.vtu")))
+            verdict = run("verify", "v.npy", "f.vtu", *SPACING)
+            self.assertIn("all checks hold; recorded promise: radius ratio", verdict)
+            with open("f.json", encoding="utf-8") as file:
+                report = json.load(file)
+            mesh = Mesh("f.vtu")
+            self.assertEqual(report["size"]["halvings"], times)
+            self.assertEqual(report["output"]["tets"], len(mesh.tets))
+            self.assertEqual(report["output"]["vertices"], len(mesh.points))
+            quality = report["quality"]
+            self.assertGreaterEqual(quality["radius_ratio_min"], quality["radius_ratio_floor"])
+            self.assertEqual(sum(quality["radius_ratio_histogram"]), len(mesh.tets))
+            rows = {row["label"]: row for row in report["shape"]["per_label"]}
+            self.assertAlmostEqual(rows[label]["longest_edge"], mesh.longest(label), places=12)
+            self.assertEqual(rows[label]["size"], size)
+            tets = mesh.tets[mesh.labels == label]
+            edges = np.unique(np.sort(np.concatenate([tets[:, p] for p in PAIRS])), axis=0)
+            lengths = np.linalg.norm(mesh.points[edges[:, 0]] - mesh.points[edges[:, 1]], axis=1)
+            self.assertGreater(((lengths > 0.6 * size) & (lengths < 1.5 * size)).mean(), 0.9)
+        self.assertEqual(len(first), 2)
+
     def test_interfaces_have_sizes_of_their_own(self):
         z, y, x = np.mgrid[:32, :32, :32]
         np.save("i.npy", np.where(x < 8, 1, np.where(x < 24, 2, 3)).astype(np.uint8))
@@ -140,7 +171,7 @@ class Sizes(unittest.TestCase):
     def test_errors_name_what_is_wrong(self):
         label = self.labels[1]
         self.refused(2, "no label 4711", "--size", "4711=3")
-        self.refused(2, "can be kept", "--size", f"{label}=1.3")
+        self.refused(2, "0.347 can be kept", "--size", f"{label}=0.34")
         self.refused(2, "expected H, LABEL=H", "--size", f"{label}:3")
         self.refused(2, "must be positive", "--size", f"{label}=-3")
         self.refused(2, "two sizes", "--size", f"{label}=3,{label}=3")

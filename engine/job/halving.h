@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Sizes below what voxels allow: the marches make edges twice as long, and the mesh that is written
+// has each tet cut into eight.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/job/mesh_job.h"
+#include "engine/output/block_figures.h"
+#include "io/mesh/grouped/halved_sink.h"
+
+namespace mw::engine {
+
+/// Returns how often the tets of a run are cut: as often as its least size asks for, where that is
+/// shorter than the marches can make edges; never with a count, as sizes are weights then, nor for
+/// an image of sizes.
+/// ERRORS: mw::Error(kUsage) when io::kMostHalvings are not enough, with the least size that is
+///         kept; when several processes would have to cut.
+[[nodiscard]] int halvings_of(const io::VolumeInfo& volume, const MeshJob& job);
+
+/// The sinks that cut, one behind the other, and the figures of what they write.
+class Halving {
+ public:
+  /// times: 0: the mesh is passed on as it is.  sizes: by dense label, 0 where none is asked;
+  /// empty: edges are not measured.  REQUIRES: below and table outlive it.
+  Halving(int times, io::MeshSink& below, const MeshJob& job, const io::LabelTable& table,
+          std::vector<double> sizes);
+
+  /// Where the mesh of the marches goes.
+  [[nodiscard]] io::MeshSink& sink() { return cuts_.empty() ? below_ : *cuts_.back(); }
+  /// Puts the figures of what was written in the place of those of the marches' mesh; those of
+  /// surfaces stay, as surfaces do.  REQUIRES: the sink is finished.
+  void report(RunReport& out);
+
+ private:
+  void see(const std::array<io::Position, 4>& corners, RawLabel label);
+
+  io::MeshSink& below_;
+  const io::LabelTable& table_;
+  std::vector<std::unique_ptr<io::HalvedSink>> cuts_;  ///< the last one that cuts comes first
+  std::optional<audit::QualityMeter> quality_;
+  std::optional<LongestEdges> edges_;
+  std::uint64_t tets_ = 0;
+};
+
+}  // namespace mw::engine

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/mesh/grouped/halved_sink.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "kernels/quality/halved_tet.h"
+
+namespace mw::io {
+namespace {
+
+constexpr std::size_t kHalvedBatch = 512;  ///< tets before they are cut, and vertices
+
+/// Writes the parts of a mesh with ten nodes a tet.
+class HalvedWriter : public GroupedWriter {
+ public:
+  HalvedWriter(MeshSink& below, SeeTet see) : below_(below), see_(std::move(see)) {}
+
+  void write(GroupedMesh& mesh) override {
+    MeshHeader header = mesh.header();
+    header.tets *= kTetParts.size();
+    if (header.record.promises) ++header.record.promises->halvings;
+    below_.begin(header);
+    pass_nodes(mesh);
+    for (std::uint64_t tet = 0; tet < mesh.tet_count(); ++tet) {
+      add_parts_of(mesh, tet);
+      if (rows_.size() >= kHalvedBatch * kTetParts.size()) flush();
+    }
+    flush();
+    below_.finish();
+  }
+
+ private:
+  void pass_nodes(GroupedMesh& mesh) {
+    std::vector<Position> batch;
+    for (std::uint64_t row = 0; row < mesh.node_count(); row += batch.size()) {
+      batch.resize(std::min<std::uint64_t>(kHalvedBatch, mesh.node_count() - row));
+      for (std::size_t i = 0; i < batch.size(); ++i) batch[i] = mesh.node(row + i);
+      below_.write_vertices(batch);
+    }
+  }
+
+  void add_parts_of(GroupedMesh& mesh, std::uint64_t tet) {
+    const NodeRows rows = mesh.tet_nodes(tet);
+    const RawLabel label = mesh.table().raw(mesh.label_of(tet));
+    std::array<Position, 10> nodes{};
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = mesh.node(rows.begin()[i]);
+    std::array<Vec3, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = {nodes[i][0], nodes[i][1], nodes[i][2]};
+    for (const auto& [a, b, c, d] : halved_tet(corners)) {
+      rows_.push_back({rows.begin()[a], rows.begin()[b], rows.begin()[c], rows.begin()[d]});
+      labels_.push_back(label);
+      for (std::size_t k = 0; k < mesh.header().values.size(); ++k) {
+        values_.push_back(mesh.value(tet, k));
+      }
+      if (see_) see_({nodes[a], nodes[b], nodes[c], nodes[d]}, label);
+    }
+  }
+
+  void flush() {
+    below_.write_tets(rows_, labels_);
+    if (!values_.empty()) below_.write_values(values_);
+    rows_.clear();
+    labels_.clear();
+    values_.clear();
+  }
+
+  MeshSink& below_;
+  SeeTet see_;
+  std::vector<TetRows> rows_;
+  std::vector<RawLabel> labels_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+HalvedSink::HalvedSink(MeshSink& below, const std::filesystem::path& folder, SeeTet see)
+    : GroupedSink(folder, std::make_unique<HalvedWriter>(below, std::move(see)), Element::kTet10),
+      below_(below) {}
+
+std::uint64_t HalvedSink::buffer_bytes() const {
+  return GroupedSink::buffer_bytes() + below_.buffer_bytes();
+}
+
+}  // namespace mw::io

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Grids of cubes cut once and twice, against what was there before.
+#include "io/mesh/grouped/halved_sink.h"
+
+#include "tests/expect_error.h"
+#include "tests/io/mesh/grid_mesh.h"
+#include "tests/io/test_files.h"
+
+namespace mw::io {
+namespace {
+
+/// Remembers a mesh with its values.
+class CollectedMesh : public MeshSink {
+ public:
+  void begin(const MeshHeader& header) override { mesh.record = (head = header).record; }
+  void write_vertices(std::span<const Position> positions) override {
+    mesh.vertices.insert(mesh.vertices.end(), positions.begin(), positions.end());
+  }
+  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
+    mesh.tets.insert(mesh.tets.end(), tets.begin(), tets.end());
+    mesh.labels.insert(mesh.labels.end(), labels.begin(), labels.end());
+  }
+  void write_values(std::span<const double> rows) override {
+    values.insert(values.end(), rows.begin(), rows.end());
+  }
+  void finish() override { ++finished; }
+
+  MeshHeader head;
+  MeshData mesh;
+  std::vector<double> values;
+  int finished = 0;
+};
+
+double volume6_in(const MeshData& mesh, const TetRows& t) {
+  return volume6_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]],
+                    mesh.vertices[t[3]]);
+}
+
+std::map<RawLabel, double> volumes_of(const MeshData& mesh) {
+  std::map<RawLabel, double> out;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    out[mesh.labels[t]] += volume6_in(mesh, mesh.tets[t]);
+  }
+  return out;
+}
+
+/// Triangles by how many tets have them.
+std::map<std::set<std::uint64_t>, int> triangles_of(const MeshData& mesh) {
+  std::map<std::set<std::uint64_t>, int> out;
+  for (const TetRows& tet : mesh.tets) {
+    for (const std::uint64_t left_out : tet) {
+      std::set<std::uint64_t> face(tet.begin(), tet.end());
+      face.erase(left_out);
+      ++out[face];
+    }
+  }
+  return out;
+}
+
+std::size_t edges_of(const MeshData& mesh) {
+  std::set<std::set<std::uint64_t>> out;
+  for (const TetRows& t : mesh.tets) {
+    for (const auto& [a, b] : kTetEdges) out.insert({t[a], t[b]});
+  }
+  return out.size();
+}
+
+TEST(HalvedSink, EachTetBecomesEight) {
+  const TempDir dir;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    MeshData mesh = grid_mesh({3, 2, 1 + seed % 3}, seed);
+    mesh.record.promises = MeshPromises{.quality_floor = 0.2};
+    CollectedMesh out;
+    std::size_t seen = 0;
+    HalvedSink sink(out, dir.path(), [&](const std::array<Position, 4>& corners, RawLabel label) {
+      ASSERT_GT(volume6_of(corners[0], corners[1], corners[2], corners[3]), 0);
+      ASSERT_LT(label, 4U);
+      ++seen;
+    });
+    write_mesh(mesh, sink);
+    EXPECT_EQ(out.finished, 1);
+    EXPECT_EQ(out.head.tets, 8 * mesh.tets.size());
+    EXPECT_EQ(out.head.record.promises->halvings, 1);
+    EXPECT_EQ(out.head.record.promises->quality_floor, 0.2);
+    EXPECT_EQ(out.mesh.tets.size(), 8 * mesh.tets.size());
+    EXPECT_EQ(seen, out.mesh.tets.size());
+    EXPECT_EQ(out.mesh.vertices.size(), mesh.vertices.size() + edges_of(mesh));
+    EXPECT_EQ(sink.mesh().node_count(), out.mesh.vertices.size());
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      EXPECT_EQ(out.mesh.vertices[v], mesh.vertices[v]);
+    }
+    const std::set<Position> places(out.mesh.vertices.begin(), out.mesh.vertices.end());
+    EXPECT_EQ(places.size(), out.mesh.vertices.size());
+    for (const TetRows& tet : out.mesh.tets) EXPECT_GT(volume6_in(out.mesh, tet), 0);
+    EXPECT_EQ(volumes_of(out.mesh), volumes_of(mesh));  // exact: multiples of 1/8
+    const auto before = triangles_of(mesh), after = triangles_of(out.mesh);
+    std::array<std::size_t, 3> counts{}, wanted{};
+    for (const auto& [face, count] : before) wanted.at(static_cast<std::size_t>(count)) += 4;
+    for (const auto& [face, count] : after) ++counts.at(static_cast<std::size_t>(count));
+    EXPECT_EQ(counts[1], wanted[1]);
+    EXPECT_EQ(counts[2], wanted[2] + 8 * mesh.tets.size());  // eight inside of each tet
+  }
+}
+
+TEST(HalvedSink, TwoBehindEachOtherCutTwice) {
+  const TempDir dir;
+  const MeshData mesh = grid_mesh({2, 2, 1}, 7);
+  CollectedMesh out;
+  HalvedSink last(out, dir.path());
+  HalvedSink first(last, dir.path());
+  EXPECT_EQ(first.buffer_bytes(), 2 * last.buffer_bytes());
+  MeshData promised = mesh;
+  promised.record.promises = MeshPromises{.quality_floor = 0.2};
+  write_mesh(promised, first);
+  EXPECT_EQ(out.head.record.promises->halvings, 2);
+  EXPECT_EQ(out.mesh.tets.size(), 64 * mesh.tets.size());
+  EXPECT_EQ(volumes_of(out.mesh), volumes_of(mesh));
+}
+
+TEST(HalvedSink, PartsHaveTheValuesOfTheirTet) {
+  const TempDir dir;
+  const MeshData mesh = grid_mesh({2, 1, 1}, 3);
+  CollectedMesh out;
+  HalvedSink sink(out, dir.path());
+  MeshHeader header{.tets = mesh.tets.size()};
+  header.values = {"x", "row"};
+  sink.begin(header);
+  sink.write_vertices(mesh.vertices);
+  sink.write_tets(mesh.tets, mesh.labels);
+  std::vector<double> rows;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    rows.push_back(static_cast<double>(mesh.labels[t]));
+    rows.push_back(volume6_in(mesh, mesh.tets[t]));
+  }
+  sink.write_values(rows);
+  sink.finish();
+  ASSERT_EQ(out.values.size(), 2 * out.mesh.tets.size());
+  for (std::size_t t = 0; t < out.mesh.tets.size(); ++t) {
+    EXPECT_EQ(out.values[2 * t], static_cast<double>(out.mesh.labels[t]));
+    EXPECT_EQ(out.values[2 * t + 1], 8 * volume6_in(out.mesh, out.mesh.tets[t]));
+  }
+}
+
+}  // namespace
+}  // namespace mw::io
