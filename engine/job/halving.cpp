@@ -10,10 +10,24 @@
 #include "kernels/core/error.h"
 
 namespace mw::engine {
+namespace {
+
+/// Returns the least size that the marches mesh well.  Where edges are hardly longer than the
+/// diagonals of voxels next to none can be contracted, and surfaces keep the steps of the voxels.
+double least_good_size(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  // Of least_size(); its row is in bench/parameters.md, "Constants".
+  constexpr double kSmooth = 1.3;
+  return least_size(volume, settings) * (settings.surface == Surface::kSmooth ? kSmooth : 1.0);
+}
+
+}  // namespace
+
 int halvings_of(const io::VolumeInfo& volume, const MeshJob& job) {
   const SizeSettings& sizes = job.settings.sizes;
   if (!sizes.rules.any() || sizes.count > 0) return 0;
-  const double kept = least_size(volume, job.settings);
+  const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
+  const double kept =
+      is_alone ? least_good_size(volume, job.settings) : least_size(volume, job.settings);
   int times = 0;
   while (times < io::kMostHalvings && std::ldexp(sizes.rules.least(), times) < kept) ++times;
   if (std::ldexp(sizes.rules.least(), times) < kept) {
@@ -24,7 +38,6 @@ int halvings_of(const io::VolumeInfo& volume, const MeshJob& job) {
                          io::kMostHalvings, " times at most; ",
                          told_size(std::ldexp(kept, -io::kMostHalvings)), " can be kept"));
   }
-  const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
   if (times == 0 || is_alone) return times;
   throw Error(ErrorKind::kUsage,
               io::text("size ", sizes.rules.least(), ": sizes below ", told_size(kept),

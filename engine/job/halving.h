@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sizes below what voxels allow: the marches make edges twice as long, and the mesh that is written
+// Sizes below some two voxels: the marches make edges twice as long, and the mesh that is written
 // has each tet cut into eight.
 #pragma once
 
@@ -15,9 +15,10 @@
 namespace mw::engine {
 
 /// Returns how often the tets of a run are cut: as often as its least size asks for, where that is
-/// shorter than the marches can make edges; never with a count, as sizes are weights then, nor for
-/// an image of sizes.
-/// ERRORS: mw::Error(kUsage) when io::kMostHalvings are not enough, with the least size that is
+/// shorter than edges that the marches make well (1.8 voxels where these are cubes; 1.39 where
+/// surfaces are not smoothed, and for several processes); never with a count, as sizes are weights
+/// then, nor for an image of sizes. ERRORS: mw::Error(kUsage) when io::kMostHalvings are not
+/// enough, with the least size that is
 ///         kept; when several processes would have to cut.
 [[nodiscard]] int halvings_of(const io::VolumeInfo& volume, const MeshJob& job);
 

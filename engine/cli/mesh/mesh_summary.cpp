@@ -74,7 +74,7 @@ void print_halvings(const report::FinishedRun& run) {
   const int times = run.engine.halvings;
   if (times == 0) return;
   std::cout << "halved      " << (times == 1 ? "once" : "twice")
-            << ": sizes are below what voxels allow, so each tet of the marches was cut into "
+            << ": a size is below two voxels, so each tet of the marches was cut into "
             << (times == 1 ? 8 : 64) << "; none has a radius ratio below "
             << format_figure(run.radius_ratio_floor) << "\n";
 }
