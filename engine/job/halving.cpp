@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/job/halving.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,26 +23,32 @@ double least_good_size(const io::VolumeInfo& volume, const MeshSettings& setting
 
 }  // namespace
 
-int halvings_of(const io::VolumeInfo& volume, const MeshJob& job) {
+int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_image) {
   const SizeSettings& sizes = job.settings.sizes;
   if (!sizes.rules.any() || sizes.count > 0) return 0;
-  const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
-  const double kept =
-      is_alone ? least_good_size(volume, job.settings) : least_size(volume, job.settings);
-  int times = 0;
-  while (times < io::kMostHalvings && std::ldexp(sizes.rules.least(), times) < kept) ++times;
-  if (std::ldexp(sizes.rules.least(), times) < kept) {
+  const double kept = least_good_size(volume, job.settings), listed = sizes.rules.least();
+  if (std::ldexp(listed, io::kMostHalvings) < kept) {
     throw Error(ErrorKind::kUsage,
-                io::text("size ", sizes.rules.least(),
+                io::text("size ", listed,
                          " is too small: the marches make edges as long as the diagonals of "
                          "voxels, and tets are cut ",
                          io::kMostHalvings, " times at most; ",
                          told_size(std::ldexp(kept, -io::kMostHalvings)), " can be kept"));
   }
+  const double least = std::min(listed, in_image);
+  int times = 0;
+  while (times < io::kMostHalvings && std::ldexp(least, times) < kept) ++times;
+  const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
   if (times == 0 || is_alone) return times;
-  throw Error(ErrorKind::kUsage,
-              io::text("size ", sizes.rules.least(), ": sizes below ", told_size(kept),
-                       " are for one process only, run mwmesh without mpirun"));
+  throw Error(ErrorKind::kUsage, io::text("size ", least, ": sizes below ", told_size(kept),
+                                          " are for one process only, run mwmesh without mpirun"));
+}
+
+SizeSettings before_halvings(SizeSettings sizes, int times) {
+  const int edges = 1 << times;  // of a part, one behind the other, for one of before
+  sizes.rules = sizes.rules.scaled(edges);
+  sizes.across = (sizes.across + edges - 1) / edges;
+  return sizes;
 }
 
 Halving::Halving(int times, io::MeshSink& below, const MeshJob& job, const io::LabelTable& table,

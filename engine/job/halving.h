@@ -16,11 +16,15 @@ namespace mw::engine {
 
 /// Returns how often the tets of a run are cut: as often as its least size asks for, where that is
 /// shorter than edges that the marches make well (1.8 voxels where these are cubes; 1.39 where
-/// surfaces are not smoothed, and for several processes); never with a count, as sizes are weights
-/// then, nor for an image of sizes. ERRORS: mw::Error(kUsage) when io::kMostHalvings are not
-/// enough, with the least size that is
+/// surfaces are not smoothed); never with a count, as sizes are weights then.
+/// in_image: the least size of the image, infinity without one.  What it asks for beyond
+/// io::kMostHalvings is left out.
+/// ERRORS: mw::Error(kUsage) when these are not enough for another size, with the least that is
 ///         kept; when several processes would have to cut.
-[[nodiscard]] int halvings_of(const io::VolumeInfo& volume, const MeshJob& job);
+[[nodiscard]] int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_image);
+
+/// Returns the sizes of marches whose tets are cut so often afterwards.
+[[nodiscard]] SizeSettings before_halvings(SizeSettings sizes, int times);
 
 /// The sinks that cut, one behind the other, and the figures of what they write.
 class Halving {

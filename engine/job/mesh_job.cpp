@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "engine/connect/connected_sink.h"
@@ -279,19 +280,17 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   MeshJob job = asked;
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
-  const int halvings = halvings_of(opened.info(), asked);
-  const double coarser = std::ldexp(1.0, halvings);
-  job.settings.sizes.rules = asked.settings.sizes.rules.scaled(coarser);
-  const int cuts = 1 << halvings;
-  job.settings.sizes.across = (asked.settings.sizes.across + cuts - 1) / cuts;
+  std::optional<SizeImage> sizes = size_image(opened.info(), job);
+  const int halvings = halvings_of(
+      opened.info(), asked, sizes ? sizes->least() : std::numeric_limits<double>::infinity());
+  job.settings.sizes = before_halvings(asked.settings.sizes, halvings);
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
   const io::LabelScores* const scores = opened.scores();
   if (scores != nullptr) check_scored(job);
   check_unpacking(opened, reading_room(job, scores != nullptr));
   for (const SampleImage& sample : job.samples) check_unpacking(*sample.image, reading_room(job));
-  std::optional<SizeImage> sizes = size_image(opened.info(), job);
-  if (sizes) sizes.emplace(sizes->scaled(coarser));
+  if (sizes) sizes.emplace(sizes->scaled(std::ldexp(1.0, halvings)));
   const StoppableVolume from_file(opened, job.stop);
   KeptInput kept(from_file, job);
   const io::LabelVolume& stoppable = kept.volume();

@@ -3,6 +3,7 @@
 // Reads boxes of numbers and keeps those that are sizes.
 #include "engine/labels/size_image.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -52,12 +53,21 @@ std::vector<double> SizeImage::read(const Box3& box, Index3 lattice) const {
 std::uint64_t SizeImage::fingerprint() const {
   constexpr std::uint64_t kPrime = 1099511628211U;  // FNV-1a
   std::uint64_t sum = 14695981039346656037U;
-  for (std::int64_t z = 0; z < shape_.z; ++z) {
-    for (const double size : read({{0, 0, z}, {shape_.x, shape_.y, z + 1}}, shape_)) {
-      sum = (sum ^ std::bit_cast<std::uint64_t>(size)) * kPrime;
-    }
-  }
+  each_size([&](double size) { sum = (sum ^ std::bit_cast<std::uint64_t>(size)) * kPrime; });
   return sum;
+}
+
+double SizeImage::least() const {
+  double least = std::numeric_limits<double>::infinity();
+  each_size([&](double size) { least = std::min(least, size); });
+  return least;
+}
+
+template <typename Visit>
+void SizeImage::each_size(Visit visit) const {
+  for (std::int64_t z = 0; z < shape_.z; ++z) {
+    for (const double size : read({{0, 0, z}, {shape_.x, shape_.y, z + 1}}, shape_)) visit(size);
+  }
 }
 
 }  // namespace mw::engine

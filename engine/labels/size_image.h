@@ -27,8 +27,13 @@ class SizeImage {
   [[nodiscard]] std::vector<double> read(const Box3& box, Index3 lattice) const;
   /// A sum of all that it holds.  Cost: it is read once.
   [[nodiscard]] std::uint64_t fingerprint() const;
+  /// The smallest of its sizes; infinity when there is none.  Cost: it is read once.
+  [[nodiscard]] double least() const;
 
  private:
+  template <typename Visit>
+  void each_size(Visit visit) const;
+
   const io::NumberVolume* numbers_;
   Index3 shape_;
   double factor_ = 1.0;

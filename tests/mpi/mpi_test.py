@@ -236,9 +236,10 @@ class SharedRuns(unittest.TestCase):
         self.assertFalse((self.folder / "shared.vtkhdf").exists())
 
     def test_tets_are_not_cut_by_several(self):
-        done = self.run_shared(2, "--size", "1.3")
+        self.synth("voronoi", "16,16,16", 3)
+        done = self.run_shared(2, "--size", "1.7")
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("size 1.3: sizes below 1.39 are for one process only", done.stderr)
+        self.assertIn("size 1.7: sizes below 1.81 are for one process only", done.stderr)
 
     def test_only_mesh_is_shared(self):
         done = subprocess.run(mpirun(2, "info", self.volume), capture_output=True, text=True,
