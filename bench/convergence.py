@@ -97,8 +97,9 @@ def at_points(points, tets):
             "tkd,nd->tnk", np.linalg.inv(jacobians), slopes)
 
 
-def errors(points, tets, labels):
-    """Number of unknowns, relative H1 and L2 errors; elements have the mesh's own nodes, four or ten."""
+def solved(points, tets, labels):
+    """Number of unknowns, relative H1 and L2 errors, values at points; elements have the mesh's own nodes, four or
+    ten."""
     conductivity = np.where(labels == 1, INSIDE, 1.0)
     stiffness = sum(np.einsum("t,tik,tjk->tij", conductivity * share, gradients, gradients)
                     for share, _, gradients in at_points(points, tets))
@@ -120,7 +121,7 @@ def errors(points, tets, labels):
         share = share * k
         sums += [(share * ((got - gradient)**2).sum(1)).sum(), (share * (gradient**2).sum(1)).sum(),
                  (share * (u[tets] @ values - value)**2).sum(), (share * value**2).sum()]
-    return len(free), np.sqrt(sums[0] / sums[1]), np.sqrt(sums[2] / sums[3])
+    return len(free), np.sqrt(sums[0] / sums[1]), np.sqrt(sums[2] / sums[3]), u
 
 
 def ball(edge):
@@ -161,7 +162,7 @@ def meshed(program, *options, out="mesh.mesh"):
 
 
 def row(name, mesh):
-    unknowns, h1, l2 = errors(*mesh)
+    unknowns, h1, l2, _ = solved(*mesh)
     print(f"| {name} | {unknowns:,} | {h1:.4f} | {l2:.5f} |", flush=True)
 
 
