@@ -21,6 +21,16 @@ Quadric sum_at(const TetMesh& mesh, const Metric& metric, LocalVertex p, LocalVe
   return mesh.quadric(p) + mesh.quadric(q).shifted(from_q_to_p);
 }
 
+/// More than two labels meet at it.
+bool is_junction(const TetMesh& mesh, LocalVertex v) {
+  return mesh.order(v) > (mesh.planes(v) != 0 ? 3 : 2);
+}
+
+/// The place of the least quadric error on the planes that both ends are on.
+QuadricMinimum optimum(const TetMesh& mesh, const Metric& metric, LocalVertex p, LocalVertex q) {
+  return minimum(sum_at(mesh, metric, p, q), fixed_axes(mesh.planes(p)));
+}
+
 /// The lattice point in the middle, towards zero.
 Point between(Point a, Point b) {
   return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
@@ -49,10 +59,10 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
   Contraction c{.keep = *rank < 0 ? q : p, .drop = *rank < 0 ? p : q};
   if (*rank == 0) {
     // Case 1 (both ends are inner), or Case 3 with ends of the same order: the optimum of the sum.
-    const QuadricMinimum best = minimum(sum_at(mesh, metric, p, q), fixed_axes(mesh.planes(p)));
+    const QuadricMinimum best = optimum(mesh, metric, p, q);
     c.position = metric.moved(mesh.position(p), best.offset);
     c.cost = best.value;
-    c.moves = true;
+    c.moves = c.has_others = true;
     return c;
   }
   // Cases 2 and 3 with ends of different order, or of different box planes: the survivor stays.
@@ -63,6 +73,7 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
     c.cost *= kInnerToBoundaryFactor;
   } else {  // Case 3: both ends are on boundaries
     c.cost += mesh.quadric(c.keep).c;
+    c.has_others = is_junction(mesh, c.drop) && mesh.planes(p) == mesh.planes(q);
   }
   return c;
 }
@@ -71,8 +82,13 @@ std::array<Contraction, 4> other_positions(const TetMesh& mesh, const Metric& me
                                            const Contraction& contraction) {
   const Point keep = mesh.position(contraction.keep), drop = mesh.position(contraction.drop);
   const Point middle = between(keep, drop);
-  const std::array<Point, 4> positions{between(middle, contraction.position), middle, keep, drop};
   const Quadric sum = sum_at(mesh, metric, contraction.keep, contraction.drop);
+  std::array<Point, 4> positions{between(middle, contraction.position), middle, keep, drop};
+  if (!contraction.moves) {
+    const QuadricMinimum best = optimum(mesh, metric, contraction.keep, contraction.drop);
+    const Point place = metric.moved(keep, best.offset);
+    positions = {place, between(place, keep), between(place, middle), middle};
+  }
   std::array<Contraction, 4> out;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     out[i] = contraction;

@@ -190,7 +190,7 @@ class Simplifier {
   /// goes with the paper's place.
   StarVerdict judge(Contraction& c) {
     const StarVerdict verdict = judge_junction(c);
-    if (verdict == StarVerdict::kGood || !c.moves || options_.edge_variance) return verdict;
+    if (verdict == StarVerdict::kGood || !c.has_others || options_.edge_variance) return verdict;
     for (const Contraction& other : other_positions(mesh_, metric_, c)) {
       if (other.cost > queue_.current_bound()) continue;
       if (judge_junction(other) != StarVerdict::kGood) continue;
@@ -203,7 +203,7 @@ class Simplifier {
   /// True when no fold is left at the place, or at another one that is good; that is then c's.
   bool find_smooth_position(Contraction& c) {
     if (bends_.stays_smooth(c)) return true;
-    if (!c.moves) return false;
+    if (!c.has_others) return false;
     for (const Contraction& other : other_positions(mesh_, metric_, c)) {
       if (other.position == c.position || other.cost > queue_.current_bound()) continue;
       if (!bends_.stays_smooth(other) || judge_junction(other) != StarVerdict::kGood) continue;

@@ -132,6 +132,40 @@ TEST(Sec533Contraction, OtherPlacesLieAlongTheEdgeAndHaveTheirOwnCosts) {
   EXPECT_GT(seen, 500);
 }
 
+/// Labels around a vertex, the exterior not among them.
+std::size_t labels_around(const TetMesh& mesh, LocalVertex v) {
+  std::set<Label> labels;
+  for (const LinkTriangle& t : mesh.star(v)) labels.insert(t.label);
+  labels.erase(kExterior);
+  return labels.size();
+}
+
+TEST(Sec533Case3, AJunctionThatStaysMayAlsoGoTowardsTheOptimum) {
+  int seen = 0, others = 0;
+  each_random_edge(718, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    const auto c = plan_contraction(mesh, metric, p, q);
+    if (!c || c->moves) return;
+    const bool junctions = labels_around(mesh, p) > 2 && labels_around(mesh, q) > 2;
+    ASSERT_EQ(c->has_others, junctions && mesh.planes(p) == mesh.planes(q));
+    ++others;
+    if (!c->has_others) return;
+    const auto places = other_positions(mesh, metric, *c);
+    const Contraction& best = places.front();
+    for (const Contraction& other : places) {
+      EXPECT_EQ(other.keep, c->keep);
+      EXPECT_EQ(other.drop, c->drop);
+      EXPECT_EQ(other.moves, other.position != mesh.position(c->keep));
+      const double error = joint_error(mesh, metric, p, q, other.position);
+      EXPECT_NEAR(other.cost, error, 1e-9 * (1.0 + error));
+      EXPECT_GE(error, best.cost - 1e-3 * (1.0 + best.cost)) << "cheaper than the optimum";
+    }
+    EXPECT_LE(best.cost, c->cost + 1e-3 * (1.0 + c->cost));
+    ++seen;
+  });
+  EXPECT_GT(seen, 30);
+  EXPECT_GT(others, 3 * seen);
+}
+
 TEST(Sec533Case2, TheBoundaryVertexStaysWhereItIs) {
   int seen = 0;
   each_random_edge(713, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
