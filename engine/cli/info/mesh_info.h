@@ -38,6 +38,7 @@ struct MeshInfo {
   std::string file;
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
+  std::uint64_t curved = 0;   ///< curved tets of the file, each of which is eight of `tets`
   std::uint64_t doubled = 0;  ///< vertices, among them, that double earlier ones
   engine::ConnectFacts parts;
   io::LabelTable table;

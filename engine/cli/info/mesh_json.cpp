@@ -120,6 +120,7 @@ Json mesh_json(const MeshInfo& facts, bool contacts) {
            {"parts", parts_json(facts)},
            {"shape", interfaces_json(facts.shape)},
            {"volume", volumes_json(facts)}};
+  if (facts.curved > 0) out["curved_tets"] = facts.curved;
   if (facts.cohesive.any()) out["cohesive"] = cohesive_json(facts);
   if (contacts) {
     Json rows = Json::array();

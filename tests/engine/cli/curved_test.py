@@ -141,7 +141,10 @@ class Ball(unittest.TestCase):
     def test_is_shown_in_parts(self):
         """Commands that know straight tets alone see eight for each curved one."""
         tets = 8 * len(self.curved.tets)
-        self.assertIn(f'"tets": {tets},', run("info", "c.vtu", "--json"))
+        told = run("info", "c.vtu", "--json")
+        self.assertIn(f'"tets": {tets},', told)
+        self.assertIn(f'"curved_tets": {len(self.curved.tets)}', told)
+        self.assertNotIn("curved_tets", run("info", "straight.vtu", "--json"))
         run("surface", "c.vtu", "--label", 1, "-o", "s.stl")
 
     def test_refusals_name_the_way_out(self):
