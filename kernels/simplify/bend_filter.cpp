@@ -11,6 +11,9 @@ namespace {
 /// A contraction must take out a fifth of the bends that are there, beside what is free
 /// (bench/parameters.md, "Constants").
 constexpr double kShareOfPresent = 0.8;
+/// Where a junction leaves its place to absorb a vertex of lower order, two fifths, and nothing is
+/// free: it lies well in general (the same).
+constexpr double kShareOfMoved = 0.6;
 /// Bend energy that any contraction may leave: between two labels, where surfaces are smooth, and
 /// where more meet (bench/parameters.md, "Constants").
 constexpr double kFreeBetweenTwo = 0.5;
@@ -23,10 +26,12 @@ bool BendFilter::stays_smooth(const Contraction& c) {
   merged_.merge(keep.star, metric_.vector(mesh_.position(c.keep), c.position), drop.star,
                 metric_.vector(mesh_.position(c.drop), c.position));
   const bool two = mesh_.order(c.keep) == 2 && mesh_.order(c.drop) == 2;
-  const double free = two ? kFreeBetweenTwo : kFreeElsewhere;
+  const bool leaves = c.moves && mesh_.order(c.keep) != mesh_.order(c.drop);
+  const double free = leaves ? 0.0 : two ? kFreeBetweenTwo : kFreeElsewhere;
+  const double share = leaves ? kShareOfMoved : kShareOfPresent;
   const double after = merged_.bends_at(Vec3::Zero());
   if (after <= free) return true;
-  return after <= kShareOfPresent * (present_bends(keep) + present_bends(drop)) + free;
+  return after <= share * (present_bends(keep) + present_bends(drop)) + free;
 }
 
 double BendFilter::present_bends(Gathered& g) {

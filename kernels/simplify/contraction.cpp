@@ -21,11 +21,6 @@ Quadric sum_at(const TetMesh& mesh, const Metric& metric, LocalVertex p, LocalVe
   return mesh.quadric(p) + mesh.quadric(q).shifted(from_q_to_p);
 }
 
-/// More than two labels meet at it.
-bool is_junction(const TetMesh& mesh, LocalVertex v) {
-  return mesh.order(v) > (mesh.planes(v) != 0 ? 3 : 2);
-}
-
 /// The place of the least quadric error on the planes that both ends are on.
 QuadricMinimum optimum(const TetMesh& mesh, const Metric& metric, LocalVertex p, LocalVertex q) {
   return minimum(sum_at(mesh, metric, p, q), fixed_axes(mesh.planes(p)));
@@ -73,7 +68,7 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
     c.cost *= kInnerToBoundaryFactor;
   } else {  // Case 3: both ends are on boundaries
     c.cost += mesh.quadric(c.keep).c;
-    c.has_others = is_junction(mesh, c.drop) && mesh.planes(p) == mesh.planes(q);
+    c.has_others = mesh.planes(p) == mesh.planes(q);
   }
   return c;
 }

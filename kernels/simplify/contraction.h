@@ -26,8 +26,8 @@ struct Contraction {
 ///          the inner one, which drags interfaces (kernels/README.md, "Where we deviate from the
 ///          paper"); such contractions rarely succeed, so their cost counts fourfold.
 ///  Case 3, both on boundaries: the higher order survives where it is; on a tie the optimum.  Where
-///          both are junctions of three labels or more, the survivor may go elsewhere when it
-///          cannot stay (the paper has it stay): voxels put junctions where no good tets go.
+///          it cannot stay it may go elsewhere (the paper has it stay): voxels put junctions of
+///          labels where no good tets go.
 /// Vertices on the box keep to their planes: the end on more planes survives where it is, ends on
 /// the same planes go to the optimum within them, other pairs are refused.
 /// REQUIRES: p, q free.  ENSURES: symmetric in p and q.
@@ -36,9 +36,9 @@ struct Contraction {
 
 /// Other places for the survivor, for when the planned one would leave badly shaped tets (the paper
 /// knows no others).  Of the optimum: half way to the middle of the edge, the middle, and its ends;
-/// they spare 5 (EM) to 13 % (CT) of the vertices at the same mean radius ratio.  Of a junction:
-/// the optimum, half way to it, half way from there to the middle, and the middle; they spare 2
-/// (CT) to 7 % (EM) and take a third of the knots of small triangles away (bench/parameters.md,
+/// they spare 5 (EM) to 13 % (CT) of the vertices at the same mean radius ratio.  Of a place where
+/// the survivor is: the optimum, half way to it, half way from there to the middle, and the middle;
+/// they spare 3 (CT) to 9 % (EM) and many of the knots of small triangles (bench/parameters.md,
 /// "Junctions").
 /// REQUIRES: contraction.has_others.
 /// ENSURES: cost is the quadric error of the place, which is on all planes that the ends are on.

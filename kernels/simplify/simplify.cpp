@@ -185,12 +185,19 @@ class Simplifier {
     return keeps_lengths(c) ? shape_.judge(c) : StarVerdict::kTooLong;
   }
 
+  /// Junctions leave their places only where bends tell whether that is good.
+  [[nodiscard]] bool may_go_elsewhere(const Contraction& c) const {
+    return c.has_others && (c.moves || options_.keep_smooth);
+  }
+
   /// The verdict on the planned place.  When that is refused, c becomes the first of its other
   /// places that is good, and as cheap as this round demands; not with the paper's filter, which
   /// goes with the paper's place.
   StarVerdict judge(Contraction& c) {
     const StarVerdict verdict = judge_junction(c);
-    if (verdict == StarVerdict::kGood || !c.has_others || options_.edge_variance) return verdict;
+    if (verdict == StarVerdict::kGood || !may_go_elsewhere(c) || options_.edge_variance) {
+      return verdict;
+    }
     for (const Contraction& other : other_positions(mesh_, metric_, c)) {
       if (other.cost > queue_.current_bound()) continue;
       if (judge_junction(other) != StarVerdict::kGood) continue;
@@ -203,7 +210,7 @@ class Simplifier {
   /// True when no fold is left at the place, or at another one that is good; that is then c's.
   bool find_smooth_position(Contraction& c) {
     if (bends_.stays_smooth(c)) return true;
-    if (!c.has_others) return false;
+    if (!may_go_elsewhere(c)) return false;
     for (const Contraction& other : other_positions(mesh_, metric_, c)) {
       if (other.position == c.position || other.cost > queue_.current_bound()) continue;
       if (!bends_.stays_smooth(other) || judge_junction(other) != StarVerdict::kGood) continue;
