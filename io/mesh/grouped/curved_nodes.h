@@ -24,9 +24,8 @@ namespace mw::io {
 /// Guarantees: the Jacobian of each tet is at least kLeastJacobian of what it was, everywhere in
 /// it, proven by its Bernstein coefficients, and so are the parts of kTetParts; the straight tets
 /// between the corners keep the quality floor of the mesh's record, which is kCurvedFloor of the
-/// straight mesh's.  Nodes go half the way, or a
-/// quarter, or nowhere, where that takes them.  Edges inside of labels are straight, with their
-/// nodes in the middle.
+/// straight mesh's.  Nodes go half the way, or a quarter, or nowhere, where that takes them.  Edges
+/// inside of labels are straight, with their nodes in the middle.
 /// Memory: 24 MiB.  Disk: some 400 bytes a vertex and 120 an edge.
 /// ERRORS: see ScratchFile.
 /// REQUIRES: facets and middles were found; no vertex is doubled.
