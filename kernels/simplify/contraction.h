@@ -38,8 +38,7 @@ struct Contraction {
 /// knows no others).  Of the optimum: half way to the middle of the edge, the middle, and its ends;
 /// they spare 5 (EM) to 13 % (CT) of the vertices at the same mean radius ratio.  Of a place where
 /// the survivor is: the optimum, half way to it, half way from there to the middle, and the middle;
-/// they spare 3 (CT) to 9 % (EM) and many of the knots of small triangles (bench/parameters.md,
-/// "Junctions").
+/// they spare 3 (CT) to 9 % (EM) and many of the knots of small triangles (bench/parameters.md).
 /// REQUIRES: contraction.has_others.
 /// ENSURES: cost is the quadric error of the place, which is on all planes that the ends are on.
 [[nodiscard]] std::array<Contraction, 4> other_positions(const TetMesh& mesh, const Metric& metric,
