@@ -68,7 +68,9 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
     c.cost *= kInnerToBoundaryFactor;
   } else {  // Case 3: both ends are on boundaries
     c.cost += mesh.quadric(c.keep).c;
-    c.has_others = mesh.planes(p) == mesh.planes(q);
+    // A vertex of the box in one label is nothing to leave an interface's place for.
+    const int labels = mesh.order(c.drop) - (mesh.planes(c.drop) != 0 ? 1 : 0);
+    c.has_others = labels > 1 && mesh.planes(p) == mesh.planes(q);
   }
   return c;
 }

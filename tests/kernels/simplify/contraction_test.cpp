@@ -132,13 +132,21 @@ TEST(Sec533Contraction, OtherPlacesLieAlongTheEdgeAndHaveTheirOwnCosts) {
   EXPECT_GT(seen, 500);
 }
 
+/// How many labels there are around a vertex, the exterior not among them.
+std::size_t labels_around(const TetMesh& mesh, LocalVertex v) {
+  std::set<Label> labels;
+  for (const LinkTriangle& t : mesh.star(v)) labels.insert(t.label);
+  labels.erase(kExterior);
+  return labels.size();
+}
+
 TEST(Sec533Case3, TheHigherOrderMayAlsoGoTowardsTheOptimum) {
   int seen = 0, others = 0;
   each_random_edge(718, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
     const auto c = plan_contraction(mesh, metric, p, q);
     if (!c || c->moves) return;
-    const bool on_boundaries = !is_inner(mesh, p) && !is_inner(mesh, q);
-    ASSERT_EQ(c->has_others, on_boundaries && mesh.planes(p) == mesh.planes(q));
+    const bool on_interface = labels_around(mesh, c->drop) > 1;
+    ASSERT_EQ(c->has_others, on_interface && mesh.planes(p) == mesh.planes(q));
     ++others;
     if (!c->has_others) return;
     const auto places = other_positions(mesh, metric, *c);
@@ -154,7 +162,7 @@ TEST(Sec533Case3, TheHigherOrderMayAlsoGoTowardsTheOptimum) {
     EXPECT_LE(best.cost, c->cost + 1e-3 * (1.0 + c->cost));
     ++seen;
   });
-  EXPECT_GT(seen, 300);
+  EXPECT_GT(seen, 200);
   EXPECT_GT(others, seen);
 }
 
