@@ -338,6 +338,8 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     hooks.output.values = sampler ? &*sampler : nullptr;
     hooks.sizes = sizes ? &*sizes : nullptr;
     hooks.keep.opened = kept.folder();
+    // The figures of tets that are cut are those of what is written.
+    if (halvings > 0) hooks.output.measure_quality = hooks.output.measure_edges = false;
     run.engine = march(labels, job, halving.sink(), std::move(hooks));
     halving.report(run.engine);
   } catch (const Error& error) {

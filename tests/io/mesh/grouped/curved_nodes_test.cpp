@@ -51,6 +51,18 @@ GroupedMesh& finished(GroupedSink& sink, const MeshData& mesh) {
   return sink.mesh();
 }
 
+/// A mesh with straight edges and with curved ones.
+struct BothMeshes {
+  explicit BothMeshes(const MeshData& data)
+      : straight(finished(straight_sink, data)), curved(finished(curved_sink, data)) {}
+
+  TempDir dir;
+  GroupedSink straight_sink{dir.path(), nullptr, Element::kTet10};
+  GroupedSink curved_sink{dir.path(), nullptr, Element::kCurvedTet10};
+  GroupedMesh& straight;
+  GroupedMesh& curved;
+};
+
 QuadraticTet nodes_of(GroupedMesh& mesh, std::uint64_t tet) {
   QuadraticTet out;
   const NodeRows rows = mesh.tet_nodes(tet);
@@ -130,12 +142,9 @@ double spread_of_radii(GroupedMesh& mesh, const std::set<std::uint64_t>& rows) {
 }
 
 TEST(CurvedNodes, ABallIsRoundAndKeepsItsVolume) {
-  const TempDir dir;
   const MeshData data = ball_mesh();
-  GroupedSink straight_sink(dir.path(), nullptr, Element::kTet10);
-  GroupedSink curved_sink(dir.path(), nullptr, Element::kCurvedTet10);
-  GroupedMesh& straight = finished(straight_sink, data);
-  GroupedMesh& curved = finished(curved_sink, data);
+  BothMeshes both(data);
+  GroupedMesh &straight = both.straight, &curved = both.curved;
   const std::set<std::uint64_t> rows = interface_nodes(straight);
   EXPECT_LT(spread_of_radii(curved, rows), 0.6 * spread_of_radii(straight, rows));
   const RowRange ball = curved.label_tets()[1];
@@ -199,11 +208,8 @@ TEST(CurvedNodes, NoiseIsHeldBackUntilAllTetsAreSound) {
     for (RawLabel& label : data.labels) label = seed % 2 == 0 ? label : label / 2;
     data.record.box = MeshBox{.edges = {{{5, 0, 0}, {0, 5, 0}, {0, 0, 5}}}};
     data.record.promises = MeshPromises{.max_distance = 1.5, .quality_floor = 0.3};
-    const TempDir dir;
-    GroupedSink straight_sink(dir.path(), nullptr, Element::kTet10);
-    GroupedSink curved_sink(dir.path(), nullptr, Element::kCurvedTet10);
-    GroupedMesh& straight = finished(straight_sink, data);
-    GroupedMesh& curved = finished(curved_sink, data);
+    BothMeshes both(data);
+    GroupedMesh &straight = both.straight, &curved = both.curved;
     expect_sound(straight, curved);
     expect_in_box(straight, curved);
     EXPECT_TRUE(curved.header().record.curved);
@@ -220,11 +226,8 @@ TEST(CurvedNodes, FlatInterfacesStayAsTheyAre) {
   MeshData data = grid_mesh({4, 4, 4}, 1);
   for (std::size_t t = 0; t < data.tets.size(); ++t) data.labels[t] = t / 6 / 16 < 2 ? 5 : 7;
   data.record.box = MeshBox{.edges = {{{4, 0, 0}, {0, 4, 0}, {0, 0, 4}}}};
-  const TempDir dir;
-  GroupedSink straight_sink(dir.path(), nullptr, Element::kTet10);
-  GroupedSink curved_sink(dir.path(), nullptr, Element::kCurvedTet10);
-  GroupedMesh& straight = finished(straight_sink, data);
-  GroupedMesh& curved = finished(curved_sink, data);
+  BothMeshes both(data);
+  GroupedMesh &straight = both.straight, &curved = both.curved;
   for (std::uint64_t row = 0; row < curved.node_count(); ++row) {
     EXPECT_EQ(curved.node(row), straight.node(row));
   }
@@ -234,11 +237,8 @@ TEST(CurvedNodes, OppositeSidesOfAPeriodicCellStayAlike) {
   MeshData data = ball_mesh();
   for (std::size_t t = 0; t < data.tets.size(); ++t) data.labels[t] = t % 97 == 0 ? 1 : 0;
   data.record.promises = MeshPromises{.periodic = 7};
-  const TempDir dir;
-  GroupedSink straight_sink(dir.path(), nullptr, Element::kTet10);
-  GroupedSink curved_sink(dir.path(), nullptr, Element::kCurvedTet10);
-  GroupedMesh& straight = finished(straight_sink, data);
-  GroupedMesh& curved = finished(curved_sink, data);
+  BothMeshes both(data);
+  GroupedMesh &straight = both.straight, &curved = both.curved;
   for (std::uint64_t row = 0; row < curved.node_count(); ++row) {
     const Position p = straight.node(row);
     if (std::any_of(p.begin(), p.end(), [](double x) { return x == 0 || x == 8; })) {

@@ -10,25 +10,16 @@
 namespace mw::io {
 namespace {
 
-/// Remembers a mesh with its values.
-class CollectedMesh : public MeshSink {
+/// Remembers how many tets were announced, too, and how often it was finished.
+class CollectedMesh : public MeshDataSink {
  public:
-  void begin(const MeshHeader& header) override { mesh.record = (head = header).record; }
-  void write_vertices(std::span<const Position> positions) override {
-    mesh.vertices.insert(mesh.vertices.end(), positions.begin(), positions.end());
-  }
-  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
-    mesh.tets.insert(mesh.tets.end(), tets.begin(), tets.end());
-    mesh.labels.insert(mesh.labels.end(), labels.begin(), labels.end());
-  }
-  void write_values(std::span<const double> rows) override {
-    values.insert(values.end(), rows.begin(), rows.end());
+  void begin(const MeshHeader& header) override {
+    announced = header.tets;
+    MeshDataSink::begin(header);
   }
   void finish() override { ++finished; }
 
-  MeshHeader head;
-  MeshData mesh;
-  std::vector<double> values;
+  std::uint64_t announced = 0;
   int finished = 0;
 };
 
@@ -80,21 +71,21 @@ TEST(HalvedSink, EachTetBecomesEight) {
     });
     write_mesh(mesh, sink);
     EXPECT_EQ(out.finished, 1);
-    EXPECT_EQ(out.head.tets, 8 * mesh.tets.size());
-    EXPECT_EQ(out.head.record.promises->halvings, 1);
-    EXPECT_EQ(out.head.record.promises->quality_floor, 0.2);
-    EXPECT_EQ(out.mesh.tets.size(), 8 * mesh.tets.size());
-    EXPECT_EQ(seen, out.mesh.tets.size());
-    EXPECT_EQ(out.mesh.vertices.size(), mesh.vertices.size() + edges_of(mesh));
-    EXPECT_EQ(sink.mesh().node_count(), out.mesh.vertices.size());
+    EXPECT_EQ(out.announced, 8 * mesh.tets.size());
+    EXPECT_EQ(out.mesh().record.promises->halvings, 1);
+    EXPECT_EQ(out.mesh().record.promises->quality_floor, 0.2);
+    EXPECT_EQ(out.mesh().tets.size(), 8 * mesh.tets.size());
+    EXPECT_EQ(seen, out.mesh().tets.size());
+    EXPECT_EQ(out.mesh().vertices.size(), mesh.vertices.size() + edges_of(mesh));
+    EXPECT_EQ(sink.mesh().node_count(), out.mesh().vertices.size());
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      EXPECT_EQ(out.mesh.vertices[v], mesh.vertices[v]);
+      EXPECT_EQ(out.mesh().vertices[v], mesh.vertices[v]);
     }
-    const std::set<Position> places(out.mesh.vertices.begin(), out.mesh.vertices.end());
-    EXPECT_EQ(places.size(), out.mesh.vertices.size());
-    for (const TetRows& tet : out.mesh.tets) EXPECT_GT(volume6_in(out.mesh, tet), 0);
-    EXPECT_EQ(volumes_of(out.mesh), volumes_of(mesh));  // exact: multiples of 1/8
-    const auto before = triangles_of(mesh), after = triangles_of(out.mesh);
+    const std::set<Position> places(out.mesh().vertices.begin(), out.mesh().vertices.end());
+    EXPECT_EQ(places.size(), out.mesh().vertices.size());
+    for (const TetRows& tet : out.mesh().tets) EXPECT_GT(volume6_in(out.mesh(), tet), 0);
+    EXPECT_EQ(volumes_of(out.mesh()), volumes_of(mesh));  // exact: multiples of 1/8
+    const auto before = triangles_of(mesh), after = triangles_of(out.mesh());
     std::array<std::size_t, 3> counts{}, wanted{};
     for (const auto& [face, count] : before) wanted.at(static_cast<std::size_t>(count)) += 4;
     for (const auto& [face, count] : after) ++counts.at(static_cast<std::size_t>(count));
@@ -113,9 +104,9 @@ TEST(HalvedSink, TwoBehindEachOtherCutTwice) {
   MeshData promised = mesh;
   promised.record.promises = MeshPromises{.quality_floor = 0.2};
   write_mesh(promised, first);
-  EXPECT_EQ(out.head.record.promises->halvings, 2);
-  EXPECT_EQ(out.mesh.tets.size(), 64 * mesh.tets.size());
-  EXPECT_EQ(volumes_of(out.mesh), volumes_of(mesh));
+  EXPECT_EQ(out.mesh().record.promises->halvings, 2);
+  EXPECT_EQ(out.mesh().tets.size(), 64 * mesh.tets.size());
+  EXPECT_EQ(volumes_of(out.mesh()), volumes_of(mesh));
 }
 
 TEST(HalvedSink, PartsHaveTheValuesOfTheirTet) {
@@ -135,10 +126,12 @@ TEST(HalvedSink, PartsHaveTheValuesOfTheirTet) {
   }
   sink.write_values(rows);
   sink.finish();
-  ASSERT_EQ(out.values.size(), 2 * out.mesh.tets.size());
-  for (std::size_t t = 0; t < out.mesh.tets.size(); ++t) {
-    EXPECT_EQ(out.values[2 * t], static_cast<double>(out.mesh.labels[t]));
-    EXPECT_EQ(out.values[2 * t + 1], 8 * volume6_in(out.mesh, out.mesh.tets[t]));
+  const std::vector<TetRows>& tets = out.mesh().tets;
+  ASSERT_EQ(out.mesh().values.size(), 2U);
+  ASSERT_EQ(out.mesh().values[1].numbers.size(), tets.size());
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    EXPECT_EQ(out.mesh().values[0].numbers[t], static_cast<double>(out.mesh().labels[t]));
+    EXPECT_EQ(out.mesh().values[1].numbers[t], 8 * volume6_in(out.mesh(), tets[t]));
   }
 }
 
