@@ -89,7 +89,11 @@ void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
     }
     request.target = SurfaceTarget::kFolder;
     if (format == "draco") request.folder.kind = io::FragmentKind::kDraco;
-    if (!flags.unit.empty()) request.folder.nm_per_unit = nm_of(flags.unit);
+    request.folder.closed = request.closed;
+    if (!flags.unit.empty()) {
+      request.folder.unit = flags.unit;
+      request.folder.nm_per_unit = nm_of(flags.unit);
+    }
     return;
   }
   if (!flags.unit.empty()) fail("--unit: only precomputed meshes have a unit, nm");

@@ -9,48 +9,73 @@
 #include <cmath>
 #include <limits>
 
+#include "io/file/byte_order.h"
 #include "io/file/errors.h"
-#include "io/surface/surface_sink.h"
+#include "io/surface/precomputed/octree_cells.h"
+#include "io/volume/precomputed/sharding.h"
 
 namespace mw::io {
 namespace {
-
-constexpr std::int32_t kMaxStep = (1 << kDracoBits) - 1;
 
 /// Levels of detail at most, and how few triangles need no coarser one.
 constexpr int kMostLevels = 8;
 constexpr std::size_t kFewTriangles = 200;
 
-/// Around all vertices; no side has the length 0, by which readers would divide.
-FloatBox box_of(const std::vector<Position>& vertices) {
-  FloatBox box;
+/// The length of a cell in mean edges, and how many cells there are along an axis at most.
+constexpr double kCellEdges = 64;
+constexpr double kMostCells = 1 << 13;
+
+/// The grid of the first level, in the numbers that the manifest has.
+struct Octree {
+  std::array<float, 3> origin{};
+  std::array<double, 3> extent{};  ///< of all vertices, from the origin
+  float cell = 0;                  ///< the edge of a cube
+
+  /// Cells of a level, each twice as long as those of the level before it.
+  [[nodiscard]] Index3 grid(int level) const {
+    const auto along = [&](std::size_t k) {
+      return std::max<std::int64_t>(1, std::llround(std::ceil(extent[k] / edge(level))));
+    };
+    return {along(0), along(1), along(2)};
+  }
+  [[nodiscard]] double edge(int level) const {
+    return std::ldexp(static_cast<double>(cell), level);
+  }
+};
+
+Octree octree_of(const TriangleSurface& surface, double mean_edge) {
+  Octree out;
+  double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [lo, hi] =
-        std::minmax_element(vertices.begin(), vertices.end(),
+        std::minmax_element(surface.vertices.begin(), surface.vertices.end(),
                             [k](const Position& a, const Position& b) { return a[k] < b[k]; });
-    box.origin[k] = static_cast<float>((*lo)[k]);
-    const float length = static_cast<float>((*hi)[k] - static_cast<double>(box.origin[k]));
-    box.shape[k] = length > 0 ? length : 1;
+    out.origin[k] = static_cast<float>((*lo)[k]);
+    out.extent[k] = std::max(0.0, (*hi)[k] - static_cast<double>(out.origin[k]));
+    longest = std::max(longest, out.extent[k]);
   }
-  return box;
+  const double cell = std::max(kCellEdges * mean_edge, longest / kMostCells);
+  out.cell = cell > 0 ? static_cast<float>(cell) : 1;
+  return out;
 }
 
-/// A level's box is twice as large as that of the level before it.  Rounded so that nothing of a
-/// coarse level lies beyond the half of its box, where readers cut it.
-std::array<std::int32_t, 3> steps_of(const Position& p, const FloatBox& box, int level) {
-  const int most = kMaxStep >> level;
-  const double whole = std::ldexp(kMaxStep, -level);
-  std::array<std::int32_t, 3> steps{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double share = (p[k] - static_cast<double>(box.origin[k])) / box.shape[k];
-    const double step = std::round(std::clamp(share, 0.0, 1.0) * whole);
-    steps[k] = std::min(static_cast<std::int32_t>(step), most);
+SteppedSurface stepped(const TriangleSurface& surface, const Octree& octree, int level) {
+  const Index3 grid = octree.grid(level);
+  const std::array<std::int64_t, 3> extents{grid.x, grid.y, grid.z};
+  SteppedSurface out{.vertices = {}, .triangles = surface.triangles};
+  out.vertices.reserve(surface.vertices.size());
+  for (const Position& p : surface.vertices) {
+    Steps& steps = out.vertices.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double cells = (p[k] - static_cast<double>(octree.origin[k])) / octree.edge(level);
+      steps[k] =
+          std::clamp<std::int64_t>(std::llround(cells * kCellSteps), 0, extents[k] * kCellSteps);
+    }
   }
-  return steps;
+  return out;
 }
 
-void add_positions(const std::vector<Position>& vertices, const FloatBox& box, int level,
-                   draco::Mesh& mesh) {
+void add_positions(const std::vector<Steps>& vertices, draco::Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(vertices.size());
   mesh.set_num_points(count);
   draco::GeometryAttribute attribute;
@@ -58,7 +83,8 @@ void add_positions(const std::vector<Position>& vertices, const FloatBox& box, i
                  3 * sizeof(std::int32_t), 0);
   const int id = mesh.AddAttribute(attribute, true, count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::array<std::int32_t, 3> steps = steps_of(vertices[i], box, level);
+    std::array<std::int32_t, 3> steps{};
+    for (std::size_t k = 0; k < 3; ++k) steps[k] = static_cast<std::int32_t>(vertices[i][k]);
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), steps.data());
   }
 }
@@ -74,37 +100,95 @@ void add_faces(const std::vector<Triangle>& triangles, draco::Mesh& mesh) {
   }
 }
 
-void append_floats(AtomicFile& file, const std::array<float, 3>& numbers) {
-  for (const float number : numbers) append_little(file, number);
+/// Appends a Draco mesh; returns its bytes.
+std::uint32_t append_mesh(const SteppedSurface& surface, std::string& fragments) {
+  draco::Mesh mesh;
+  add_positions(surface.vertices, mesh);
+  add_faces(surface.triangles, mesh);
+  draco::Encoder encoder;
+  // Triangles may go round the other way or in another order, but not away.
+  encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+  draco::EncoderBuffer buffer;
+  const draco::Status status = encoder.EncodeMeshToBuffer(mesh, &buffer);
+  if (!status.ok()) throw Error(ErrorKind::kInternal, "Draco: " + status.error_msg_string());
+  check_max("Draco", "bytes", buffer.size(), std::numeric_limits<std::uint32_t>::max());
+  fragments.append(buffer.data(), buffer.size());
+  return static_cast<std::uint32_t>(buffer.size());
 }
 
-/// What the manifest says of a level.
-struct LevelFacts {
-  float scale = 0;  ///< lengths below it do not show, nm
+/// A node of the octree; one without bytes only holds those below it.
+struct Node {
+  Index3 cell;
   std::uint32_t bytes = 0;
 };
 
-void write_manifest(const std::filesystem::path& path, const FloatBox& box,
-                    const std::vector<LevelFacts>& levels) {
-  AtomicFile file(path);
-  append_floats(file, box.shape);
-  append_floats(file, box.origin);
-  append_little(file, static_cast<std::uint32_t>(levels.size()));
-  for (const LevelFacts& level : levels) append_little(file, level.scale);
-  for (std::size_t i = 0; i < levels.size(); ++i) append_floats(file, {0, 0, 0});  // offsets
-  for (std::size_t i = 0; i < levels.size(); ++i) append_little(file, std::uint32_t{1});
-  for (const LevelFacts& level : levels) {
-    for (int k = 0; k < 3; ++k) append_little(file, std::uint32_t{0});  // place of the fragment
-    append_little(file, level.bytes);
+/// What the manifest says of a level.
+struct Level {
+  float scale = 0;  ///< lengths below it do not show, nm
+  std::vector<Node> nodes;
+};
+
+/// The nodes that hold those of a finer level, without bytes.
+std::vector<Node> parents_of(const std::vector<Node>& nodes) {
+  std::vector<Node> out;
+  for (const Node& node : nodes) {
+    out.push_back({{node.cell.x / 2, node.cell.y / 2, node.cell.z / 2}, 0});
   }
-  file.commit();
+  return out;
+}
+
+/// Adds a level's meshes.  Readers find a node from the one that holds it, so each has one.
+Level add_level(const TriangleSurface& surface, const Octree& octree,
+                const std::vector<Level>& finer, std::string& fragments) {
+  const int level = static_cast<int>(finer.size());
+  const Index3 grid = octree.grid(level);
+  std::vector<Node> nodes;
+  for (const CellPart& part : cut_into_cells(stepped(surface, octree, level), grid, level > 0)) {
+    nodes.push_back({part.cell, append_mesh(part.surface, fragments)});
+  }
+  if (!finer.empty()) {
+    const std::vector<Node> parents = parents_of(finer.back().nodes);
+    nodes.insert(nodes.end(), parents.begin(), parents.end());
+  }
+  const auto code = [&](const Node& node) { return morton_code(node.cell, grid); };
+  std::stable_sort(nodes.begin(), nodes.end(),
+                   [&](const Node& a, const Node& b) { return code(a) < code(b); });
+  nodes.erase(std::unique(nodes.begin(), nodes.end(),
+                          [](const Node& a, const Node& b) { return a.cell == b.cell; }),
+              nodes.end());
+  return {.scale = 0, .nodes = std::move(nodes)};
+}
+
+template <class T>
+void append_number(std::string& out, T value) {
+  std::array<std::byte, sizeof value> bytes;
+  store_little(value, bytes.data());
+  out.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+std::string manifest_of(const Octree& octree, const std::vector<Level>& levels) {
+  std::string out;
+  for (int k = 0; k < 3; ++k) append_number(out, octree.cell);
+  for (const float x : octree.origin) append_number(out, x);
+  append_number(out, static_cast<std::uint32_t>(levels.size()));
+  for (const Level& level : levels) append_number(out, level.scale);
+  for (std::size_t i = 0; i < 3 * levels.size(); ++i) append_number(out, 0.0F);  // offsets
+  const auto number = [&](auto value) { append_number(out, static_cast<std::uint32_t>(value)); };
+  for (const Level& level : levels) number(level.nodes.size());
+  for (const Level& level : levels) {
+    for (const Node& node : level.nodes) number(node.cell.x);
+    for (const Node& node : level.nodes) number(node.cell.y);
+    for (const Node& node : level.nodes) number(node.cell.z);
+    for (const Node& node : level.nodes) number(node.bytes);
+  }
+  return out;
 }
 
 }  // namespace
 
 void DracoSink::begin(const SurfaceHeader& header) {
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max() / 3;
-  check_max(segment_.string(), "triangles", header.triangles(), kMax);
+  check_max(text("segment ", segment_), "triangles", header.triangles(), kMax);
   surface_.vertices.reserve(header.vertices());
   surface_.triangles.reserve(header.triangles());
 }
@@ -119,43 +203,24 @@ void DracoSink::write_triangles(std::span<const Triangle> triangles) {
   surface_.triangles.insert(surface_.triangles.end(), triangles.begin(), triangles.end());
 }
 
-std::uint32_t DracoSink::append_level(const TriangleSurface& surface, const FloatBox& box,
-                                      int level, AtomicFile& file) const {
-  draco::Mesh mesh;
-  add_positions(surface.vertices, box, level, mesh);
-  add_faces(surface.triangles, mesh);
-  draco::Encoder encoder;
-  // Triangles may go round the other way or in another order, but not away.
-  encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  draco::EncoderBuffer buffer;
-  const draco::Status status = encoder.EncodeMeshToBuffer(mesh, &buffer);
-  if (!status.ok()) {
-    throw Error(ErrorKind::kInternal,
-                text(segment_.string(), ": Draco: ", status.error_msg_string()));
-  }
-  check_max(segment_.string(), "bytes", buffer.size(), std::numeric_limits<std::uint32_t>::max());
-  file.append(std::string_view(buffer.data(), buffer.size()));
-  return static_cast<std::uint32_t>(buffer.size());
-}
-
 /// Coarser levels are clustered in cubes of 2, 4, 8 mean edges, as long as that leaves a surface.
 void DracoSink::finish() {
-  const FloatBox box = box_of(surface_.vertices);
-  const Position origin{box.origin[0], box.origin[1], box.origin[2]};
   double scale = mean_edge_length(surface_);
-  AtomicFile file(segment_);
-  std::vector<LevelFacts> levels{{static_cast<float>(scale), append_level(surface_, box, 0, file)}};
+  const Octree octree = octree_of(surface_, scale);
+  const Position origin{octree.origin[0], octree.origin[1], octree.origin[2]};
+  std::string fragments;
+  std::vector<Level> levels{add_level(surface_, octree, {}, fragments)};
+  levels.back().scale = static_cast<float>(scale);
   std::size_t triangles = surface_.triangles.size();
   while (triangles > kFewTriangles && levels.size() < kMostLevels) {
     scale *= 2;
-    const TriangleSurface level = clustered(surface_, origin, scale);
-    triangles = level.triangles.size();
+    const TriangleSurface coarse = clustered(surface_, origin, scale);
+    triangles = coarse.triangles.size();
     if (triangles == 0) break;
-    const int number = static_cast<int>(levels.size());
-    levels.push_back({static_cast<float>(scale), append_level(level, box, number, file)});
+    levels.push_back(add_level(coarse, octree, levels, fragments));
+    levels.back().scale = static_cast<float>(scale);
   }
-  file.commit();
-  write_manifest(segment_.string() + ".index", box, levels);
+  segments_.add(segment_, fragments, manifest_of(octree, levels));
 }
 
 }  // namespace mw::io

@@ -3,36 +3,27 @@
 // One segment of neuroglancer's multi-resolution meshes.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <filesystem>
+#include <string>
 
-#include "io/file/sink/atomic_file.h"
 #include "io/surface/precomputed/coarser_surface.h"
+#include "io/surface/precomputed/draco_segments.h"
 #include "io/surface/surface_sink.h"
 
 namespace mw::io {
 
-/// Bits of a coordinate within the box of a segment: 10 or 16.
-inline constexpr int kDracoBits = 16;
-
-/// The box of a segment in the numbers that its file has.
-struct FloatBox {
-  std::array<float, 3> origin{};
-  std::array<float, 3> shape{};
-};
-
-/// FOLDER/ID.index, the manifest: levels of detail, each in one fragment, and the box of the
-/// segment; and FOLDER/ID, the fragments: Draco meshes, coordinates whole numbers in a box that is
-/// twice as large for each level.  The first level is the surface itself: vertices that are rounded
-/// to the same place stay apart, so it stays as closed as it is.  Each level after it may be twice
-/// as far from it (clustered()); there is none after one of few triangles.
-/// Memory: the segment, some 300 bytes a triangle: Draco takes it at once.
+/// Levels of detail as an octree has them: the first is the surface itself, each after it may be
+/// twice as far from it (clustered()) and has cells twice as long; there is none after one of few
+/// triangles.  A cell is 64 mean edges long, so its mesh has some 10^4 triangles at any level, and
+/// a viewer fetches the cells that it shows.  Meshes are Draco's, with whole coordinates of 1/1024
+/// mean edge: those of the first level that are rounded to the same place stay apart, so the
+/// surface stays as closed in a cell as it is, and cells meet along their planes point by point.
+/// Memory: the segment, some 500 bytes a triangle.
 class DracoSink : public SurfaceSink {
  public:
-  /// segment: FOLDER/ID.
-  DracoSink(std::filesystem::path segment, double nm_per_unit)
-      : segment_(std::move(segment)), nm_per_unit_(nm_per_unit) {}
+  /// REQUIRES: segments outlives it.
+  DracoSink(DracoSegments& segments, std::uint64_t segment, double nm_per_unit)
+      : segments_(segments), segment_(segment), nm_per_unit_(nm_per_unit) {}
 
   void begin(const SurfaceHeader& header) override;
   void write_vertices(std::span<const Position> positions) override;
@@ -40,11 +31,8 @@ class DracoSink : public SurfaceSink {
   void finish() override;
 
  private:
-  /// Returns how many bytes it appends.
-  [[nodiscard]] std::uint32_t append_level(const TriangleSurface& surface, const FloatBox& box,
-                                           int level, AtomicFile& file) const;
-
-  std::filesystem::path segment_;
+  DracoSegments& segments_;
+  std::uint64_t segment_;
   double nm_per_unit_;
   TriangleSurface surface_;  ///< nm
 };

@@ -30,19 +30,44 @@ Json info_json(FragmentKind kind) {
           {"lod_scale_multiplier", 1}};
 }
 
-/// Segments without a name have their number, which the viewer shows for them.
-Json properties_json(const std::vector<RawLabel>& segments, const LabelNames& names) {
-  Json ids = Json::array();
+Json label_property(const std::vector<RawLabel>& segments, const LabelNames& names) {
   Json values = Json::array();
   for (const RawLabel segment : segments) {
-    if (names.name(segment).empty()) continue;
-    ids.push_back(text(segment));
-    values.push_back(names.name(segment));
+    const std::string& name = names.name(segment);
+    values.push_back(name.empty() ? text(segment) : name);
   }
-  if (ids.empty()) return nullptr;
-  const Json property{{"id", "label"}, {"type", "label"}, {"values", values}};
+  return {{"id", "label"}, {"type", "label"}, {"values", values}};
+}
+
+Json number_property(const char* id, const std::string& about, const char* type, Json values) {
+  return {{"id", id},
+          {"type", "number"},
+          {"description", about},
+          {"data_type", type},
+          {"values", std::move(values)}};
+}
+
+Json properties_json(const std::vector<RawLabel>& segments,
+                     const std::deque<SegmentFigures>& figures, const LabelNames& names,
+                     const std::string& unit) {
+  Json ids = Json::array(), volumes = Json::array(), areas = Json::array(),
+       neighbours = Json::array();
+  for (const RawLabel segment : segments) ids.push_back(text(segment));
+  for (const SegmentFigures& f : figures) {
+    if (f.volume) volumes.push_back(*f.volume);
+    areas.push_back(f.area);
+    neighbours.push_back(f.neighbours);
+  }
+  Json properties = Json::array();
+  properties.push_back(label_property(segments, names));
+  if (figures.front().volume) {
+    properties.push_back(number_property("volume", "volume in " + unit + "^3", "float32", volumes));
+  }
+  properties.push_back(number_property("area", "area in " + unit + "^2", "float32", areas));
+  properties.push_back(
+      number_property("neighbours", "labels that it touches", "uint32", neighbours));
   return {{"@type", "neuroglancer_segment_properties"},
-          {"inline", {{"ids", ids}, {"properties", Json::Array{property}}}}};
+          {"inline", {{"ids", ids}, {"properties", properties}}}};
 }
 
 }  // namespace
@@ -82,20 +107,26 @@ void LegacySink::finish() {
 
 std::unique_ptr<SurfaceSink> MeshFolder::sink(RawLabel label) {
   segments_.push_back(label);
-  const std::filesystem::path path = folder_.path() / text(label);
+  std::unique_ptr<SurfaceSink> sink;
   if (options_.kind == FragmentKind::kLegacy) {
-    return std::make_unique<LegacySink>(path, options_.nm_per_unit);
+    sink = std::make_unique<LegacySink>(folder_.path() / text(label), options_.nm_per_unit);
+  } else {
+    sink = std::make_unique<DracoSink>(draco_, label, options_.nm_per_unit);
   }
-  return std::make_unique<DracoSink>(path, options_.nm_per_unit);
+  return std::make_unique<MeasuredSink>(std::move(sink), folder_.path(), options_.closed,
+                                        figures_.emplace_back());
 }
 
 void MeshFolder::finish(const LabelNames& names) {
   Json info = info_json(options_.kind);
-  const Json properties = properties_json(segments_, names);
-  if (!properties.is_null()) {
+  if (Json sharding = draco_.finish(options_.most_single); !sharding.is_null()) {
+    info["sharding"] = std::move(sharding);
+  }
+  if (!segments_.empty()) {
     info[kProperties] = kProperties;
     std::filesystem::create_directory(folder_.path() / kProperties);
-    write_json(folder_.path() / kProperties / "info", properties);
+    write_json(folder_.path() / kProperties / "info",
+               properties_json(segments_, figures_, names, options_.unit));
   }
   write_json(folder_.path() / "info", info);
   folder_.commit();

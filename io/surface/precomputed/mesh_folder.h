@@ -3,7 +3,11 @@
 // A folder of neuroglancer's precomputed meshes.
 #pragma once
 
+#include <deque>
+
 #include "io/file/sink/atomic_file.h"
+#include "io/surface/precomputed/draco_segments.h"
+#include "io/surface/precomputed/measured_sink.h"
 #include "io/surface/surface_sink.h"
 
 namespace mw::io {
@@ -29,23 +33,26 @@ class LegacySink : public SurfaceSink {
 
 enum class FragmentKind : std::uint8_t {
   kLegacy,  ///< "neuroglancer_legacy_mesh": plain numbers
-  kDraco,   ///< "neuroglancer_multilod_draco", each level of detail in one piece
+  kDraco,   ///< "neuroglancer_multilod_draco": levels of detail on an octree
 };
 
 /// How a folder is written.
 struct MeshFolderOptions {
   FragmentKind kind = FragmentKind::kLegacy;
-  double nm_per_unit = 1;  ///< of the mesh's coordinates; the format counts in nm
+  std::string unit = "nm";           ///< of the mesh's coordinates
+  double nm_per_unit = 1;            ///< the format counts in nm
+  bool closed = true;                ///< surfaces are, so they have volumes
+  std::size_t most_single = 10'000;  ///< kDraco: more segments than these go into shards
 };
 
-/// One segment a label, called by the label (a signed one by the same 64 bits unsigned), and names
-/// of labels as segment properties.  The folder can be shown by itself, or lie in that of a
-/// segmentation as its "mesh".
+/// One segment a label, called by the label (a signed one by the same 64 bits unsigned), and as
+/// segment properties its name, volume, area and number of neighbours.  The folder can be shown by
+/// itself, or lie in that of a segmentation as its "mesh".
 /// ERRORS: as SurfaceSink.
 class MeshFolder {
  public:
   MeshFolder(const std::filesystem::path& path, MeshFolderOptions options)
-      : folder_(path), options_(options) {}
+      : folder_(path), options_(std::move(options)), draco_(folder_.path()) {}
 
   /// For the surface of one label, not of interfaces.
   [[nodiscard]] std::unique_ptr<SurfaceSink> sink(RawLabel label);
@@ -55,7 +62,9 @@ class MeshFolder {
  private:
   AtomicFolder folder_;
   MeshFolderOptions options_;
+  DracoSegments draco_;
   std::vector<RawLabel> segments_;
+  std::deque<SegmentFigures> figures_;  ///< of segments_, where sinks find them
 };
 
 }  // namespace mw::io
