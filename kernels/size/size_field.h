@@ -3,6 +3,7 @@
 // How long edges may be, label by label and place by place.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -64,7 +65,8 @@ class SizeField {
   /// Finds the limits, once all voxels are known.  Cost: some 50 ns a cube and value in the list.
   void spread();
 
-  /// The limit at a place in the volume, without those of labels.
+  /// The limit at a place, without those of labels; at one outside the volume, where a vertex may
+  /// be thought of before it is refused, that of the nearest cube.
   /// REQUIRES: limits(), spread() was called.
   [[nodiscard]] double at(Point p) const {
     return values_[row(cube_at(p.x, cubes_.x), cube_at(p.y, cubes_.y), cube_at(p.z, cubes_.z))];
@@ -91,7 +93,7 @@ class SizeField {
  private:
   /// The far side of the volume belongs to the last cube.
   [[nodiscard]] std::int64_t cube_at(std::int32_t units, std::int64_t cubes) const {
-    return std::min<std::int64_t>(units >> cube_shift_, cubes - 1);
+    return std::clamp<std::int64_t>(units >> cube_shift_, 0, cubes - 1);
   }
   [[nodiscard]] std::size_t row(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return static_cast<std::size_t>((z * cubes_.y + y) * cubes_.x + x);

@@ -108,6 +108,28 @@ TEST(SizeField, IsWhatItsDefinitionSays) {
   EXPECT_GT(large, 1);
 }
 
+/// Places out of reach of the volume are asked for before a vertex there is refused.
+TEST(SizeField, OutsideIsAsAtTheNearestPlaceInside) {
+  std::mt19937 random(1907);
+  for (int i = 0; i < 40; ++i) {
+    const Case c = random_case(random);
+    const SizeField field = c.field();
+    const Index3 shape = c.volume.shape;
+    const auto anywhere = [&](std::int64_t voxels) {
+      const auto units = static_cast<std::uint32_t>(voxels * kUnitsPerVoxel);
+      return static_cast<std::int32_t>(below(random, 3 * units)) - static_cast<std::int32_t>(units);
+    };
+    const auto inside = [](std::int32_t u, std::int64_t voxels) {
+      return std::clamp(u, 0, static_cast<std::int32_t>(voxels * kUnitsPerVoxel));
+    };
+    for (int k = 0; k < 200; ++k) {
+      const Point p{anywhere(shape.x), anywhere(shape.y), anywhere(shape.z)};
+      const Point near{inside(p.x, shape.x), inside(p.y, shape.y), inside(p.z, shape.z)};
+      EXPECT_EQ(field.at(p), field.at(near));
+    }
+  }
+}
+
 TEST(SizeField, HasCubesThatAreFewAndAtMostOfEightVoxels) {
   const auto of = [](std::int64_t n) { return SizeField::cube_voxels({n, n, n}); };
   EXPECT_EQ(of(96), 1);
