@@ -275,6 +275,8 @@ class Case:
         """Writes other labels into the file under a run, which meshes what it read first or says
         so; then the file is as it was."""
         path = self.folder / self.volume.file
+        if self.volume.has_scores:
+            return
         if "," in self.volume.file or path.suffix == ".gz" or b"gzip" in path.read_bytes()[:400]:
             return  # unpacked once, at the start
         before = path.read_bytes()
@@ -317,8 +319,8 @@ class Case:
     def edited_runs(self):
         """A chain of edits, meshed from what the runs before have kept, some of them killed: the
         files are those of runs that begin afresh."""
-        if "," in self.volume.file:
-            return  # masks
+        if "," in self.volume.file or self.volume.has_scores:
+            return  # masks, or probabilities and distances
         path, flags = self.folder / self.volume.file, self.settings.flags
         named = self.settings.names_labels() or "size" in flags or "split" in flags
         if named or "count" in flags or "periodic" in flags or flags.get("order") == "raster" or path.suffix == ".gz":
@@ -364,6 +366,8 @@ class Case:
         self.volume = volumes.draw(self.random, self.folder, self.run)
         self.settings = settings_of.draw(
             self.random, self.volume, lambda settings: self.prepared(settings).values())
+        if self.volume.has_scores:
+            self.did.append("scored")
         self.base_run()
         self.verify()
         self.check_report()

@@ -71,11 +71,11 @@ def crop(random, settings, shape):
 def draw_prepare(random, settings, volume, values_of):
     if random.random() < 0.12:
         crop(random, settings, volume.shape)
-    if random.random() < 0.10:
+    if random.random() < 0.10 and not volume.has_scores:
         merge(random, settings, values_of(settings))
     if random.random() < 0.10:
         settings.prepare["drop-specks"] = random.choice(["2", "5", "30", "3/26"])
-    elif random.random() < 0.08:
+    elif random.random() < 0.08 and not volume.has_scores:
         settings.prepare["weld"] = str(random.choice(values_of(settings)))
 
 
@@ -164,7 +164,7 @@ def draw_flags(random, settings):
 def draw_periodic(random, settings, volume):
     """Along axes of an even number of voxels, without what cells that repeat themselves do not have."""
     flags = settings.flags
-    if "crop" in settings.prepare or {"size", "count", "across"} & flags.keys():
+    if "crop" in settings.prepare or {"size", "count", "across"} & flags.keys() or volume.has_scores:
         return
     even = [axis for axis, voxels in zip("xyz", volume.shape) if voxels % 2 == 0]
     if even and flags.get("optimizer") != "tetgen" and random.random() < 0.15:
@@ -175,6 +175,8 @@ def draw_values(random, settings, volume):
     """The file of labels is an image, too: on its own grid, also where only a part is meshed."""
     arguments = volume.arguments
     if settings.output == "m.mesh" or "--shape" in arguments or "voxel" in arguments or "," in volume.file:
+        return
+    if volume.has_scores:
         return
     if random.random() < 0.15:
         statistic = random.choice(["mean", "min", "max", "mode"])

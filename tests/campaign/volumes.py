@@ -34,6 +34,7 @@ class Volume:
     turned: list = None
     file: str = "v.npy"  # or a list of masks
     arguments: list = field(default_factory=list)  # how the program is told of the file
+    has_scores: bool = False  # the file has probabilities or distances, which tell the labels
 
     def values(self):
         return sorted(set(self.labels))
@@ -231,13 +232,16 @@ def packed(volume):
     return struct.pack(f"<{len(volume.labels)}{TYPES[volume.dtype][0]}", *volume.labels)
 
 
-def write_npy(path, volume):
-    shape = tuple(reversed(volume.shape))
-    text = f"{{'descr': '{TYPES[volume.dtype][1]}', 'fortran_order': False, 'shape': {shape}, }}"
+def write_array(path, dtype, shape, data):
+    text = f"{{'descr': '{dtype}', 'fortran_order': False, 'shape': {shape}, }}"
     text += " " * (63 - (10 + len(text)) % 64) + "\n"
     with open(path, "wb") as file:
         file.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(text)) + text.encode())
-        file.write(packed(volume))
+        file.write(data)
+
+
+def write_npy(path, volume):
+    write_array(path, TYPES[volume.dtype][1], tuple(reversed(volume.shape)), packed(volume))
 
 
 def write_nrrd(path, volume, squeezed):
@@ -289,11 +293,34 @@ def write_masks(folder, volume):
     volume.file, volume.dtype = ",".join(files), "u16"
 
 
+def scores_of(random, label, classes, kind):
+    """Numbers, one for each class, from which the voxel has this label."""
+    if kind == "probabilities":
+        return [random.uniform(0.5, 1) if c == label else random.uniform(0, 0.499)
+                for c in range(classes)]
+    return [-random.uniform(0.001, 2) if c == label else random.uniform(0.001, 2)
+            for c in range(1, classes)]
+
+
+def write_scores(random, folder, volume):
+    """Random ones, which put interfaces anywhere within half a voxel of the faces."""
+    kind = random.choice(["probabilities", "distances"])
+    classes = len(volume.values())
+    scores = [scores_of(random, label, classes, kind) for label in volume.labels]
+    components = list(zip(*scores))
+    data = b"".join(struct.pack(f"<{len(c)}f", *c) for c in components)
+    write_array(folder / "v.npy", "<f4", (len(components), *reversed(volume.shape)), data)
+    volume.file, volume.dtype, volume.has_scores = "v.npy", "u8", True
+    return ["--values", kind]
+
+
 def write(random, volume, folder):
     """Writes the file and sets `file` and `arguments`."""
     place = ["--spacing", triple(volume.spacing), "--origin=" + triple(volume.origin)]
     way = random.random()
-    if way < 0.65:
+    if random.random() < 0.15 and can_be_masks(volume):
+        volume.arguments = [*write_scores(random, folder, volume), *place]
+    elif way < 0.65:
         write_npy(folder / "v.npy", volume)
         volume.file, volume.arguments = "v.npy", place
     elif way < 0.75:
