@@ -41,7 +41,11 @@ void MeasuredSink::begin(const SurfaceHeader& header) {
 
 void MeasuredSink::write_vertices(std::span<const Position> positions) {
   if (vertices_.size() == 0 && !positions.empty()) first_ = positions.front();
-  for (const Position& position : positions) vertices_.append(position);
+  for (const Position& position : positions) {
+    vertices_.append(position);
+    if (!figures_.box) figures_.box = SegmentBox{position, position};
+    figures_.box->add(position);
+  }
   sink_->write_vertices(positions);
 }
 

@@ -3,6 +3,7 @@
 // What a viewer may sort segments by, measured while a surface is written.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -11,11 +12,25 @@
 
 namespace mw::io {
 
+/// The smallest box along the axes that holds a segment.
+struct SegmentBox {
+  Position low{};
+  Position high{};
+
+  void add(const Position& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+};
+
 /// Figures of the surface of one label, in the mesh's unit.
 struct SegmentFigures {
   double area = 0;
   std::optional<double> volume;  ///< where the surface is closed
   std::uint32_t neighbours = 0;  ///< labels that it touches
+  std::optional<SegmentBox> box;
 };
 
 /// Hands everything on, and measures it.

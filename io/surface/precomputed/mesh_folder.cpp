@@ -70,6 +70,23 @@ Json properties_json(const std::vector<RawLabel>& segments,
           {"inline", {{"ids", ids}, {"properties", properties}}}};
 }
 
+/// Around all segments, low and high corner in nm: readers of the format know no such member, but
+/// who wants to look at the folder as a whole has to know where it is.
+Json box_json(const std::deque<SegmentFigures>& figures, double nm_per_unit) {
+  SegmentBox box = figures.front().box.value_or(SegmentBox{});
+  for (const SegmentFigures& f : figures) {
+    if (!f.box) continue;
+    box.add(f.box->low);
+    box.add(f.box->high);
+  }
+  Json low = Json::array(), high = Json::array();
+  for (std::size_t k = 0; k < 3; ++k) {
+    low.push_back(box.low[k] * nm_per_unit);
+    high.push_back(box.high[k] * nm_per_unit);
+  }
+  return Json::Array{low, high};
+}
+
 }  // namespace
 
 LegacySink::LegacySink(const std::filesystem::path& segment, double nm_per_unit)
@@ -124,6 +141,7 @@ void MeshFolder::finish(const LabelNames& names) {
   }
   if (!segments_.empty()) {
     info[kProperties] = kProperties;
+    info["mwmesh_box"] = box_json(figures_, options_.nm_per_unit);
     std::filesystem::create_directory(folder_.path() / kProperties);
     write_json(folder_.path() / kProperties / "info",
                properties_json(segments_, figures_, names, options_.unit));
