@@ -23,7 +23,11 @@ struct TriangleSurface {
 [[nodiscard]] TriangleSurface clustered(const TriangleSurface& fine, const Position& origin,
                                         double cell);
 
-/// The mean length of the edges of all triangles; 0 where there are none.
-[[nodiscard]] double mean_edge_length(const TriangleSurface& surface);
+/// Of the edges of all triangles; 0 where there are none.
+struct EdgeLengths {
+  double mean = 0;
+  double longest = 0;
+};
+[[nodiscard]] EdgeLengths edge_lengths(const TriangleSurface& surface);
 
 }  // namespace mw::io

@@ -21,7 +21,8 @@ namespace {
 constexpr int kMostLevels = 8;
 constexpr std::size_t kFewTriangles = 200;
 
-/// The length of a cell in mean edges, and how many cells there are along an axis at most.
+/// The length of a cell in mean edges, and how many cells there are along an axis at most.  No edge
+/// is longer than a cell, so no triangle becomes many pieces.
 constexpr double kCellEdges = 64;
 constexpr double kMostCells = 1 << 13;
 
@@ -43,7 +44,7 @@ struct Octree {
   }
 };
 
-Octree octree_of(const TriangleSurface& surface, double mean_edge) {
+Octree octree_of(const TriangleSurface& surface, const EdgeLengths& edges) {
   Octree out;
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -54,7 +55,7 @@ Octree octree_of(const TriangleSurface& surface, double mean_edge) {
     out.extent[k] = std::max(0.0, (*hi)[k] - static_cast<double>(out.origin[k]));
     longest = std::max(longest, out.extent[k]);
   }
-  const double cell = std::max(kCellEdges * mean_edge, longest / kMostCells);
+  const double cell = std::max({kCellEdges * edges.mean, edges.longest, longest / kMostCells});
   out.cell = cell > 0 ? static_cast<float>(cell) : 1;
   return out;
 }
@@ -205,8 +206,9 @@ void DracoSink::write_triangles(std::span<const Triangle> triangles) {
 
 /// Coarser levels are clustered in cubes of 2, 4, 8 mean edges, as long as that leaves a surface.
 void DracoSink::finish() {
-  double scale = mean_edge_length(surface_);
-  const Octree octree = octree_of(surface_, scale);
+  const EdgeLengths edges = edge_lengths(surface_);
+  const Octree octree = octree_of(surface_, edges);
+  double scale = edges.mean;
   const Position origin{octree.origin[0], octree.origin[1], octree.origin[2]};
   std::string fragments;
   std::vector<Level> levels{add_level(surface_, octree, {}, fragments)};

@@ -102,7 +102,7 @@ TEST_F(SurfaceCommand, FilesAreTheSameEachTimeAndFromEveryMesh) {
 TEST_F(SurfaceCommand, NothingIsLeftWhenTheDiskIsFull) {
   make_mesh();
   // A limit on the size of files instead of a full disk.
-  for (const std::string out : {"s.stl", "s.ply", "s"}) {
+  for (const std::string out : {"s.stl", "s.ply", "s", "s --format draco"}) {
     expect_failure(4, "surface v.vtu -o " + out, "s", "ulimit -f 1;");
   }
   // Some labels have small surfaces, which a disk would still take.

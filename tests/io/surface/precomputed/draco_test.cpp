@@ -229,7 +229,7 @@ TEST(DracoMeshes, EachLevelIsCoarserAndWithinItsBound) {
   const Manifest manifest = parse_manifest(segment.index);
   ASSERT_GE(manifest.levels.size(), 4U);
   EXPECT_LE(manifest.levels.size(), 8U);
-  EXPECT_NEAR(manifest.scales[0], mean_edge_length(surface), 1e-4);
+  EXPECT_NEAR(manifest.scales[0], edge_lengths(surface).mean, 1e-4);
   std::size_t triangles = 0;
   for (std::size_t level = 0; level < manifest.levels.size(); ++level) {
     const auto found = decode(segment.fragments, manifest, level).places;
@@ -283,6 +283,20 @@ TEST(DracoMeshes, CellsFitTogether) {
       };
       EXPECT_TRUE(std::any_of(parents.begin(), parents.end(), holds)) << level;
     }
+  }
+}
+
+/// Among small triangles one that is 10^5 times as long would cross as many cells of 64 mean edges.
+TEST(DracoMeshes, LongTrianglesAreNotCutIntoMany) {
+  TriangleSurface surface = torus(60);
+  const std::uint64_t first = surface.vertices.size();
+  surface.vertices.insert(surface.vertices.end(), {{0, 0, 0}, {1e7, 0, 3}, {2, 1e7, 1e7}});
+  surface.triangles.push_back({first, first + 1, first + 2});
+  const Segment segment = write_segment(surface);
+  const Manifest manifest = parse_manifest(segment.index);
+  for (std::size_t level = 0; level < manifest.levels.size(); ++level) {
+    EXPECT_LE(decode(segment.fragments, manifest, level).places.size(),
+              surface.triangles.size() + 20);
   }
 }
 
