@@ -23,7 +23,7 @@ struct TriangleSurface {
 [[nodiscard]] TriangleSurface clustered(const TriangleSurface& fine, const Position& origin,
                                         double cell);
 
-/// Of the edges of all triangles; 0 where there are none.
+/// Lengths of the edges of all triangles; 0 where there are none.
 struct EdgeLengths {
   double mean = 0;
   double longest = 0;

@@ -14,8 +14,8 @@
 namespace mw::io {
 namespace {
 
-/// A shard has about as many bytes at most, and a minishard as many segments: readers fetch the
-/// index of a minishard, 24 bytes a segment, before the first of them.
+/// What a shard and a minishard are meant to hold at most; chance makes some of them larger.
+/// Readers fetch the index of a minishard, 24 bytes a segment, before its first segment.
 constexpr std::uint64_t kShardBytes = std::uint64_t{1} << 28U;
 constexpr std::uint64_t kMinishardSegments = 512;
 
