@@ -195,10 +195,12 @@ class Surfaces(unittest.TestCase):
             self.assertAlmostEqual(volume_of(points / 1000, triangles) / expected, 1, places=4)
         with open(f"meshes/{info['segment_properties']}/info", encoding="utf-8") as file:
             inline = json.load(file)["inline"]
-        (labels,) = inline["properties"]
-        self.assertEqual(labels["type"], "label")
-        found = dict(zip(map(int, inline["ids"]), labels["values"]))
-        self.assertEqual(found, {k: v[0] for k, v in NAMES.items()})
+        ids = [int(segment) for segment in inline["ids"]]
+        found = {p["id"]: dict(zip(ids, p["values"])) for p in inline["properties"]}
+        names = {label: NAMES[label][0] if label in NAMES else str(label) for label in self.volumes}
+        self.assertEqual(found["label"], names)
+        for label, expected in self.volumes.items():
+            self.assertAlmostEqual(found["volume"][label] / expected, 1, places=9)
 
 
 if __name__ == "__main__":
