@@ -114,12 +114,12 @@ class RunCursor {
 /// not known.
 [[nodiscard]] std::string space_comment(const SurfaceHeader& header);
 
-/// At the end of the file, least significant byte first.
-template <class T>
-void append_little(AtomicFile& file, T value) {
+/// At the end of a file or text, least significant byte first.
+template <class Out, class T>
+void append_little(Out& out, T value) {
   std::array<std::byte, sizeof value> bytes;
   store_little(value, bytes.data());
-  file.append(bytes);
+  out.append(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 /// ERRORS: mw::Error(kUsage) when there are more than `max` of `what`, which is all that a format

@@ -11,14 +11,6 @@
 
 namespace mw::io {
 
-[[nodiscard]] inline double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-[[nodiscard]] inline Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// A volume's place in the world as a header has it, not checked.
 struct FileSpace {
   /// steps[i]: the way from a voxel to its neighbour along axis i of the array (x, y, z).

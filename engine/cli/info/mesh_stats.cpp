@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/volume/volume_space.h"
 #include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/regions/regions.h"
 #include "kernels/audit/shape/quality.h"
@@ -13,19 +14,10 @@
 namespace mw::cli {
 namespace {
 
+using io::cross;
+using io::dot;
+using io::minus;
 using io::Position;
-
-Position cross(const Position& a, const Position& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Position& a, const Position& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Position minus(const Position& a, const Position& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
 
 double area_of(const Position& a, const Position& b, const Position& c) {
   const Position normal = cross(minus(b, a), minus(c, a));

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 
-#include "io/file/byte_order.h"
 #include "io/file/errors.h"
 #include "io/surface/precomputed/octree_cells.h"
 #include "io/volume/precomputed/sharding.h"
@@ -160,21 +159,14 @@ Level add_level(const TriangleSurface& surface, const Octree& octree,
   return {.scale = 0, .nodes = std::move(nodes)};
 }
 
-template <class T>
-void append_number(std::string& out, T value) {
-  std::array<std::byte, sizeof value> bytes;
-  store_little(value, bytes.data());
-  out.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-}
-
 std::string manifest_of(const Octree& octree, const std::vector<Level>& levels) {
   std::string out;
-  for (int k = 0; k < 3; ++k) append_number(out, octree.cell);
-  for (const float x : octree.origin) append_number(out, x);
-  append_number(out, static_cast<std::uint32_t>(levels.size()));
-  for (const Level& level : levels) append_number(out, level.scale);
-  for (std::size_t i = 0; i < 3 * levels.size(); ++i) append_number(out, 0.0F);  // offsets
-  const auto number = [&](auto value) { append_number(out, static_cast<std::uint32_t>(value)); };
+  for (int k = 0; k < 3; ++k) append_little(out, octree.cell);
+  for (const float x : octree.origin) append_little(out, x);
+  append_little(out, static_cast<std::uint32_t>(levels.size()));
+  for (const Level& level : levels) append_little(out, level.scale);
+  for (std::size_t i = 0; i < 3 * levels.size(); ++i) append_little(out, 0.0F);  // offsets
+  const auto number = [&](auto value) { append_little(out, static_cast<std::uint32_t>(value)); };
   for (const Level& level : levels) number(level.nodes.size());
   for (const Level& level : levels) {
     for (const Node& node : level.nodes) number(node.cell.x);

@@ -18,7 +18,7 @@ namespace mw::io {
 /// a viewer fetches the cells that it shows.  Meshes are Draco's, with whole coordinates of 1/1024
 /// mean edge: those of the first level that are rounded to the same place stay apart, so the
 /// surface stays as closed in a cell as it is, and cells meet along their planes point by point.
-/// Memory: the segment, some 500 bytes a triangle.
+/// Memory: the segment, 400 bytes a triangle at most.
 class DracoSink : public SurfaceSink {
  public:
   /// REQUIRES: segments outlives it.

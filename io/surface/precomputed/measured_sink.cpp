@@ -9,18 +9,6 @@
 namespace mw::io {
 namespace {
 
-Position minus(const Position& a, const Position& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Position cross(const Position& a, const Position& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Position& a, const Position& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 std::uint32_t neighbours_of(const SurfaceHeader& header) {
   std::set<Label> out;
   for (const SurfaceShell& shell : header.shells) {

@@ -15,15 +15,9 @@ namespace {
 constexpr std::string_view kTitle = "binary STL, surface of a labelled mesh";
 constexpr std::size_t kTitleBytes = 80;
 
-Position minus(const Position& a, const Position& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 /// Returns the normal of length 1; 0 0 0 where the corners are on one line.
 Position normal_of(const std::array<Position, 3>& corners) {
-  const Position u = minus(corners[1], corners[0]);
-  const Position v = minus(corners[2], corners[0]);
-  Position n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  Position n = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   const double length = std::hypot(n[0], n[1], n[2]);
   for (double& x : n) x = length > 0 ? x / length : 0;
   return n;

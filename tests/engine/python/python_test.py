@@ -925,7 +925,6 @@ class Serve(InFolder):
         whole = pathlib.Path(self.path("meshes/1")).read_bytes()
         with mwmesh.serve.Server(self.path("meshes")) as server:
             threading.Thread(target=server.serve_forever, daemon=True).start()
-            self.addCleanup(server.shutdown)
             parts = {"bytes=3-17": (206, whole[3:18]), "bytes=9-": (206, whole[9:]),
                      "bytes=-5": (206, whole[-5:]), "bytes=0-99999999": (206, whole),
                      "bytes=99999999-": (416, b""), "bytes=-": (200, whole), None: (200, whole)}
@@ -940,6 +939,7 @@ class Serve(InFolder):
             connection.request("GET", "/../m.vtu")
             self.assertEqual(connection.getresponse().status, 404)
             connection.close()
+            server.shutdown()
 
     def test_the_program_says_what_is_no_folder_of_meshes(self):
         os.mkdir(self.path("empty"))

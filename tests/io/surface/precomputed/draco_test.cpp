@@ -68,11 +68,9 @@ Manifest parse_manifest(const std::string& content) {
   return out;
 }
 
-using Corners = std::array<std::int64_t, 3>;  ///< a place in steps of its level
-
 /// What was read of a level.
 struct Decoded {
-  std::vector<std::array<Corners, 3>> steps;
+  std::vector<std::array<Steps, 3>> steps;
   std::vector<std::array<Position, 3>> places;  ///< corners of triangles, the least first
 };
 
@@ -98,7 +96,7 @@ Decoded decode(const std::string& fragments, const Manifest& manifest, std::size
         mesh->GetNamedAttribute(draco::GeometryAttribute::POSITION);
     EXPECT_EQ(attribute->size(), mesh->num_points());
     for (std::uint32_t f = 0; f < mesh->num_faces(); ++f) {
-      std::array<Corners, 3> steps{};
+      std::array<Steps, 3> steps{};
       std::array<Position, 3> corners{};
       std::array<bool, 3> has_low{}, has_high{};
       for (std::size_t i = 0; i < 3; ++i) {
@@ -135,24 +133,23 @@ struct Segment {
   std::string index;
 };
 
-Segment write_segment(Surface& surface, double nm_per_unit) {
+/// fill(sink): begin to finish.
+template <class Fill>
+Segment write_segment(double nm_per_unit, Fill fill) {
   const TempDir dir;
   DracoSegments segments(dir.path());
   DracoSink sink(segments, 1, nm_per_unit);
-  surface.write(sink);
+  fill(sink);
   EXPECT_TRUE(segments.finish(1).is_null());
   return {content_of(dir.path() / "1"), content_of(dir.path() / "1.index")};
 }
 
 Segment write_segment(const TriangleSurface& surface) {
-  const TempDir dir;
-  DracoSegments segments(dir.path());
-  DracoSink sink(segments, 1, 1);
-  sink.write_vertices(surface.vertices);
-  sink.write_triangles(surface.triangles);
-  sink.finish();
-  EXPECT_TRUE(segments.finish(1).is_null());
-  return {content_of(dir.path() / "1"), content_of(dir.path() / "1.index")};
+  return write_segment(1, [&](SurfaceSink& sink) {
+    sink.write_vertices(surface.vertices);
+    sink.write_triangles(surface.triangles);
+    sink.finish();
+  });
 }
 
 /// The corners of the mesh are whole numbers.
@@ -176,7 +173,8 @@ TEST(DracoMeshes, SegmentsComeBackTriangleByTriangle) {
     constexpr double kNmPerUnit = 1000;
     for (const bool manifold : {false, true}) {
       Surface surface = mesh.surface({plans.of_label(1)}, manifold);
-      const Segment segment = write_segment(surface, kNmPerUnit);
+      const Segment segment =
+          write_segment(kNmPerUnit, [&](SurfaceSink& sink) { surface.write(sink); });
       CollectSurface plain;
       surface.write(plain);
       std::vector<std::array<Position, 3>> expected;
@@ -259,10 +257,10 @@ TEST(DracoMeshes, CellsFitTogether) {
   const Manifest manifest = parse_manifest(segment.index);
   ASSERT_GT(manifest.levels[0].size(), 10U);
   const Decoded found = decode(segment.fragments, manifest);
-  std::map<std::array<Corners, 2>, int> edges;
+  std::map<std::array<Steps, 2>, int> edges;
   for (const auto& t : found.steps) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Corners &a = t[i], &b = t[(i + 1) % 3];
+      const Steps &a = t[i], &b = t[(i + 1) % 3];
       if (a < b) ++edges[{a, b}];
       if (b < a) --edges[{b, a}];
     }
@@ -286,7 +284,7 @@ TEST(DracoMeshes, CellsFitTogether) {
   }
 }
 
-/// Among small triangles one that is 10^5 times as long would cross as many cells of 64 mean edges.
+/// A triangle that is far longer than the others would cross some hundred cells of 64 mean edges.
 TEST(DracoMeshes, LongTrianglesAreNotCutIntoMany) {
   TriangleSurface surface = torus(60);
   const std::uint64_t first = surface.vertices.size();
