@@ -22,15 +22,12 @@ BlockFigures::BlockFigures(const OutputOptions& options, std::size_t labels)
   if (has_volumes) volumes6.resize(labels);
 }
 
-void BlockFigures::add(const BlockMesh& block, std::span<const io::Position> positions,
-                       std::span<const io::TetRows> tets, std::uint64_t first_tet) {
-  for (std::size_t t = 0; quality && t < tets.size(); ++t) {
-    const auto& [a, b, c, d] = tets[t];
-    quality->add(first_tet + t, {positions[a], positions[b], positions[c], positions[d]});
-  }
-  if (edges) edges->add(block.tets, positions);
+void BlockFigures::add(const WrittenBlock& block, const audit::QualityMeter& shape,
+                       std::uint64_t first_tet) {
+  if (quality) quality->add(shape, first_tet);
+  if (edges) edges->add(block.block.tets, block.positions);
   if (!has_volumes) return;
-  for (const BlockTet& tet : block.tets) volumes6[tet.label] += volume6_of(block, tet);
+  for (const BlockTet& tet : block.block.tets) volumes6[tet.label] += volume6_of(block.block, tet);
 }
 
 void BlockFigures::report(FinishedMesh& out) {

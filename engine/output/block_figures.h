@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/output/finish.h"
+#include "engine/output/written_block.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/mesh/block_mesh.h"
 
@@ -77,10 +78,9 @@ struct BlockFigures {
   /// labels: how many there are.
   BlockFigures(const OutputOptions& options, std::size_t labels);
 
-  /// block: without what is not written; positions of its vertices; tets: its own, as they are
-  /// written, but by rows of the block; first_tet: the number of the first one in the mesh.
-  void add(const BlockMesh& block, std::span<const io::Position> positions,
-           std::span<const io::TetRows> tets, std::uint64_t first_tet);
+  /// shape: of the block's tets, by their numbers in the block; first_tet: the number of the first
+  /// one in the mesh.
+  void add(const WrittenBlock& block, const audit::QualityMeter& shape, std::uint64_t first_tet);
 
   /// Ends it.
   void report(FinishedMesh& out);

@@ -4,6 +4,7 @@
 #include "engine/output/finish.h"
 
 #include "engine/output/block_figures.h"
+#include "engine/output/block_triangles.h"
 #include "engine/output/interface_shape.h"
 #include "engine/output/remembered.h"
 #include "engine/output/vertex_rows.h"
@@ -11,68 +12,6 @@
 
 namespace mw::engine {
 namespace {
-
-/// Second pass.
-class Writer {
- public:
-  Writer(VertexUses uses, const io::DenseVolume& volume, const OutputOptions& options,
-         io::MeshSink& sink, Remembered& remembered)
-      : rows_(std::move(uses)),
-        volume_(volume),
-        layers_(options.layers),
-        sink_(sink),
-        remembered_(remembered),
-        figures_(options, volume.table().size()),
-        values_(options.values) {}
-
-  void write(Index3 where, const BlockMesh& block) {
-    const std::vector<io::Position> positions = positions_of(block, volume_.info(), layers_);
-    std::vector<io::TetRows> tets = oriented_tets(block, is_mirrored(volume_.info().space));
-    figures_.add(block, positions, tets, tets_);
-    tets_ += tets.size();
-    const std::vector<double> values = values_of(positions, tets);
-    const std::vector<std::uint64_t> rows = write_vertices(where, block, positions);
-    give_rows(tets, rows);
-    sink_.write_tets(tets, raw_labels(block, volume_.table()));
-    if (values_ != nullptr) sink_.write_values(values);
-  }
-
-  void report(FinishedMesh& out) {
-    out.vertices = rows_.count();
-    out.max_remembered = rows_.max_remembered();
-    figures_.report(out);
-  }
-
- private:
-  std::vector<double> values_of(std::span<const io::Position> positions,
-                                std::span<const io::TetRows> tets) {
-    if (values_ == nullptr) return {};
-    const auto hold = [&](std::uint64_t bytes) { remembered_.values(bytes); };
-    return values_->of(positions, tets, hold);
-  }
-
-  std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
-                                            const std::vector<io::Position>& positions) {
-    remembered_.rows(Remembered::kBytesPerRow * (rows_.remembered() + block.vertices.size()));
-    const std::uint64_t first_new = rows_.count();
-    std::vector<std::uint64_t> rows = rows_.assign(where, block.vertices);
-    std::vector<io::Position> added;
-    for (std::size_t v = 0; v < rows.size(); ++v) {
-      if (rows[v] >= first_new) added.push_back(positions[v]);
-    }
-    sink_.write_vertices(added);
-    return rows;
-  }
-
-  VertexRows rows_;
-  const io::DenseVolume& volume_;
-  Index3 layers_;
-  io::MeshSink& sink_;
-  Remembered& remembered_;
-  BlockFigures figures_;
-  CellValues* values_;
-  std::uint64_t tets_ = 0;  ///< so far
-};
 
 /// Exact: four times a barycentre is the sum of the corners.
 std::uint64_t tets_within(const BlockMesh& block, const Box3& box) {
@@ -106,41 +45,141 @@ io::VolumeInfo lattice_info(io::VolumeInfo info, Index3 layers) {
   return info;
 }
 
+/// What a block tells in the first pass.
+struct Counts {
+  std::vector<std::size_t> lines;  ///< see VertexUses
+  std::uint64_t tets = 0;
+  std::uint64_t tets_within = 0;
+};
+
+/// First pass.  Returns the lines of blocks that use vertices.
+VertexUses count(const FinalMesh& mesh, const LabelSelection& selection,
+                 const OutputOptions& options, FinishedMesh& out) {
+  VertexUses uses(mesh.grid);
+  const Index3 blocks = mesh.grid.blocks();
+  each_in_order<Counts>(
+      options.work, static_cast<std::size_t>(blocks.product()),
+      [&](std::size_t i) {
+        BlockMesh block = mesh.blocks.load(index_at(i, blocks));
+        selection.apply(block);
+        return Counts{uses.lines_of(block.vertices), block.tets.size(),
+                      options.within ? tets_within(block, *options.within) : 0};
+      },
+      [&](std::size_t i, Counts&& of_block) {
+        uses.add(index_at(i, blocks), of_block.lines);
+        out.tets += of_block.tets;
+        out.tets_within += of_block.tets_within;
+      });
+  return uses;
+}
+
+/// What can be told of a block before those in front of it are written.
+struct MadeBlock {
+  WrittenBlock written;
+  audit::QualityMeter quality;              ///< with measure_quality
+  std::optional<BlockTriangles> triangles;  ///< with measure_shape
+};
+
+/// Second pass.
+class Writer {
+ public:
+  Writer(const FinalMesh& mesh, const LabelSelection& selection, VertexUses uses,
+         io::MeshSink& sink, const OutputOptions& options)
+      : mesh_(mesh),
+        selection_(selection),
+        rows_(std::move(uses)),
+        sink_(sink),
+        options_(options),
+        remembered_(options.hold),
+        figures_(options, mesh.volume.table().size()) {
+    if (!options.measure_shape) return;
+    shape_.emplace(mesh.grid, lattice_info(mesh.volume.info(), options.layers), selection,
+                   [this](std::uint64_t bytes) { remembered_.shape(bytes); });
+  }
+
+  /// Thread safety: may be called while write() runs.
+  [[nodiscard]] MadeBlock make(Index3 where) const {
+    MadeBlock out;
+    BlockMesh block = mesh_.blocks.load(where);
+    block.samples = {};  // what is made next needs the memory
+    if (shape_) out.triangles = shape_->look_at(block);
+    selection_.apply(block);
+    out.written = written_block(std::move(block), mesh_.volume, options_.layers);
+    if (options_.measure_quality) out.quality = quality_of(out.written);
+    return out;
+  }
+
+  void write(Index3 where, MadeBlock&& made) {
+    if (shape_) shape_->add(std::move(*made.triangles));
+    made.triangles.reset();
+    auto& [block, positions, tets, labels] = made.written;
+    figures_.add(made.written, made.quality, tets_);
+    tets_ += tets.size();
+    const std::vector<double> values = values_of(positions, tets);
+    const std::vector<std::uint64_t> rows = write_vertices(where, block, positions);
+    give_rows(tets, rows);
+    sink_.write_tets(tets, labels);
+    if (options_.values != nullptr) sink_.write_values(values);
+  }
+
+  void report(FinishedMesh& out) {
+    out.vertices = rows_.count();
+    out.max_remembered = rows_.max_remembered();
+    figures_.report(out);
+    if (!shape_) return;
+    out.shape = shape_->report();
+    out.max_shape_bytes = shape_->max_remembered();
+  }
+
+ private:
+  std::vector<double> values_of(std::span<const io::Position> positions,
+                                std::span<const io::TetRows> tets) {
+    if (options_.values == nullptr) return {};
+    const auto hold = [&](std::uint64_t bytes) { remembered_.values(bytes); };
+    return options_.values->of(positions, tets, hold);
+  }
+
+  std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
+                                            const std::vector<io::Position>& positions) {
+    remembered_.rows(Remembered::kBytesPerRow * (rows_.remembered() + block.vertices.size()));
+    const std::uint64_t first_new = rows_.count();
+    std::vector<std::uint64_t> rows = rows_.assign(where, block.vertices);
+    std::vector<io::Position> added;
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+      if (rows[v] >= first_new) added.push_back(positions[v]);
+    }
+    sink_.write_vertices(added);
+    return rows;
+  }
+
+  const FinalMesh& mesh_;
+  const LabelSelection& selection_;
+  VertexRows rows_;
+  io::MeshSink& sink_;
+  const OutputOptions& options_;
+  Remembered remembered_;
+  BlockFigures figures_;
+  std::optional<InterfaceShape> shape_;
+  std::uint64_t tets_ = 0;  ///< so far
+};
+
 }  // namespace
 
 FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptions& options) {
-  const auto& [blocks, grid, volume] = mesh;
-  const LabelSelection selection(options.wanted, volume.table());
+  const LabelSelection selection(options.wanted, mesh.volume.table());
   FinishedMesh out;
-  VertexUses uses(grid);
-  for_each_index(grid.blocks(), [&](Index3 b) {
-    BlockMesh block = blocks.load(b);
-    selection.apply(block);
-    uses.add(b, block.vertices);
-    out.tets += block.tets.size();
-    if (options.within) out.tets_within += tets_within(block, *options.within);
-  });
-  io::MeshHeader header = header_of(volume, selection, out.tets, options.promises);
+  VertexUses uses = count(mesh, selection, options, out);
+  io::MeshHeader header = header_of(mesh.volume, selection, out.tets, options.promises);
   if (options.values != nullptr) header.values = options.values->names();
   sink.begin(header);
-  Remembered remembered(options.hold);
-  Writer writer(std::move(uses), volume, options, sink, remembered);
-  std::optional<InterfaceShape> shape;
-  if (options.measure_shape) {
-    shape.emplace(grid, lattice_info(volume.info(), options.layers), selection,
-                  [&](std::uint64_t bytes) { remembered.shape(bytes); });
-  }
-  for_each_index(grid.blocks(), [&](Index3 b) {
-    BlockMesh block = blocks.load(b);
-    if (shape) shape->add(block);
-    selection.apply(block);
-    writer.write(b, block);
-  });
+  Writer writer(mesh, selection, std::move(uses), sink, options);
+  const Index3 blocks = mesh.grid.blocks();
+  each_in_order<MadeBlock>(
+      options.work, static_cast<std::size_t>(blocks.product()),
+      [&](std::size_t i) { return writer.make(index_at(i, blocks)); },
+      [&](std::size_t i, MadeBlock&& made) { writer.write(index_at(i, blocks), std::move(made)); });
   sink.finish();
   writer.report(out);
-  if (!shape) return out;
-  out.shape = shape->report();
-  out.max_shape_bytes = shape->max_remembered();
   return out;
 }
 

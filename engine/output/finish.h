@@ -12,6 +12,7 @@
 #include "engine/output/cell_values.h"
 #include "engine/output/label_selection.h"
 #include "engine/output/remembered.h"
+#include "engine/system/in_order.h"
 #include "engine/window/window_grid.h"
 #include "io/mesh/mesh_sink.h"
 #include "kernels/audit/shape/quality.h"
@@ -28,6 +29,7 @@ class FinalBlocks {
  public:
   virtual ~FinalBlocks() = default;
   /// A copy of the block.  Only vertices (id, position) and tets are looked at.
+  /// Thread safety: as many threads as OutputOptions::work has.
   [[nodiscard]] virtual BlockMesh load(Index3 block) = 0;
 };
 
@@ -51,6 +53,7 @@ struct OutputOptions {
   CellValues* values = nullptr;    ///< optional; what tets have beside labels; outlives the run
   std::optional<io::MeshPromises> promises;  ///< to be told in the file; set by mesh_volume()
   Index3 layers{1, 1, 1};  ///< that the volume's voxels were cut into; set by mesh_volume()
+  WorkInOrder work;        ///< on blocks; set by mesh_volume()
 };
 
 /// How many edges of tets are how long, as shares of the sizes that are asked of their labels.  An
@@ -83,11 +86,12 @@ struct FinishedMesh {
   std::uint64_t max_shape_bytes = 0;  ///< see InterfaceShape
 };
 
-/// Reads every block twice in raster order, first for counts and uses of vertices, then to write.
+/// Reads every block twice, first for counts and uses of vertices, then to write them in raster
+/// order.  What can be made of a block alone is made on several threads.
 /// Vertices ascend by the first block that references them, then by id; tets by block and canonical
 /// order inside it.  Coordinates are those of the volume's space (to_world), on corners of its
-/// voxels whatever the layers; tets are positive in them.  Memory: one block, what VertexRows and
-/// InterfaceShape remember, 16 bytes a label and the sink's buffers.
+/// voxels whatever the layers; tets are positive in them.  Memory: the blocks of `work`, what
+/// VertexRows and InterfaceShape remember, 16 bytes a label and the sink's buffers.
 FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptions& options = {});
 
 }  // namespace mw::engine

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "engine/output/block_triangles.h"
 #include "engine/output/label_selection.h"
 #include "engine/output/remembered.h"
 #include "engine/output/vertex_rows.h"
@@ -33,8 +34,12 @@ class InterfaceShape {
   InterfaceShape(const WindowGrid& grid, io::VolumeInfo info, const LabelSelection& selection,
                  HoldMemory hold);
 
+  /// Looks at a block alone.  Thread safety: may be called while add() runs.
+  [[nodiscard]] BlockTriangles look_at(const BlockMesh& block) const {
+    return triangles_of(block, {homes_, info_.shape, selection_});
+  }
   /// REQUIRES: each block comes once, in a fixed order, with the labels that are not written, too.
-  void add(const BlockMesh& block);
+  void add(BlockTriangles&& block);
 
   /// Returns the shape of the interfaces of the blocks so far.
   [[nodiscard]] audit::ShapeReport report() const { return meter_.report(); }
@@ -69,27 +74,11 @@ class InterfaceShape {
   /// A node of the map, and slack of the allocator's for two lists.
   static constexpr std::uint64_t kBytesPerFront = 160;
 
-  /// A triangle of a tet, by rows of the block.
-  struct Face {
-    std::array<std::uint32_t, 3> rows{};  ///< ascending
-    std::uint32_t tet = 0;
-  };
-  /// What the block tells of an edge: a triangle that opens or closes, or one of the interface.
-  struct EdgeNews {
-    std::array<std::uint32_t, 2> rows{};  ///< ascending
-    std::uint32_t apex = 0;
-    LabelPair labels{};
-    std::int8_t opens = 0;  ///< 1, -1; 0: an interface triangle
-    bool turned = false;
-  };
-
-  void collect_faces();
-  void reserve_news();
-  void pair_faces();
-  void settle_faces(std::size_t home, std::span<const Face> faces);
+  void settle_faces(std::size_t home, std::span<const LoneTriangle> faces);
   void settle_edges(std::size_t home, std::span<const EdgeNews> news);
-  void meet(const Face& face, Label other);
-  void tell_open(const Face& face, std::int8_t opens);
+  void meet(const LoneTriangle& face, Label other);
+  void tell_open(const TriangleRows& face, std::int8_t opens);
+  void sort_news(std::ptrdiff_t sorted);
   void take(OpenEdge& edge, const EdgeNews& news) const;
   void finish(const OpenEdge& edge, const std::array<std::uint32_t, 2>& rows);
 
@@ -97,10 +86,7 @@ class InterfaceShape {
   [[nodiscard]] Point point(std::uint32_t row) const { return block_->vertices[row].position; }
   /// In the array's own axes: turned and mirrored shapes measure the same.
   [[nodiscard]] io::Vector3 position(Point p) const;
-  [[nodiscard]] Label label(const Face& face) const { return block_->tets[face.tet].label; }
-  [[nodiscard]] bool on_box(const Face& face) const;
-  [[nodiscard]] bool points_out(const Face& face) const;
-  void hold_left();
+  void hold_lone();
 
   io::VolumeInfo info_;
   const LabelSelection& selection_;
@@ -112,9 +98,7 @@ class InterfaceShape {
   std::uint64_t max_remembered_ = 0;
 
   // Of the block that is being added.
-  const BlockMesh* block_ = nullptr;
-  std::vector<std::size_t> home_;  ///< by row
-  std::vector<Face> faces_;
+  const BlockTriangles* block_ = nullptr;
   std::vector<EdgeNews> news_;
 };
 

@@ -21,11 +21,17 @@ Index3 VertexUses::home(Point p) const {
           std::min(p.z / block_shape_.z, blocks_.z - 1)};
 }
 
-void VertexUses::add(Index3 block, std::span<const BlockVertex> vertices) {
-  for (const BlockVertex& v : vertices) {
-    std::size_t& last = last_line_[line(home(v.position))];
-    last = std::max(last, line(block));
-  }
+std::vector<std::size_t> VertexUses::lines_of(std::span<const BlockVertex> vertices) const {
+  std::vector<std::size_t> out;
+  out.reserve(vertices.size());
+  for (const BlockVertex& v : vertices) out.push_back(line(home(v.position)));
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+void VertexUses::add(Index3 block, std::span<const std::size_t> lines) {
+  for (const std::size_t l : lines) last_line_[l] = std::max(last_line_[l], line(block));
 }
 
 VertexRows::VertexRows(VertexUses uses)

@@ -24,7 +24,10 @@ class VertexUses {
  public:
   explicit VertexUses(const WindowGrid& grid);
 
-  void add(Index3 block, std::span<const BlockVertex> vertices);
+  /// The lines of the homes of vertices, ascending.  Thread safety: may be called while add() runs.
+  [[nodiscard]] std::vector<std::size_t> lines_of(std::span<const BlockVertex> vertices) const;
+  /// lines: of the vertices of the block.
+  void add(Index3 block, std::span<const std::size_t> lines);
 
   [[nodiscard]] Index3 blocks() const { return blocks_; }
   /// The block in whose box a position lies; those on the far faces of the volume in the last.

@@ -38,8 +38,6 @@ void tell_choice(const LabelSelection& selection, const io::LabelTable& table,
   }
 }
 
-}  // namespace
-
 std::vector<io::Position> positions_of(const BlockMesh& block, const io::VolumeInfo& info,
                                        Index3 layers) {
   std::vector<io::Position> out;
@@ -66,6 +64,23 @@ std::vector<RawLabel> raw_labels(const BlockMesh& block, const io::LabelTable& t
   std::vector<RawLabel> out;
   out.reserve(block.tets.size());
   for (const BlockTet& t : block.tets) out.push_back(table.raw(t.label));
+  return out;
+}
+
+}  // namespace
+
+WrittenBlock written_block(BlockMesh block, const io::DenseVolume& volume, Index3 layers) {
+  WrittenBlock out{.block = std::move(block)};
+  out.positions = positions_of(out.block, volume.info(), layers);
+  out.tets = oriented_tets(out.block, is_mirrored(volume.info().space));
+  out.labels = raw_labels(out.block, volume.table());
+  return out;
+}
+
+audit::QualityMeter quality_of(const WrittenBlock& block) {
+  audit::QualityMeter out;
+  const auto& at = block.positions;
+  for (const auto& [a, b, c, d] : block.tets) out.add(at[a], at[b], at[c], at[d]);
   return out;
 }
 

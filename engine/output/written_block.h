@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A final block as sinks take it, in the coordinates that are written.
+// A final block in the coordinates that are written.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,7 @@
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/volume/volume_space.h"
+#include "kernels/audit/shape/quality.h"
 #include "kernels/core/lattice.h"
 
 namespace mw::engine {
@@ -26,15 +27,20 @@ namespace mw::engine {
                   {in_voxels(p.x, layers.x), in_voxels(p.y, layers.y), in_voxels(p.z, layers.z)});
 }
 
-/// Where the block's vertices are in the volume's space; layers: of each of its voxels.
-[[nodiscard]] std::vector<io::Position> positions_of(const BlockMesh& block,
-                                                     const io::VolumeInfo& info, Index3 layers);
+/// A final block as sinks take it, but for the rows of its vertices.
+struct WrittenBlock {
+  BlockMesh block;                      ///< what is written of it
+  std::vector<io::Position> positions;  ///< of its vertices, in the volume's space
+  std::vector<io::TetRows> tets;        ///< positively oriented in the world, by rows of the block
+  std::vector<RawLabel> labels;         ///< by tet
+};
 
-/// The block's tets, positively oriented in the world, rows being those of the block.
-[[nodiscard]] std::vector<io::TetRows> oriented_tets(const BlockMesh& block, bool mirrored);
+/// layers: of each voxel of the volume.
+[[nodiscard]] WrittenBlock written_block(BlockMesh block, const io::DenseVolume& volume,
+                                         Index3 layers);
 
-/// By tet.
-[[nodiscard]] std::vector<RawLabel> raw_labels(const BlockMesh& block, const io::LabelTable& table);
+/// The shape of the tets, by their numbers in the block.
+[[nodiscard]] audit::QualityMeter quality_of(const WrittenBlock& block);
 
 /// Replaces rows of the block by those of the mesh.
 void give_rows(std::vector<io::TetRows>& tets, std::span<const std::uint64_t> rows);

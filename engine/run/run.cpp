@@ -4,6 +4,7 @@
 #include "engine/run/run.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "engine/forecast/run_forecast.h"
 #include "engine/labels/periodic_labels.h"
@@ -33,6 +34,7 @@ class FinishedBlocks : public FinalBlocks {
 
   [[nodiscard]] BlockMesh load(Index3 block) override {
     if (progress_) {
+      const std::lock_guard lock(mutex_);
       progress_({.done = windows_, .total = windows_, .seconds_left = forecast_.seconds_left()});
       forecast_.reading(block);
     }
@@ -41,6 +43,7 @@ class FinishedBlocks : public FinalBlocks {
 
  private:
   const BlockStore& store_;
+  std::mutex mutex_;  ///< of the next two
   const OnProgress& progress_;
   RunForecast& forecast_;
   std::uint64_t windows_;
@@ -113,14 +116,26 @@ std::uint64_t march(RunContext& run, const ReadyLabels& labels, RunForecast& for
   return marches.stats().windows;
 }
 
-/// What the output takes beside the rows that it remembers; blocks are spilled to make room.
-MemoryBudget::Reservation reserve_output(RunContext& run, const BlockStore& blocks,
-                                         const WindowGrid& grid) {
+/// The work on the blocks of the output, and what it takes beside the rows that it remembers.
+struct OutputRoom {
+  WorkInOrder work;
+  MemoryBudget::Reservation reserved;
+};
+
+/// Blocks are spilled to make room for one; those beside it take no more than an eighth of memory.
+OutputRoom reserve_output(RunContext& run, const BlockStore& blocks, const WindowGrid& grid) {
   std::uint64_t largest = 0;
   for_each_index(grid.blocks(),
                  [&](Index3 b) { largest = std::max(largest, blocks.loaded_bytes(b)); });
-  return run.store.reserve(Purpose::kOutput,
-                           run.output_buffer_bytes() + written_block_bytes(largest));
+  const std::uint64_t each = std::max<std::uint64_t>(written_block_bytes(largest), 1);
+  const int threads = run.report.written_together ? 1 : run.hooks.threads;
+  OutputRoom out{.work = {.threads = threads}};
+  const std::uint64_t others = std::min<std::uint64_t>(run.budget.limit() / 8 / each,
+                                                       threads > 1 ? out.work.at_once - 1 : 0);
+  out.work.at_once = 1 + static_cast<std::size_t>(others);
+  out.reserved =
+      run.store.reserve(Purpose::kOutput, run.output_buffer_bytes() + out.work.at_once * each);
+  return out;
 }
 
 void report_mesh(RunContext& run, FinishedMesh& finished, const LabelCounts& labels) {
@@ -149,10 +164,11 @@ void write(RunContext& run, const LabelCounts& labels, RunForecast& forecast) {
   const std::uint32_t last = run.layout.marches() - 1;
   const WindowGrid& grid = run.layout.grid(last);
   const BlockStore& stored = run.store.march(last);
-  const auto room = reserve_output(run, stored, grid);
+  const OutputRoom room = reserve_output(run, stored, grid);
   return_free_memory_above(0);
   MemoryBudget::Reservation rows;
   OutputOptions options = run.hooks.output;
+  options.work = room.work;
   options.hold = [&](std::uint64_t bytes) {
     rows = {};
     rows = run.store.reserve(Purpose::kOutput, bytes);

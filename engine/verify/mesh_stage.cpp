@@ -5,7 +5,7 @@
 
 #include <bit>
 
-#include "engine/verify/in_order.h"
+#include "engine/system/in_order.h"
 #include "engine/verify/part_links.h"
 #include "kernels/audit/partition/orientation.h"
 #include "kernels/audit/partition/overlap.h"
@@ -72,7 +72,7 @@ class MeshStage {
 
   MeshFindings run() {
     each_in_order<TileFindings>(
-        task_.threads, mesh_.grid().size(), [this](std::uint32_t tile) { return look_at(tile); },
+        {task_.threads}, mesh_.grid().size(), [this](std::uint32_t tile) { return look_at(tile); },
         [this](std::uint32_t tile, TileFindings&& found) { merge(tile, std::move(found)); });
     found_.validity.unused.add(mesh_.unused());
     if (validity_.has_gaps) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/verify/in_order.h"
+#include "engine/system/in_order.h"
 #include "engine/verify/part_links.h"
 #include "engine/verify/tile_labels.h"
 #include "kernels/audit/distance/tile.h"
@@ -80,7 +80,7 @@ class VolumeStage {
 
   VolumeFindings run() {
     each_in_order<VoxelFindings>(
-        task_.threads, grid_.size(), [this](std::uint32_t tile) { return look_at(tile); },
+        {task_.threads}, grid_.size(), [this](std::uint32_t tile) { return look_at(tile); },
         [this](std::uint32_t tile, VoxelFindings&& found) { merge(tile, std::move(found)); });
     links_.unite(parts_);
     found_.betti = parts_.betti_of_volume();

@@ -53,5 +53,10 @@ class WindowGrid {
 [[nodiscard]] inline std::size_t raster(Index3 i, Index3 s) {
   return static_cast<std::size_t>((i.z * s.y + i.y) * s.x + i.x);
 }
+/// The index whose place raster() tells.
+[[nodiscard]] inline Index3 index_at(std::size_t place, Index3 s) {
+  const auto i = static_cast<std::int64_t>(place);
+  return {i % s.x, i / s.x % s.y, i / s.x / s.y};
+}
 
 }  // namespace mw::engine

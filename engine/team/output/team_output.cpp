@@ -146,7 +146,7 @@ class PartOfMesh {
         share_, [&](std::size_t) { lines_.emplace_back(); },
         [&](Index3 b) {
           const BlockMesh block = load(b);
-          uses_.add(b, block.vertices);
+          uses_.add(b, uses_.lines_of(block.vertices));
           claims.add(b, block.vertices);
           lines_.back().tets += block.tets.size();
         });
@@ -172,19 +172,16 @@ class PartOfMesh {
   }
 
   void write(Index3 b, io::SharedMesh& mesh) {
-    const BlockMesh block = load(b);
-    const io::VolumeInfo& info = volume_.info();
-    const std::vector<io::Position> positions = positions_of(block, info, layers_);
-    remember(block);
-    const PartRows::Assigned assigned = rows_->assign(b, block.vertices);
+    WrittenBlock made = written_block(load(b), volume_, layers_);
+    remember(made.block);
+    const PartRows::Assigned assigned = rows_->assign(b, made.block.vertices);
     std::vector<io::Position> added;
-    for (std::size_t v : assigned.added) added.push_back(positions[v]);
+    for (std::size_t v : assigned.added) added.push_back(made.positions[v]);
     mesh.write_vertices(added);
-    std::vector<io::TetRows> tets = oriented_tets(block, is_mirrored(info.space));
-    figures_.add(block, positions, tets, next_tet_);
-    next_tet_ += tets.size();
-    give_rows(tets, assigned.rows);
-    mesh.write_tets(tets, raw_labels(block, volume_.table()));
+    figures_.add(made, figures_.quality ? quality_of(made) : audit::QualityMeter(), next_tet_);
+    next_tet_ += made.tets.size();
+    give_rows(made.tets, assigned.rows);
+    mesh.write_tets(made.tets, made.labels);
   }
 
   Team& team_;

@@ -15,21 +15,22 @@ namespace mw::audit {
 namespace {
 
 /// Asks for the nearest item of a label.  Samples come in an order in which the last answer is a
-/// good first guess.
-template <class SquaredDistance>
+/// good first guess, also for the other label that the item bounds.
+template <class Items>
 class Finder {
  public:
-  Finder(const LabelTrees& trees, std::size_t label_count, SquaredDistance squared_distance)
-      : trees_(trees), squared_distance_(squared_distance), last_(label_count, kNone) {}
+  Finder(const LabelTrees& trees, std::size_t label_count, Items items)
+      : trees_(trees), items_(items), last_(label_count, kNone) {}
 
   /// Infinite when the label has none.  Another item will do that is near enough.
   [[nodiscard]] LabelTrees::Nearest nearest(Label label, const VoxelPoint& p, double enough = -1) {
-    const auto to_item = [&](std::uint32_t item) { return squared_distance_(p, item); };
+    if (trees_.empty(label)) return {};
+    const auto to_item = [&](std::uint32_t item) { return items_.squared_distance(p, item); };
     LabelTrees::Nearest guess;
     if (last_[label] != kNone) guess = {to_item(last_[label]), last_[label]};
     const double square = enough < 0 ? -1 : enough * enough;
     const LabelTrees::Nearest found = trees_.nearest(label, p, guess, to_item, square);
-    if (!trees_.empty(label)) last_[label] = found.item;
+    for (const Label bounded : items_.labels(found.item)) last_[bounded] = found.item;
     return found;
   }
   [[nodiscard]] double distance(Label label, const VoxelPoint& p, double enough = -1) {
@@ -40,8 +41,18 @@ class Finder {
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
   const LabelTrees& trees_;
-  SquaredDistance squared_distance_;
+  Items items_;
   std::vector<std::uint32_t> last_;
+};
+
+/// The mesh's interface as items.
+struct PieceItems {
+  std::span<const InterfaceTriangle> pieces;
+
+  [[nodiscard]] double squared_distance(const VoxelPoint& p, std::uint32_t item) const {
+    return audit::squared_distance(p, pieces[item].corners);
+  }
+  [[nodiscard]] const LabelPair& labels(std::uint32_t item) const { return pieces[item].labels; }
 };
 
 /// Means are taken over one face out of this number.
@@ -65,6 +76,18 @@ struct Square {
     return out;
   }
 };
+
+using PieceFinder = Finder<PieceItems>;
+
+/// Visits cubes that the box is made of, so that faces near one another follow one another.
+template <class Visit>
+void for_each_cube(const Box3& box, Visit&& visit) {
+  constexpr Index3 kCube{4, 4, 4};
+  for_each_index(cells_of({{0, 0, 0}, box.shape()}, kCube), [&](Index3 c) {
+    const Index3 lo = box.lo + Index3{c.x * kCube.x, c.y * kCube.y, c.z * kCube.z};
+    visit(intersection({lo, lo + kCube}, box));
+  });
+}
 
 class TileDistances {
  public:
@@ -189,7 +212,7 @@ class TileDistances {
     face_trees_.emplace(
         rows_.size(), faces_.size(), [&](std::size_t i) { return rows_of(faces_[i]); },
         [&](std::size_t i) { return extent_of(faces_[i]); });
-    face_finder_.emplace(*face_trees_, rows_.size(), ToFace{&faces_});
+    face_finder_.emplace(*face_trees_, rows_.size(), FaceItems{*this});
   }
 
   /// All labels that were left out share a row, faces between two of them included.
@@ -207,26 +230,28 @@ class TileDistances {
     const LabelTrees trees(
         rows_.size(), pieces_.size(), [&](std::size_t i) { return pieces_[i].labels; },
         [&](std::size_t i) { return extent_of(pieces_[i].corners); });
-    Finder finder(trees, rows_.size(), [&](const VoxelPoint& p, std::uint32_t piece) {
-      return squared_distance(p, pieces_[piece].corners);
-    });
+    PieceFinder finder(trees, rows_.size(), {pieces_});
     const Box3 corners{task_.samples.lo - lo_, task_.samples.hi - lo_};
-    visit_interface_faces(voxels(), corners, [&](const VoxelFace& face, const LabelPair& labels) {
-      const Square square = square_of(face);
-      for (const Label label : labels) {
-        const bool is_kept = keeps(task_.kept, label);
-        rows_[is_kept ? label : gap_].in_volume = true;
-        if (!is_kept) continue;
-        DistanceTally& tally = rows_[label].to_mesh;
-        if (!is_weighed(face)) {
-          look_from(square, label, finder, tally);
-          continue;
-        }
-        const double distance = finder.distance(label, square.centre);
-        look_around(square, label, distance, finder, tally);
-        if (distance <= task_.reach) weigh(tally, distance, 1);
-      }
+    for_each_cube(corners, [&](const Box3& cube) {
+      visit_interface_faces(voxels(), cube, [&](const VoxelFace& face, const LabelPair& labels) {
+        for (const Label label : labels) measure_face(face, label, finder);
+      });
     });
+  }
+
+  void measure_face(const VoxelFace& face, Label label, PieceFinder& finder) {
+    const bool is_kept = keeps(task_.kept, label);
+    rows_[is_kept ? label : gap_].in_volume = true;
+    if (!is_kept) return;
+    const Square square = square_of(face);
+    DistanceTally& tally = rows_[label].to_mesh;
+    if (!is_weighed(face)) {
+      look_from(square, label, finder, tally);
+      return;
+    }
+    const double distance = finder.distance(label, square.centre);
+    look_around(square, label, distance, finder, tally);
+    if (distance <= task_.reach) weigh(tally, distance, 1);
   }
 
   /// Means are of some of the faces, spread evenly: of the others it is enough to know that they
@@ -245,7 +270,6 @@ class TileDistances {
     return out;
   }
 
-  template <class PieceFinder>
   void look_from(const Square& square, Label label, PieceFinder& finder, DistanceTally& tally) {
     const bool is_last = square.reach() <= kCoveringRadius;
     const double near = enough(tally, is_last ? 0 : square.reach());
@@ -254,7 +278,6 @@ class TileDistances {
   }
 
   /// distance: of the centre.
-  template <class PieceFinder>
   void look_around(const Square& square, Label label, double distance, PieceFinder& finder,
                    DistanceTally& tally) {
     if (!take(tally, distance)) return;
@@ -262,10 +285,15 @@ class TileDistances {
     for (const Square& quarter : square.quarters()) look_from(quarter, label, finder, tally);
   }
 
-  struct ToFace {
-    const std::vector<VoxelFace>* faces;
-    double operator()(const VoxelPoint& p, std::uint32_t face) const {
-      return squared_distance(p, extent_of((*faces)[face]));
+  /// The input's interface as items.
+  struct FaceItems {
+    const TileDistances& tile;
+
+    [[nodiscard]] double squared_distance(const VoxelPoint& p, std::uint32_t item) const {
+      return audit::squared_distance(p, extent_of(tile.faces_[item]));
+    }
+    [[nodiscard]] LabelPair labels(std::uint32_t item) const {
+      return tile.rows_of(tile.faces_[item]);
     }
   };
 
@@ -276,7 +304,7 @@ class TileDistances {
   std::vector<InterfaceTriangle> pieces_;
   std::vector<VoxelFace> faces_;
   std::optional<LabelTrees> face_trees_;
-  std::optional<Finder<ToFace>> face_finder_;
+  std::optional<Finder<FaceItems>> face_finder_;
 };
 
 }  // namespace

@@ -85,9 +85,9 @@ void QualityMeter::take_worst(std::uint64_t tet, double ratio) {
   report_.worst_tet = tet;
 }
 
-void QualityMeter::add(const QualityMeter& other) {
+void QualityMeter::add(const QualityMeter& other, std::uint64_t first) {
   if (other.tets_ == 0) return;
-  take_worst(other.report_.worst_tet, other.report_.radius_ratio_min);
+  take_worst(first + other.report_.worst_tet, other.report_.radius_ratio_min);
   tets_ += other.tets_;
   slivers_ += other.slivers_;
   ratios_ += other.ratios_;

@@ -39,8 +39,9 @@ class QualityMeter {
   void add(const Position& a, const Position& b, const Position& c, const Position& d);
   /// Adds a tet that has another number than that of the tets before it.
   void add(std::uint64_t tet, const std::array<Position, 4>& corners);
-  /// Adds what another one has taken, whose tets have numbers of their own.
-  void add(const QualityMeter& other);
+  /// Adds what another one has taken, whose tets have numbers of their own once these are `first`
+  /// higher.
+  void add(const QualityMeter& other, std::uint64_t first = 0);
   /// Sums up all tets so far.
   [[nodiscard]] QualityReport report() const;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Promise 6, of the merge: what it says that it remembers, and what is set aside for one block, is
+// Promise 6, of the merge: what it says that it remembers, and what is set aside for blocks, is
 // no less than what it allocates, all figures of a report included.
 #include "engine/team/output/part_rows.h"
 #include "engine/window/window_memory.h"
@@ -20,15 +20,15 @@ constexpr std::uint64_t kFixedBytes = 128 << 10;
 /// What a vertex takes in VertexRows while a list is merged.
 constexpr std::uint64_t kBytesPerRemembered = 32;
 
-void expect_held(const Trial& trial, bool measured) {
+void expect_held(const Trial& trial, bool measured, WorkInOrder work) {
   const MemoryVolume file(trial.volume, trial.frame);
   const io::LabelTable table = io::collect_labels(file);
   const io::DenseVolume volume(file, table);
   MarchedBlocks blocks(trial, volume);
   const std::uint64_t aside =
-      written_block_bytes(blocks.largest()) + 16 * table.size() + kFixedBytes;
+      work.at_once * written_block_bytes(blocks.largest()) + 16 * table.size() + kFixedBytes;
   std::uint64_t held = 0;
-  OutputOptions options{.measure_quality = measured, .measure_shape = measured};
+  OutputOptions options{.measure_quality = measured, .measure_shape = measured, .work = work};
   options.hold = [&](std::uint64_t bytes) { held = bytes; };
   io::NoSink sink;
   const std::uint64_t before = mw::test::allocated_bytes();
@@ -52,8 +52,9 @@ TEST(Promise6BoundedMemory, OfTheMergeWithAllFigures) {
                                                    {edge(), edge(), edge()}, 2 + below(random, 6)),
                         .settings = {.window = below(random, 2) == 0 ? 8 : 32, .start = start},
                         .frame = {}};
-      expect_held(trial, false);
-      expect_held(trial, true);
+      expect_held(trial, false, {.at_once = 1});
+      expect_held(trial, true, {.at_once = 1});
+      expect_held(trial, true, {.threads = 3, .at_once = 4});
       EXPECT_FALSE(testing::Test::HasFailure()) << trial.text();
     }
   }
@@ -71,7 +72,7 @@ std::vector<std::vector<Claim>> claims_of(const Scattered& scattered, const Line
   for_each_own_block(
       share, [](std::size_t) {},
       [&](Index3 b) {
-        uses.add(b, scattered.at(b));
+        uses.add(b, uses.lines_of(scattered.at(b)));
         claims.add(b, scattered.at(b));
       });
   return claims.take(2);

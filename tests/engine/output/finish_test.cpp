@@ -89,6 +89,7 @@ void expect_same_shape(const FinishedMesh& finished, const io::MeshData& mesh, c
   }
 }
 
+/// On any number of threads.
 TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
   std::mt19937 random(321);
   for (std::uint32_t i = 0; i < 40 && !HasFailure(); ++i) {
@@ -120,7 +121,9 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     EXPECT_EQ(finished.quality->worst_tet, quality.worst_tet);
     expect_same_shape(finished, mesh, trial, options.wanted);
     MemorySink again;
+    options.work = {.threads = 2 + static_cast<int>(i % 3)};
     const FinishedMesh second = finish({blocks, grid, volume}, again, options);
+    EXPECT_EQ(second.quality->worst_tet, finished.quality->worst_tet);
     EXPECT_EQ(second.shape->bend_p95_deg, finished.shape->bend_p95_deg);
     EXPECT_EQ(second.shape->area, finished.shape->area);
     EXPECT_EQ(second.shape->sharp_share, finished.shape->sharp_share);
@@ -178,7 +181,7 @@ TEST(InterfaceShape, RemembersTheFrontOnly) {
   std::uint64_t held = 0;
   InterfaceShape shape(bar.grid(), file.info(), all, [&](std::uint64_t bytes) { held = bytes; });
   for_each_index(bar.grid().blocks(), [&](Index3 b) {
-    shape.add(bar.load(b));
+    shape.add(shape.look_at(bar.load(b)));
     EXPECT_LE(shape.remembered(), held);
   });
   EXPECT_EQ(shape.remembered(), 0U);

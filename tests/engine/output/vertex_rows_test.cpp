@@ -12,7 +12,8 @@ using namespace test;
 
 VertexUses uses_of(const Scattered& scattered) {
   VertexUses uses(scattered.grid);
-  for_each_index(scattered.grid.blocks(), [&](Index3 b) { uses.add(b, scattered.at(b)); });
+  for_each_index(scattered.grid.blocks(),
+                 [&](Index3 b) { uses.add(b, uses.lines_of(scattered.at(b))); });
   return uses;
 }
 

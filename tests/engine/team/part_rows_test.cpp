@@ -74,7 +74,7 @@ class Ranks {
       uses_.emplace_back(scattered_.grid);
       Claims claims(shares_[r], uses_[r], {});
       for_each_block(r, [&](Index3 b) {
-        uses_[r].add(b, scattered_.at(b));
+        uses_[r].add(b, uses_[r].lines_of(scattered_.at(b)));
         claims.add(b, scattered_.at(b));
       });
       claims_.push_back(claims.take(count_));
@@ -119,7 +119,8 @@ class Ranks {
 
 VertexUses uses_of(const Scattered& scattered) {
   VertexUses uses(scattered.grid);
-  for_each_index(scattered.grid.blocks(), [&](Index3 b) { uses.add(b, scattered.at(b)); });
+  for_each_index(scattered.grid.blocks(),
+                 [&](Index3 b) { uses.add(b, uses.lines_of(scattered.at(b))); });
   return uses;
 }
 
