@@ -18,6 +18,10 @@ namespace {
 /// Bends count by their mean over the spokes of a usual star.
 constexpr double kUsualSpokes = 6.0;
 
+/// How far, in smallest edges of a voxel, an interface may be from where its labels have their
+/// volumes before bends give way (bench/parameters.md, "Constants").
+constexpr double kMostOwed = 0.125;
+
 /// More than what squared distances are rounded by.
 constexpr double kRoundedUp = 1.0 + 1e-9;
 
@@ -197,8 +201,12 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   const bool on_box = mesh.planes(v) != 0, two_labels = mesh.order(v) == (on_box ? 3 : 2);
   fit_weight_ = two_labels ? weights_.fit : weights_.junction_fit;
   area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
+  bend_weight_ = weights_.bend / kUsualSpokes;
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
-  if (debts != nullptr && mass_ > 0.0) take_debts(*debts);
+  if (debts != nullptr && mass_ > 0.0) {
+    take_debts(*debts);
+    if (two_labels) yield_to(*debts);
+  }
   gather_corners();
   present_ = raw_value_at(Vec3::Zero());
 }
@@ -332,6 +340,20 @@ void SurfaceEnergy::take_debts(const VolumeDebts& debts) {
   }
 }
 
+/// Sheets that are held where their sides touch lose volume all over, so that no neighbour can make
+/// up for it: there bends count for less.  Steps do not, as they owe as much as they are owed.
+void SurfaceEnergy::yield_to(const VolumeDebts& debts) {
+  double owed = 0.0;
+  for (const SurfaceTriangle& t : star_->triangles()) {
+    for (const LocalVertex corner : {star_->vertex(), t.a, t.b}) {
+      owed += debts.of(corner, t.low, t.high) / 3.0;
+    }
+  }
+  const double share = owed / (mass_ * kMostOwed);
+  const double square = share * share;
+  bend_weight_ /= 1.0 + square * square * square * square;
+}
+
 double SurfaceEnergy::min_cosine() const {
   double min = 1.0;
   for (const Spoke& s : star_->spokes()) {
@@ -360,7 +382,7 @@ double SurfaceEnergy::raw_value_at(const Vec3& x) const {
     }
     value *= fit_weight_ / mass_;
   }
-  if (has_bends) value += weights_.bend / kUsualSpokes * star_->bends(normals_);
+  if (has_bends) value += bend_weight_ * star_->bends(normals_);
   return value;
 }
 
@@ -371,7 +393,7 @@ void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& term
     terms.hessian += factor * 2.0 * square_;
     if (area_weight_ > 0.0) add_area(x, factor * area_weight_, terms);
   }
-  if (weights_.bend > 0.0) add_bends(x, scale * weights_.bend / kUsualSpokes, terms);
+  if (weights_.bend > 0.0) add_bends(x, scale * bend_weight_, terms);
 }
 
 /// The Hessian leaves out the motions within a triangle's plane.

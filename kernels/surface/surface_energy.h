@@ -45,6 +45,8 @@ struct SurfaceWeights {
 ///
 /// Debts.  What v could not do for its own balance last time (VolumeDebts), and what the ring could
 /// not, is added to what Q asks for: shapes and bends may hold a vertex back, its neighbours not.
+/// Where all of them owe the same way no neighbour can help: beyond a mean distance d of an eighth
+/// of a voxel, between two labels, bends count 1 / (1 + (8 d)^8) times as much.
 ///
 /// Bends.  The energies (bend.h) of spokes and rims.
 ///
@@ -102,6 +104,7 @@ class SurfaceEnergy {
   void sum_up_fits();
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
+  void yield_to(const VolumeDebts& debts);
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
   void add_area(const Vec3& x, double scale, StarTerms& terms) const;
   void add_bends(const Vec3& x, double scale, StarTerms& terms) const;
@@ -113,6 +116,7 @@ class SurfaceEnergy {
   double mass_ = 0.0;               ///< M; 0: there is nothing to fit
   double fit_weight_ = 0.0;
   double area_weight_ = 0.0;
+  double bend_weight_ = 0.0;                          ///< for each spoke and rim
   Eigen::Matrix3d square_ = Eigen::Matrix3d::Zero();  ///< Q is x.square x - 2 linear.x
   Vec3 linear_ = Vec3::Zero();
   Vec3 pressure_ = Vec3::Zero();

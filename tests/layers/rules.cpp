@@ -114,7 +114,7 @@ const Room kRooms[] = {
       "engine/window/window_grid.h"}},
     {"engine/forecast/",
      {"engine/settings/", "engine/labels/", "engine/march/", "engine/store/run_layout.h"}},
-    {"engine/output/", {"engine/window/window_grid.h"}},
+    {"engine/output/", {"engine/system/", "engine/window/window_grid.h"}},
     // Looks at a mesh on its way into a file, and knows no run.
     {"engine/connect/", {"engine/settings/"}},
     // Values of tets from images beside the labels.

@@ -79,12 +79,22 @@ void each_random_star(unsigned seed, Visit visit) {
   }
 }
 
-/// Debts of all vertices, any.
-VolumeDebts random_debts(const TetMesh& mesh, std::mt19937& random) {
+/// Debts of all vertices, any up to a hundred times `unit`.
+VolumeDebts random_debts(const TetMesh& mesh, std::mt19937& random, double unit = 0.001) {
   VolumeDebts out;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
-    out.set(v, std::array{VolumeDebt{0, 1, 0.001 * below(random, 100)},
-                          VolumeDebt{0, 2, -0.001 * below(random, 100)}});
+    out.set(v, std::array{VolumeDebt{0, 1, unit * below(random, 100)},
+                          VolumeDebt{0, 2, -unit * below(random, 100)}});
+  }
+  return out;
+}
+
+/// The star's vertex owes `own`, all others `ring`.
+VolumeDebts debts_of(const TetMesh& mesh, const SurfaceStar& star, double own, double ring) {
+  const SurfaceTriangle& t = star.triangles().front();
+  VolumeDebts out;
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    out.set(v, std::array{VolumeDebt{t.low, t.high, v == star.vertex() ? own : ring}});
   }
   return out;
 }
@@ -207,7 +217,7 @@ TEST(SurfaceEnergy, HasPressureAndDebtsInProportionToTheArea) {
     const double factor = added.dot(of_area) / of_area.squaredNorm();
     CurvatureField curvature;
     curvature.measure(mesh, metric);
-    const VolumeDebts debts = random_debts(mesh, random);
+    const VolumeDebts debts = random_debts(mesh, random, 1e-5);
     Vec3 of_volume = Vec3::Zero(), owed = Vec3::Zero();
     for (const SurfaceTriangle& t : star.triangles()) {
       const Vec3 normal = t.to_a.cross(t.to_b);
@@ -229,6 +239,38 @@ TEST(SurfaceEnergy, HasPressureAndDebtsInProportionToTheArea) {
   });
   EXPECT_GT(checked, 100);
   EXPECT_GT(bent, 10);
+}
+
+/// Bends count 1 / (1 + d^8) times as much where all owe d, and as before where the star owes
+/// nothing in all.  Where more than two labels meet they always count.
+TEST(SurfaceEnergy, BendsGiveWayWhereVolumeIsOwed) {
+  std::mt19937 random(1151);
+  int gave_way = 0, at_junctions = 0;
+  each_random_star(1152, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                             const SurfaceStar& star) {
+    const Vec3 x = random_offset(random);
+    const auto value = [&](double own, double ring) {
+      const VolumeDebts debts = debts_of(mesh, star, own, ring);
+      SurfaceEnergy energy(kBendsAlone);
+      energy.collect(mesh, metric, star, guard, nullptr, &debts);
+      return energy.value_at(x);
+    };
+    const double free = value(0, 0);
+    if (std::abs(free) < 1e-3 || star.fan().empty()) return;
+    EXPECT_NEAR(value(2.0, -1.0), free, 1e-9 * std::abs(free));
+    if (mesh.order(star.vertex()) != (mesh.planes(star.vertex()) != 0 ? 3 : 2)) {
+      EXPECT_EQ(value(1.0, 1.0), free);
+      ++at_junctions;
+      return;
+    }
+    const double once = free / value(0.05, 0.05) - 1.0, twice = free / value(0.1, 0.1) - 1.0;
+    if (once < 1e-6) return;  // too little, or no face is carried there
+    EXPECT_NEAR(twice / once, 256.0, 1.0);
+    EXPECT_NEAR(value(-0.05, -0.05), value(0.05, 0.05), 1e-9);
+    ++gave_way;
+  });
+  EXPECT_GT(gave_way, 100);
+  EXPECT_GT(at_junctions, 50);
 }
 
 /// On the box there is no area term.
