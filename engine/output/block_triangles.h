@@ -52,7 +52,8 @@ struct BlockTriangles {
   std::vector<Vertex> vertices;          ///< by row
   std::vector<LoneTriangle> lone;        ///< ascending by home of the first vertex, then by rows
   std::vector<TriangleRows> interfaces;  ///< between two tets of the block; ascending by rows
-  /// Of these, ascending as comes_before() says; with room for six of each lone triangle.
+  /// What `interfaces` tell, ascending as comes_before() says; room is reserved for six more of
+  /// each lone triangle.
   std::vector<EdgeNews> news;
 
   [[nodiscard]] std::size_t home(std::uint32_t row) const { return vertices[row].home; }

@@ -27,7 +27,7 @@ namespace mw::engine {
                   {in_voxels(p.x, layers.x), in_voxels(p.y, layers.y), in_voxels(p.z, layers.z)});
 }
 
-/// A final block as sinks take it, but for the rows of its vertices.
+/// A final block as sinks take it, except that tets name vertices by their rows in the block.
 struct WrittenBlock {
   BlockMesh block;                      ///< what is written of it
   std::vector<io::Position> positions;  ///< of its vertices, in the volume's space
