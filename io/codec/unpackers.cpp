@@ -190,7 +190,8 @@ struct FreeContext {
 std::vector<std::byte> unpack_zstd(std::span<const std::byte> packed, std::size_t max,
                                    std::string_view name) {
   const PackedName named{"zstd", name};
-  const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
+  // To make a context costs more than to unpack a small chunk.
+  thread_local const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
   if (!context) fail_no_memory(named);
   std::vector<std::byte> out(std::min(max, (packed.size() / 4 + 1) * kBlockBytes));
   const std::size_t count =

@@ -20,8 +20,7 @@ constexpr std::int64_t kReachPerColour = 2;
 /// A label with fewer voxels in a cube is a thread there, which does not take the cube.
 constexpr std::ptrdiff_t kLeastVoxels = 3;
 
-/// The lower voxels of the pairs along x in a cube.
-constexpr std::array<Index3, 4> kPairs{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}}};
+constexpr unsigned kColours = 8;
 
 Index3 cube_voxel(Index3 cube, unsigned i) {
   return cube + Index3{i & 1U, i >> 1 & 1U, i >> 2 & 1U};
@@ -60,37 +59,20 @@ class Coarsener {
     });
   }
 
-  /// True when the cube was mixed; uniform tells what became of it.
-  bool visit(Index3 cube, bool& uniform) {
-    if (is_uniform(cube)) return false;
+  /// Gives a mixed cube one label if it can; returns whether it did.
+  bool visit(Index3 cube) {
     std::array<Label, 8> before;
     for (unsigned i = 0; i < 8; ++i) before[i] = labels_.at(cube_voxel(cube, i));
-    uniform = false;
-    if (!sizes_allow(cube, before)) return true;
+    if (!sizes_allow(cube, before)) return false;
     for (Label to : candidates(before)) {
-      if (flip_all(cube, to) && keeps_carriers(cube, before)) {
-        uniform = true;
-        return true;
-      }
+      if (flip_all(cube, to) && keeps_carriers(cube, before)) return true;
       for (unsigned i = 0; i < 8; ++i) at(cube_voxel(cube, i)) = before[i];
     }
-    return true;
+    return false;
   }
 
  private:
   Label& at(Index3 v) { return labels_.labels[static_cast<std::size_t>(labels_.box.offset(v))]; }
-
-  /// Most cubes are, so that this test is what most of the time goes to: it looks up one place.
-  [[nodiscard]] bool is_uniform(Index3 cube) const {
-    const Index3 shape = labels_.box.shape();
-    const std::int64_t row = shape.x, layer = shape.x * shape.y;
-    const Label* at = labels_.labels.data() + labels_.box.offset(cube);
-    const Label label = *at;
-    return std::all_of(kPairs.begin(), kPairs.end(), [&](Index3 pair) {
-      const Label* lower = at + pair.y * row + pair.z * layer;
-      return lower[0] == label && lower[1] == label;
-    });
-  }
 
   /// Labels that may take the cube, the most frequent first, then by label.
   static std::vector<Label> candidates(std::array<Label, 8> labels) {
@@ -252,17 +234,51 @@ class Coarsener {
   std::vector<Index3> displacements_;
 };
 
-/// Cubes of one colour in a box with even low corner.
-template <typename Visit>
-void each_cube(const Box3& box, unsigned colour, Visit visit) {
-  const auto first = [](std::int64_t lo, std::int64_t parity) {
-    return lo + ((lo >> 1 ^ parity) & 1) * 2;
-  };
-  for (Index3 c{0, 0, first(box.lo.z, colour >> 2 & 1U)}; c.z + 2 <= box.hi.z; c.z += 4) {
-    for (c.y = first(box.lo.y, colour >> 1 & 1U); c.y + 2 <= box.hi.y; c.y += 4) {
-      for (c.x = first(box.lo.x, colour & 1U); c.x + 2 <= box.hi.x; c.x += 4) visit(c);
+/// The cubes whose visit can matter for the tile: what a colour sees shrinks with each colour.
+Box3 box_of_colour(const Box3& tile, Index3 volume, unsigned colour) {
+  return intersection(grown(tile, kReachPerColour * (7 - static_cast<std::int64_t>(colour))),
+                      {{0, 0, 0}, volume});
+}
+
+unsigned colour_of(Index3 cube) {
+  return static_cast<unsigned>((cube.x >> 1 & 1) + 2 * (cube.y >> 1 & 1) + 4 * (cube.z >> 1 & 1));
+}
+
+/// Calls use(x) for the even x at which a row of cubes, from `row` on, is not of one label.
+template <typename Use>
+void each_mixed_in_row(const Label* row, Index3 shape, std::int64_t cubes, const Use& use) {
+  const Label *const y = row + shape.x, *const z = row + shape.x * shape.y, *const yz = z + shape.x;
+  for (std::int64_t x = 0; x < 2 * cubes; x += 2) {
+    const Label l = row[x];
+    const Label differs = (row[x + 1] ^ l) | (y[x] ^ l) | (y[x + 1] ^ l) | (z[x] ^ l) |
+                          (z[x + 1] ^ l) | (yz[x] ^ l) | (yz[x + 1] ^ l);
+    if (differs != 0) use(x);
+  }
+}
+
+/// The cubes that have several labels, by colour.  The others stay as they are, so one pass finds
+/// all that is ever to be visited.
+std::array<std::vector<Index3>, kColours> mixed_cubes(const LabelBox& labels, const Box3& tile,
+                                                      Index3 volume) {
+  std::array<std::vector<Index3>, kColours> out;
+  std::array<Box3, kColours> boxes;
+  for (unsigned c = 0; c < kColours; ++c) boxes[c] = box_of_colour(tile, volume, c);
+  const Box3& all = boxes[0];
+  const std::int64_t cubes = all.shape().x / 2;
+  for (Index3 at = all.lo; at.z + 2 <= all.hi.z; at.z += 2) {
+    for (at.y = all.lo.y; at.y + 2 <= all.hi.y; at.y += 2) {
+      const Label* const row = labels.labels.data() + labels.box.offset({all.lo.x, at.y, at.z});
+      each_mixed_in_row(row, labels.box.shape(), cubes, [&](std::int64_t x) {
+        const Index3 cube{all.lo.x + x, at.y, at.z};
+        const unsigned colour = colour_of(cube);
+        const Box3& box = boxes[colour];
+        if (box.contains(cube) && box.contains(cube + Index3{1, 1, 1})) {
+          out[colour].push_back(cube);
+        }
+      });
     }
   }
+  return out;
 }
 
 }  // namespace
@@ -272,16 +288,13 @@ CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& til
   MW_ASSERT(((tile.lo.x | tile.lo.y | tile.lo.z) & 1) == 0);
   Coarsener coarsener(original, labels, max_distance, sizes);
   CoarsenStats stats;
-  for (unsigned colour = 0; colour < 8; ++colour) {
-    const Box3 box =
-        intersection(grown(tile, kReachPerColour * (7 - static_cast<std::int64_t>(colour))),
-                     {{0, 0, 0}, volume});
-    each_cube(box, colour, [&](Index3 cube) {
-      bool uniform = true;
-      if (!coarsener.visit(cube, uniform) || !tile.contains(cube)) return;
+  for (const std::vector<Index3>& cubes : mixed_cubes(labels, tile, volume)) {
+    for (const Index3& cube : cubes) {
+      const bool is_uniform = coarsener.visit(cube);
+      if (!tile.contains(cube)) continue;
       ++stats.mixed_cubes;
-      stats.made_uniform += uniform ? 1U : 0U;
-    });
+      stats.made_uniform += is_uniform ? 1U : 0U;
+    }
   }
   return stats;
 }
