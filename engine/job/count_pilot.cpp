@@ -151,7 +151,7 @@ class Pilot {
     // Sizes of an image alone are about those of its voxels.
     const double least = std::isfinite(rules.least()) ? rules.least() : voxel;
     constexpr double kRoundedUp = 1.0 + 1e-9;
-    range_ = {std::log(kRoundedUp * diagonal / SizeRules::kLongest / least),
+    range_ = {std::log(kRoundedUp * diagonal / SizeRules::kContracted / least),
               std::log(kLargestSize * voxel / least)};
     const Index3 shape = lattice.info().shape;
     first_ = std::log(std::cbrt(static_cast<double>(shape.product()) * spacing[0] * spacing[1] *

@@ -90,10 +90,10 @@ bool all_one_label(const io::BrickVolume& volume, const Box3& bricks) {
   return is_within(bricks, {{0, 0, 0}, volume.bricks()}) && has_one_label(volume, bricks);
 }
 
-/// No edge of this size is longer; in lengths of the metric.
+/// Contraction makes no edge of this size longer; in lengths of the metric.
 double limit_of(double size, const io::DenseVolume& volume) {
   const auto& spacing = volume.info().space.spacing;
-  return SizeRules::kLongest / *std::min_element(spacing.begin(), spacing.end()) * size;
+  return SizeRules::kContracted / *std::min_element(spacing.begin(), spacing.end()) * size;
 }
 
 /// What settings ask of edges, in lengths of the metric.
@@ -105,7 +105,7 @@ SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
     if (size) limits[label] = limit_of(*size, volume);
   }
   return {volume.info().shape, Metric(volume.info().space.spacing), std::move(limits),
-          SizeRules::kLongest * sizes.gradation, !sizes.rules.image.empty()};
+          SizeRules::kContracted * sizes.gradation, !sizes.rules.image.empty()};
 }
 
 /// By dense label: those that have sizes, all where none is listed.
@@ -166,7 +166,10 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
 void PreparedLabels::find_sizes(const SizeSettings& sizes, const SizeImage* image, int threads) {
   if (!sizes.rules.interfaces.empty()) limit_interfaces(sizes.rules, threads);
   if (image != nullptr) limit_by_image(*image, threads);
-  if (sizes.across > 0) limit_thin_parts(sizes, threads);
+  if (sizes.across > 0) {
+    limit_thin_parts(sizes, threads);
+    sizes_.allow_no_stretch();
+  }
   sizes_.spread();
 }
 

@@ -122,7 +122,7 @@ void check_coordinates(const io::VolumeInfo& volume, const MeshSettings& setting
 
 double least_size(const io::VolumeInfo& volume, const MeshSettings& settings) {
   const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
-  return std::sqrt(x * x + y * y + z * z) / SizeRules::kLongest;
+  return std::sqrt(x * x + y * y + z * z) / SizeRules::kContracted;
 }
 
 double told_size(double size) {

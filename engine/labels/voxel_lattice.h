@@ -14,7 +14,7 @@ namespace mw::engine {
 [[nodiscard]] Index3 layers_of(const io::VolumeInfo& volume, Surface surface);
 
 /// Returns the least size of edges that the marches keep: the diagonal of a voxel of the lattice
-/// may be SizeRules::kLongest times as long.
+/// may be SizeRules::kContracted times as long.
 [[nodiscard]] double least_size(const io::VolumeInfo& volume, const MeshSettings& settings);
 
 /// Returns a size rounded up to three digits, so that what is told can be kept.

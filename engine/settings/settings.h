@@ -10,6 +10,7 @@
 
 #include "kernels/core/error.h"
 #include "kernels/core/label.h"
+#include "kernels/size/size_field.h"
 #include "kernels/topology/kept_topology.h"
 
 namespace mw::engine {
@@ -62,9 +63,11 @@ struct InterfaceSize {
   friend bool operator==(const InterfaceSize&, const InterfaceSize&) = default;
 };
 
-/// Sizes that edges should have.  Most are 0.6 of the size or longer; none exceeds kLongest of it.
+/// Sizes that edges should have.  Most are 0.6 of the size or longer; none exceeds kLongest of it,
+/// and contraction makes none longer than kContracted.
 struct SizeRules {
-  static constexpr double kLongest = 1.25;
+  static constexpr double kContracted = 1.25;
+  static constexpr double kLongest = kContracted * SizeField::kStretch;
 
   std::vector<LabelSize> labels;          ///< each label once, ascending
   std::optional<double> others;           ///< of all labels that are not listed

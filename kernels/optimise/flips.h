@@ -48,7 +48,7 @@ class Flipper {
         metric_(metric),
         quality_floor_(quality_floor),
         guard_(guard),
-        limits_(mesh, metric, demands.sizes),
+        limits_(EdgeLimits::of_moves(mesh, metric, demands.sizes)),
         inner_(mesh, demands.inner) {}
 
   /// Replaces the ring of edge (p, q) by the best triangulation of the ring's polygon, joined to

@@ -218,7 +218,7 @@ Smoother::Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& opt
     : mesh_(mesh),
       metric_(metric),
       options_(options),
-      limits_(mesh, metric, options.sizes),
+      limits_(EdgeLimits::of_moves(mesh, metric, options.sizes)),
       guard_(guard),
       debts_(debts),
       surface_energy_(options.surface.value_or(SurfaceWeights{})) {

@@ -25,12 +25,12 @@ bool EdgeLimits::star_keeps(LocalVertex v, LocalVertex without, Point x) const {
   const double at_x = sizes_->at(x), surely = sizes_->least() * sizes_->least();
   for (const LinkTriangle& t : mesh_.star(v)) {
     if (t.label == kExterior || t.has(without)) continue;
-    const double limit = std::min(at_x, sizes_->of_label(t.label));
+    const double limit = stretch_ * std::min(at_x, sizes_->of_label(t.label));
     for (const LocalVertex w : {t.a, t.b, t.c}) {
       const Point y = mesh_.position(w);
       const double squared = metric_.vector(x, y).squaredNorm();
       if (squared <= surely) continue;
-      const double least = std::min(limit, sizes_->at(y));
+      const double least = std::min(limit, stretch_ * sizes_->at(y));
       if (squared > least * least) return false;
     }
   }
@@ -45,7 +45,7 @@ bool EdgeLimits::tet_keeps(const LocalTet& tet) const {
     const double at_a = std::min(limit, sizes_->at(a));
     for (std::size_t j = i + 1; j < 4; ++j) {
       const Point b = mesh_.position(tet.vertices[j]);
-      if (!is_within(a, b, std::min(at_a, sizes_->at(b)))) return false;
+      if (!is_within(a, b, stretch_ * std::min(at_a, sizes_->at(b)))) return false;
     }
   }
   return true;

@@ -15,6 +15,13 @@ class EdgeLimits {
   /// Keeps references; sizes: null, or one that limits().
   EdgeLimits(const TetMesh& mesh, const Metric& metric, const SizeField* sizes)
       : mesh_(mesh), metric_(metric), sizes_(sizes) {}
+  /// The limits of moves and flips, which are SizeField::stretch() times as long.
+  [[nodiscard]] static EdgeLimits of_moves(const TetMesh& mesh, const Metric& metric,
+                                           const SizeField* sizes) {
+    EdgeLimits out(mesh, metric, sizes);
+    if (sizes != nullptr) out.stretch_ = sizes->stretch();
+    return out;
+  }
 
   [[nodiscard]] bool any() const { return sizes_ != nullptr; }
 
@@ -40,6 +47,7 @@ class EdgeLimits {
   const TetMesh& mesh_;
   const Metric& metric_;
   const SizeField* sizes_;
+  double stretch_ = 1.0;
 };
 
 }  // namespace mw

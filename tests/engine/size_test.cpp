@@ -45,7 +45,7 @@ std::pair<Label, Label> some_interface(std::mt19937& random, const SmallVolume& 
 /// Sizes from the least that can be kept to six times that: of some labels, of all others at times,
 /// and of an interface.
 void add_sizes(std::mt19937& random, Trial& trial) {
-  const double min = diagonal_of(trial) / SizeRules::kLongest;
+  const double min = diagonal_of(trial) / SizeRules::kContracted;
   SizeRules& rules = trial.settings.sizes.rules;
   const auto size = [&] { return min * (1.0 + 0.05 * below(random, 100)); };
   if (below(random, 4) == 0) rules.others = size();
