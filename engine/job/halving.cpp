@@ -11,22 +11,10 @@
 #include "kernels/core/error.h"
 
 namespace mw::engine {
-namespace {
-
-/// Returns the least size that the marches mesh well.  Where edges are hardly longer than the
-/// diagonals of voxels next to none can be contracted, and surfaces keep the steps of the voxels.
-double least_good_size(const io::VolumeInfo& volume, const MeshSettings& settings) {
-  // Of least_size(); its row is in bench/parameters.md, "Constants".
-  constexpr double kSmooth = 1.3;
-  return least_size(volume, settings) * (settings.surface == Surface::kSmooth ? kSmooth : 1.0);
-}
-
-}  // namespace
-
 int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_image) {
   const SizeSettings& sizes = job.settings.sizes;
   if (!sizes.rules.any() || sizes.count > 0) return 0;
-  const double kept = least_good_size(volume, job.settings), listed = sizes.rules.least();
+  const double kept = least_size(volume, job.settings), listed = sizes.rules.least();
   if (std::ldexp(listed, io::kMostHalvings) < kept) {
     throw Error(ErrorKind::kUsage,
                 io::text("size ", listed,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sizes below some two voxels: the marches make edges twice as long, and the mesh that is written
+// Sizes below some 1.4 voxels: the marches make edges twice as long, and the mesh that is written
 // has each tet cut into eight.
 #pragma once
 
@@ -15,8 +15,8 @@
 namespace mw::engine {
 
 /// Returns how often the tets of a run are cut: as often as its least size asks for, where that is
-/// shorter than edges that the marches make well (1.8 voxels where these are cubes; 1.39 where
-/// surfaces are not smoothed); never with a count, as sizes are weights then.
+/// below least_size() (1.39 voxels where these are cubes); never with a count, as sizes are weights
+/// then.
 /// in_image: the least size of the image, infinity without one.  What it asks for beyond
 /// io::kMostHalvings is left out.
 /// ERRORS: mw::Error(kUsage) when these are not enough for another size, with the least that is

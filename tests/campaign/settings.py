@@ -91,12 +91,12 @@ def draw_chosen(random, settings, values):
 
 
 def draw_sizes(random, settings, values, spacing):
-    """Below 1.04 diagonals of a voxel of the lattice tets are cut, at most twice."""
+    """Below 0.8 diagonals of a voxel of the lattice tets are cut, at most twice."""
     if settings.get("optimizer", "local") == "tetgen" or settings.changes_voxels():
         return
     if random.random() < 0.08:
         some = random.sample(values, random.randint(1, min(3, len(values))))
-        least = sum(h * h for h in spacing) ** 0.5 * 1.04
+        least = sum(h * h for h in spacing) ** 0.5 * 0.8
 
         settings.halvings = random.choice([0, 0, 0, 1, 1, 2])
         shortest = f"{least * random.uniform(1.01, 1.9) / 2 ** settings.halvings:.6g}"
