@@ -33,7 +33,7 @@ constexpr double kMaxCurvatureOfSource = 4.0;
 
 /// The fit to crossings, whose places are known and not guessed, and the area beside it
 /// (bench/parameters.md, "Constants").
-constexpr double kFitOfCrossings = 50.0, kAreaOfCrossings = 0.05;
+constexpr double kFitOfCrossings = 20.0, kAreaOfCrossings = 0.05;
 
 std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
                                               const PreparedLabels& labels) {

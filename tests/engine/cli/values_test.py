@@ -133,8 +133,8 @@ class Values(unittest.TestCase):
 
 # What was found, rounded up: options, relative error of the volume, mean distance in voxels.  The
 # corners of a coarse mesh of a ball are outside, as it keeps the volume.
-BALL_BOUNDS = (((), 0.008, 0.5), (("--size", "3"), 0.004, 0.15), (("--size", "2"), 0.003, 0.1))
-PLANE_BOUND = 0.05  # root of the mean square, voxels
+BALL_BOUNDS = (((), 0.008, 0.5), (("--size", "3"), 0.003, 0.15), (("--size", "2"), 0.0015, 0.08))
+PLANE_BOUND = 0.025  # root of the mean square, voxels
 
 if __name__ == "__main__":
     unittest.main()
