@@ -237,9 +237,9 @@ class SharedRuns(unittest.TestCase):
 
     def test_tets_are_not_cut_by_several(self):
         self.synth("voronoi", "16,16,16", 3)
-        done = self.run_shared(2, "--size", "1.7")
+        done = self.run_shared(2, "--size", "1.3")
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("size 1.7: sizes below 1.81 are for one process only", done.stderr)
+        self.assertIn("size 1.3: sizes below 1.39 are for one process only", done.stderr)
 
     def test_only_mesh_is_shared(self):
         done = subprocess.run(mpirun(2, "info", self.volume), capture_output=True, text=True,
