@@ -81,7 +81,7 @@ bool Cavity::keeps_lengths(Point x, const SizeField& sizes) const {
   for (const LinkTriangle& f : surface_) {
     for (const LocalVertex v : {f.a, f.b, f.c}) {
       const Point p = mesh_.position(v);
-      const double max = std::min(limit, sizes.at(p));
+      const double max = sizes.stretch() * std::min(limit, sizes.at(p));
       if (metric_.vector(x, p).squaredNorm() > max * max) return false;
     }
   }

@@ -20,7 +20,7 @@ struct CavityPosition {
 /// What is asked of the new tets.
 struct CavityLimits {
   double min_ratio = 0.0;
-  const SizeField* sizes = nullptr;  ///< null: none
+  const SizeField* sizes = nullptr;  ///< new edges are as short as after moves; null: any
 };
 
 /// Tets of one label whose union is a ball with all their vertices on its surface.

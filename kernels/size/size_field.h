@@ -37,9 +37,9 @@ void spread_squared_gaps(Index3 cubes, const Vec3& edges, std::span<float> squar
 class SizeField {
  public:
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  /// Contraction makes no edge longer than its limit, moves and flips this many times as long.
-  /// Without that room a vertex whose edges have the length that contraction stops at could not go
-  /// to where the surface is.
+  /// Contraction makes no edge longer than its limit; moves, flips and inner vertices may make one
+  /// this many times as long.  Without that room a vertex whose edges have the length that
+  /// contraction stops at could not go to where the surface is.
   static constexpr double kStretch = 1.2;
 
   /// Nothing is limited.
@@ -66,7 +66,7 @@ class SizeField {
   /// One of few limits, the largest that is not above the given one: at most a twentieth less. Each
   /// limit that is in use costs spread() time.
   [[nodiscard]] static double rung_below(double limit);
-  /// Leaves moves and flips no room, either.
+  /// Makes the limits hold for moves, flips and inner vertices as they are.
   void allow_no_stretch() { stretch_ = 1.0; }
   [[nodiscard]] double stretch() const { return stretch_; }
   /// Finds the limits, once all voxels are known.  Cost: some 50 ns a cube and value in the list.
