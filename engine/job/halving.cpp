@@ -11,6 +11,7 @@
 #include "kernels/core/error.h"
 
 namespace mw::engine {
+
 int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_image) {
   const SizeSettings& sizes = job.settings.sizes;
   if (!sizes.rules.any() || sizes.count > 0) return 0;

@@ -97,6 +97,15 @@ class Sizes(unittest.TestCase):
             counts.append(found[0][1])
         self.assertEqual(counts, sorted(counts, reverse=True))
 
+    def test_vertices_of_a_ball_reach_its_surface(self):
+        """No vertex is held by edges that are as long as contraction leaves them."""
+        z, y, x = np.mgrid[:40, :40, :40] + 0.5
+        ball = (x - 20) ** 2 + (y - 20) ** 2 + (z - 20) ** 2 < 14**2
+        np.save("b.npy", ball.astype(np.uint8))
+        run("mesh", "b.npy", "-o", "b.vtu", "--size", "1.6")
+        off = np.linalg.norm(Mesh("b.vtu").interface() - 20, axis=1) - 14
+        self.assertLess(off.std(), 0.055)
+
     def test_sizes_below_a_voxel_cut_the_tets_of_the_marches(self):
         """Edges have the sizes that are asked, the mesh proves itself, and nothing but the volume and
         the settings decides its bytes."""
