@@ -63,14 +63,16 @@ class CountedVolume : public io::VolumeView {
   mutable std::atomic<std::uint64_t> voxels_ = 0;
 };
 
-/// The labels of a run that keeps something, and those that it leaves for the next one.
+/// The labels of a run that keeps something, and those that it leaves for the next one.  With
+/// several processes the one that speaks leaves them.
 class KeptInput {
  public:
   /// ERRORS: those of KeepFolder and KeptLabels; mw::Error(kUsage) when a delta is wanted and there
   /// is nothing before.
   KeptInput(const io::LabelVolume& opened, const MeshJob& job) : counted_(opened) {
     const KeepOptions& options = job.run.keep;
-    if (options.folder.empty()) return;
+    const bool speaks = job.run.processes == nullptr || job.run.processes->speaks();
+    if (options.folder.empty() || !speaks) return;
     folder_ = std::make_shared<KeepFolder>(options.folder, options.use);
     open_before(job);
     std::vector<Box3> changed{{{0, 0, 0}, opened.info().shape}};
@@ -254,8 +256,7 @@ RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink&
                 RunHooks run) {
   std::string work;
   run.store.kept = [&] {
-    const auto& folder = run.keep.folder.empty() ? run.store.workdir : run.keep.folder;
-    work = "; the work so far is in " + folder.string() + ", add --resume to go on";
+    work = "; " + way_on(job.run);
     if (job.run.store.kept) job.run.store.kept();
   };
   try {

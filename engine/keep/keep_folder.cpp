@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* kLockFile = "lock";
 constexpr const char* kSettingsFile = "settings.txt";
 constexpr const char* kChangingFile = "changing";
+constexpr const char* kPartPrefix = "part-";
 constexpr std::array<const char*, 8> kFiles{kLockFile,    kSettingsFile, kVersionsFile,
                                             kWindowsFile, kLabelsFile,   kChosenFile,
                                             kMeshFile,    kChangingFile};
@@ -65,8 +66,8 @@ void KeepFolder::make(KeepUse use) const {
   if (!fs::is_directory(path_)) refuse(path_, "is not a folder; give --keep another name");
   for (const auto& entry : fs::directory_iterator(path_)) {
     const std::string name = entry.path().filename().string();
-    const bool is_ours = std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
-    if (is_ours || is_left_over(name)) continue;
+    const bool is_file = std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
+    if (is_file || name.starts_with(kPartPrefix) || is_left_over(name)) continue;
     refuse(path_, "was not made by --keep: it holds " + name + "; give an empty or a new folder");
   }
 }
@@ -102,6 +103,19 @@ void KeepFolder::settle(const std::string& settings) const {
   }
   refuse(path_, "is of another run: " + different +
                     "; give the same settings, or delete the folder and begin it by --keep");
+}
+
+std::vector<fs::path> KeepFolder::parts() const {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    if (entry.path().filename().string().starts_with(kPartPrefix)) out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+fs::path kept_part(const fs::path& folder, int rank) {
+  return rank == 0 ? folder : folder / io::text(kPartPrefix, rank);
 }
 
 std::string KeepFolder::text(const char* name) const {

@@ -21,6 +21,8 @@ namespace mw::engine {
 ///     chosen.txt    what the last run chose by itself
 ///     mesh.txt      how large the mesh of the run was that was complete last
 ///     changing      boxes that runs which were not complete may have seen changed, a line each
+///     part-N        such a folder, of the Nth process beside the first (kept_part()); the first
+///                   one takes it over when the run ends, or when the next one begins
 /// and, while a run goes on, files without a name; nothing else.  It stays when the run ends.
 class KeepFolder : public WorkFiles {
  public:
@@ -39,6 +41,9 @@ class KeepFolder : public WorkFiles {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Bytes of all its files.
   [[nodiscard]] std::uint64_t bytes() const;
+
+  /// The folders of other processes that are here.
+  [[nodiscard]] std::vector<std::filesystem::path> parts() const;
 
   /// A small file as a whole; empty: it is not there.
   [[nodiscard]] std::string text(const char* name) const;
@@ -60,6 +65,9 @@ class KeepFolder : public WorkFiles {
 
 /// Changes with what is in the files; it is one of the settings, so a folder of another is refused.
 inline constexpr int kFolderFormat = 2;
+
+/// Where a process of a run keeps what it does: in `folder` itself if it is the first, rank 0.
+[[nodiscard]] std::filesystem::path kept_part(const std::filesystem::path& folder, int rank);
 
 inline constexpr const char* kVersionsFile = "versions";
 inline constexpr const char* kWindowsFile = "windows";

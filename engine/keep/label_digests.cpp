@@ -3,6 +3,7 @@
 #include "engine/keep/label_digests.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "engine/labels/bricks.h"
@@ -15,7 +16,7 @@ namespace mw::engine {
 namespace {
 
 constexpr Index3 kBrickShape{kBrick, kBrick, kBrick};
-/// In the place of a label's key; what follows it says that it is none (add_voxels).
+/// In the place of a label's key; what follows it says that it is none (run_of).
 constexpr std::uint64_t kOutside = 0;
 /// Limits on edges are looked up so far around what is seen, in voxels: at the ends of edges and of
 /// cells of the start mesh.
@@ -32,24 +33,52 @@ LabelDigests::LabelDigests(const PreparedLabels& labels, const LabelKeys& keys,
       grid_(grid),
       bricks_(cells_of({{0, 0, 0}, grid.volume()}, kBrickShape).hi) {
   if (settings.max_distance) reach_ = LabelReach::search_reach(*settings.max_distance);
-  original_ = digests_of(false, threads);
-  if (labels_.is_coarse()) coarse_ = digests_of(true, threads);
+  const NeededBricks& needed = labels.needed();
+  originals_ = digests_of(
+      needed.original, [this](Index3 brick) { return original_of(brick); }, threads);
+  if (!labels.is_coarse()) return;
+  shapes_ = digests_of(
+      needed.shapes, [this](Index3 brick) { return shape_of(brick); }, threads);
 }
 
-LabelDigests::Digests LabelDigests::digests_of(bool coarse, int threads) const {
+LabelDigests::Digests LabelDigests::digests_of(const Box3& bricks, const DigestOf& of,
+                                               int threads) const {
   Digests out(static_cast<std::size_t>(bricks_.product()));
   tbb_for_each_index(threads, bricks_, [&](Index3 brick) {
-    const Index3 lo{brick.x * kBrick, brick.y * kBrick, brick.z * kBrick};
-    const Box3 box = intersection({lo, lo + kBrickShape}, {{0, 0, 0}, grid_.volume()});
-    io::DigestMaker maker;
-    if (const std::optional<Label> only = labels_.only_label(brick)) {
-      maker.add(keys_.key(*only));
-    } else {
-      add_voxels(coarse ? labels_.shape(box) : labels_.original(box), maker);
-    }
-    out[raster(brick, bricks_)] = maker.finish();
+    if (bricks.contains(brick)) out[raster(brick, bricks_)] = of(brick);
   });
   return out;
+}
+
+Box3 LabelDigests::voxels_of(Index3 brick) const {
+  const Index3 lo{brick.x * kBrick, brick.y * kBrick, brick.z * kBrick};
+  return intersection({lo, lo + kBrickShape}, {{0, 0, 0}, grid_.volume()});
+}
+
+io::ContentDigest LabelDigests::original_of(Index3 brick) const {
+  const Box3 voxels = voxels_of(brick);
+  const std::optional<Label> only = labels_.only_label(brick);
+  return only ? of_one_label(*only, voxels) : of_voxels(labels_.original(voxels));
+}
+
+io::ContentDigest LabelDigests::shape_of(Index3 brick) const {
+  const Box3 voxels = voxels_of(brick);
+  const std::optional<Label> only = labels_.only_shape(brick);
+  return only ? of_one_label(*only, voxels) : of_voxels(labels_.shape(voxels));
+}
+
+io::ContentDigest LabelDigests::of_voxels(const LabelBox& labels) const {
+  io::DigestMaker maker;
+  add_voxels(labels, maker);
+  return maker.finish();
+}
+
+/// As of_voxels() when all of them have that label.
+io::ContentDigest LabelDigests::of_one_label(Label label, const Box3& voxels) const {
+  const std::array<std::uint64_t, 2> run = run_of(label, static_cast<std::size_t>(voxels.voxels()));
+  io::DigestMaker maker;
+  maker.add(std::as_bytes(std::span(run)));
+  return maker.finish();
 }
 
 /// The labels that the distance bound looks at, and those that the source surface there depends on
@@ -60,26 +89,37 @@ Box3 LabelDigests::around(const Box3& content) const {
   return intersection(grown(content, halo), {{0, 0, 0}, grid_.volume()});
 }
 
-/// Runs of one label: each as the label's key and where the run ends.
+/// The label's key and where its run ends.
+std::array<std::uint64_t, 2> LabelDigests::run_of(Label label, std::size_t end) const {
+  const bool is_outside = label == kExterior;
+  return {is_outside ? kOutside : keys_.key(label), std::uint64_t{end} * 2 + (is_outside ? 1 : 0)};
+}
+
 void LabelDigests::add_voxels(const LabelBox& labels, io::DigestMaker& to) const {
   std::vector<std::uint64_t> runs;
   const std::vector<Label>& all = labels.labels;
   for (auto run = all.begin(); run != all.end();) {
     const auto end = std::find_if(run, all.end(), [&](Label l) { return l != *run; });
-    runs.push_back(*run == kExterior ? kOutside : keys_.key(*run));
-    const auto place = static_cast<std::uint64_t>(end - all.begin()) * 2;
-    runs.push_back(place + (*run == kExterior ? 1 : 0));
+    const auto both = run_of(*run, static_cast<std::size_t>(end - all.begin()));
+    runs.insert(runs.end(), both.begin(), both.end());
     run = end;
   }
   to.add(std::as_bytes(std::span(runs)));
 }
 
-void LabelDigests::add_bricks(const Digests& digests, const Box3& voxels,
-                              io::DigestMaker& to) const {
+void LabelDigests::add_originals(const Box3& voxels, io::DigestMaker& to) const {
   const Box3 inside = intersection(voxels, {{0, 0, 0}, grid_.volume()});
   if (is_empty(inside)) return;
+  for_each_index(cells_of(inside, kBrickShape), [&](Index3 brick) {
+    const io::ContentDigest& digest = originals_[raster(brick, bricks_)];
+    to.add(digest.is_none() ? original_of(brick) : digest);
+  });
+}
+
+void LabelDigests::add_shapes(const Box3& voxels, io::DigestMaker& to) const {
+  const Box3 inside = intersection(voxels, {{0, 0, 0}, grid_.volume()});
   for_each_index(cells_of(inside, kBrickShape),
-                 [&](Index3 brick) { to.add(digests[raster(brick, bricks_)]); });
+                 [&](Index3 brick) { to.add(shapes_[raster(brick, bricks_)]); });
 }
 
 /// Which large cells the start mesh of a block may have.
@@ -100,12 +140,13 @@ void LabelDigests::add_limits(const Box3& voxels, io::DigestMaker& to) const {
   to.add(std::as_bytes(std::span(bits)));
 }
 
-bool LabelDigests::all_uniform(const Box3& voxels) const {
+bool LabelDigests::all_uniform(const Box3& voxels, bool as_shapes) const {
   const Box3 inside = intersection(voxels, {{0, 0, 0}, grid_.volume()});
   bool all = true;
   if (is_empty(inside)) return all;
-  for_each_index(cells_of(inside, kBrickShape),
-                 [&](Index3 brick) { all = all && labels_.only_label(brick).has_value(); });
+  for_each_index(cells_of(inside, kBrickShape), [&](Index3 brick) {
+    all = all && labels_.only_label(brick) && (!as_shapes || labels_.only_shape(brick));
+  });
   return all;
 }
 
@@ -113,11 +154,11 @@ io::ContentDigest LabelDigests::of_bricks(const SeenLabels& seen) const {
   io::DigestMaker maker;
   for (const Index3 block : seen.starts) {
     const Box3 box = grid_.block_box(block), wide = grown(box, kStartHalo);
-    add_bricks(original_, wide, maker);
-    if (labels_.is_coarse()) add_bricks(coarse_, wide, maker);
+    add_originals(wide, maker);
+    if (labels_.is_coarse()) add_shapes(wide, maker);
     add_cells(box, maker);
   }
-  add_bricks(original_, around(seen.content), maker);
+  add_originals(around(seen.content), maker);
   add_limits(seen.content, maker);
   return maker.finish();
 }
@@ -126,9 +167,10 @@ io::ContentDigest LabelDigests::of_bricks(const SeenLabels& seen) const {
 io::ContentDigest LabelDigests::exact(const SeenLabels& seen) const {
   const Box3 looked_at = around(seen.content);
   const auto is_plain = [&](Index3 block) {
-    return all_uniform(grown(grid_.block_box(block), kStartHalo));
+    return all_uniform(grown(grid_.block_box(block), kStartHalo), true);
   };
-  if (all_uniform(looked_at) && std::all_of(seen.starts.begin(), seen.starts.end(), is_plain)) {
+  if (all_uniform(looked_at, false) &&
+      std::all_of(seen.starts.begin(), seen.starts.end(), is_plain)) {
     return of_bricks(seen);
   }
   io::DigestMaker maker;

@@ -3,6 +3,8 @@
 // Names for the labels that visits see, which tell whether a later volume has the same there.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,7 +23,8 @@ struct SeenLabels {
 };
 
 /// Digests of prepared labels by their own numbers, of each brick of 16^3 voxels and of what visits
-/// see.  Thread safety: const members may be called from many threads.
+/// see.  Bricks that no window of this process needs are digested when they are asked for.
+/// Thread safety: const members may be called from many threads.
 /// Memory: label_digest_bytes().
 class LabelDigests {
  public:
@@ -39,22 +42,32 @@ class LabelDigests {
  private:
   using Digests = std::vector<io::ContentDigest>;
 
-  /// Returns the digests of all bricks.
-  [[nodiscard]] Digests digests_of(bool coarse, int threads) const;
+  using DigestOf = std::function<io::ContentDigest(Index3 brick)>;
+
+  /// Returns the digests of these bricks, and none of others.
+  [[nodiscard]] Digests digests_of(const Box3& bricks, const DigestOf& of, int threads) const;
+  [[nodiscard]] Box3 voxels_of(Index3 brick) const;
+  [[nodiscard]] io::ContentDigest original_of(Index3 brick) const;
+  [[nodiscard]] io::ContentDigest shape_of(Index3 brick) const;
+  [[nodiscard]] io::ContentDigest of_voxels(const LabelBox& labels) const;
+  [[nodiscard]] io::ContentDigest of_one_label(Label label, const Box3& voxels) const;
+  [[nodiscard]] std::array<std::uint64_t, 2> run_of(Label label, std::size_t end) const;
   [[nodiscard]] Box3 around(const Box3& content) const;
-  void add_bricks(const Digests& digests, const Box3& voxels, io::DigestMaker& to) const;
+  void add_originals(const Box3& voxels, io::DigestMaker& to) const;
+  void add_shapes(const Box3& voxels, io::DigestMaker& to) const;
   void add_voxels(const LabelBox& labels, io::DigestMaker& to) const;
   void add_cells(const Box3& block, io::DigestMaker& to) const;
   void add_limits(const Box3& voxels, io::DigestMaker& to) const;
-  [[nodiscard]] bool all_uniform(const Box3& voxels) const;
+  /// Whether each brick has one label, and one for start meshes, too, if asked.
+  [[nodiscard]] bool all_uniform(const Box3& voxels, bool as_shapes) const;
 
   const PreparedLabels& labels_;
   const LabelKeys& keys_;
   const WindowGrid& grid_;
   std::optional<std::int64_t> reach_;  ///< of the distance bound; none: there is none
   Index3 bricks_;
-  Digests original_;
-  Digests coarse_;  ///< empty where labels are not coarsened
+  Digests originals_;
+  Digests shapes_;  ///< empty where labels are not coarsened
 };
 
 /// Memory that they take for a volume of this shape.

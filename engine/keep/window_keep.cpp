@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/keep/window_pack.h"
+#include "engine/store/journal/mapped_file.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 
@@ -55,19 +56,25 @@ WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
       log_(std::make_unique<RecordLog>(folder_->open(kWindowsFile))) {
   facts_.marches.resize(layout.marches());
   replay();
+  take_over_parts();
+  facts_ = {.marches = std::vector<KeepFacts::March>(layout.marches())};  // nothing by this run
+}
+
+WindowRecord WindowKeep::checked_record(std::span<const std::byte> bytes) const {
+  try {
+    WindowRecord record = decode_window_record(bytes);
+    if (record.window >= record_at_.size()) throw BadBytes{"there is no such window"};
+    return record;
+  } catch (const BadBytes& bad) {
+    throw DamagedWork("records of windows", bad.reason);
+  }
 }
 
 /// The last fact of each window counts.
 void WindowKeep::replay() {
   log_->replay([&](std::uint64_t at, std::span<const std::byte> bytes) {
-    try {
-      const WindowRecord record = decode_window_record(bytes);
-      if (record.window >= record_at_.size()) throw BadBytes{"there is no such window"};
-      record_at_[record.window] = at + 1;
-      ++records_;
-    } catch (const BadBytes& bad) {
-      throw DamagedWork("records of windows", bad.reason);
-    }
+    record_at_[checked_record(bytes).window] = at + 1;
+    ++records_;
   });
   for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
     const std::optional<WindowRecord> record = record_of(window);
@@ -87,13 +94,7 @@ std::optional<WindowRecord> WindowKeep::record_of(std::uint64_t window) const {
   }
   if (at == 0) return std::nullopt;
   std::optional<WindowRecord> out;
-  log_->read(at - 1, [&](std::span<const std::byte> bytes) {
-    try {
-      out = decode_window_record(bytes);
-    } catch (const BadBytes& bad) {
-      throw DamagedWork("records of windows", bad.reason);
-    }
-  });
+  log_->read(at - 1, [&](std::span<const std::byte> bytes) { out = checked_record(bytes); });
   return out;
 }
 
@@ -310,6 +311,13 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
     packed = pack_blocks(kept, *packer);
     give_back(std::move(packer));
   }
+  const WindowRecord added = add(std::move(record), packed);
+  leave(key, added);
+  return places_of(added);
+}
+
+/// Writes the bytes of a fact, and the records of its group once that is full.
+WindowRecord WindowKeep::add(WindowRecord record, std::span<const std::byte> packed) {
   bool full = false;
   {
     const std::optional<WindowRecord> old = record_of(record.window);
@@ -318,16 +326,20 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
     if (old && old->extent.size > 0) superseded_.push_back(old->extent);
     if (!old) ++live_;
     group_.push_back(record);
-    ++facts_.marches[key.march].visited;
+    ++facts_.marches[layout_.march_of(record.window)].visited;
     facts_.bytes_written += packed.size();
     full = group_.size() >= limits_.windows || Clock::now() - group_since_ >= limits_.age;
   }
-  leave(key, record);
   if (full) {
     const std::unique_lock turn(saving_, std::try_to_lock);  // else another thread is at it
     if (turn.owns_lock()) write_group();
   }
-  return places_of(record);
+  return record;
+}
+
+void WindowKeep::receive(const BlockKey& key, const LeftBlock& block) {
+  const std::vector<std::byte> bytes = to_kept(block.bytes, keys_);
+  versions_[layout_.slot(key)] = {io::content_digest(bytes), numbers_of(block.voxels)};
 }
 
 std::vector<std::byte> WindowKeep::read(const BlockKey& key, const KeptPlace& place) const {
@@ -372,6 +384,38 @@ void WindowKeep::write_group() {
 void WindowKeep::save() {
   const std::lock_guard turn(saving_);
   write_group();
+}
+
+void WindowKeep::take_over_parts() {
+  for (const std::filesystem::path& part : folder_->parts()) take_over(part);
+}
+
+/// Its records go first, so that a folder which is half gone after a kill holds no fact.
+void WindowKeep::take_over(const std::filesystem::path& part) {
+  const std::filesystem::path records = part / kWindowsFile;
+  if (std::filesystem::exists(records)) {
+    RecordLog log(std::make_unique<MappedFile>(records));
+    SegmentFile bytes(std::make_unique<MappedFile>(part / kVersionsFile));
+    log.replay([&](std::uint64_t /*at*/, std::span<const std::byte> record) {
+      take_over(checked_record(record), bytes);
+    });
+    save();
+    std::filesystem::remove(records);
+  }
+  std::error_code ignored;  // what stays holds no facts, and goes next time
+  std::filesystem::remove_all(part, ignored);
+}
+
+void WindowKeep::take_over(const WindowRecord& record, SegmentFile& from) {
+  if (record.extent.size == 0) {
+    static_cast<void>(add(record, {}));
+    return;
+  }
+  if (!from.take(record.extent)) {
+    throw DamagedWork("records of windows", "two point to the same bytes, or to none");
+  }
+  from.read(record.extent,
+            [&](std::span<const std::byte> packed) { static_cast<void>(add(record, packed)); });
 }
 
 /// Most records are of windows that have newer ones: the others alone are written again.

@@ -39,6 +39,8 @@ namespace mw::engine {
 /// Blocks and labels are digested by the labels' own numbers, and visits depend on nothing but the
 /// order of these (kernels/README.md, "Determinism").
 ///
+/// Each process of a run keeps its own visits, in a folder of its own.
+///
 /// Thread safety: windows that share no block may be asked for and kept at the same time.
 class WindowKeep : public BlockKeeper {
  public:
@@ -61,12 +63,17 @@ class WindowKeep : public BlockKeeper {
 
   [[nodiscard]] std::vector<KeptPlace> keep(const WindowKey& window,
                                             std::span<const LeftBlock> blocks) override;
+  void receive(const BlockKey& key, const LeftBlock& block) override;
   [[nodiscard]] std::vector<std::byte> read(const BlockKey& key,
                                             const KeptPlace& place) const override;
   [[nodiscard]] std::unique_ptr<WorkFile> open_spill() override { return folder_->open_scratch(); }
 
   /// What was kept so far survives a power cut.
   void save();
+  /// Has what other processes of the run kept in folders beside this one's files
+  /// (kept_part()) from then on; they are gone then.  REQUIRES: nobody is at work in them.
+  /// ERRORS: DamagedWork.
+  void take_over_parts();
   /// The run is complete.
   void finish();
   /// Whether a later run finds anything.
@@ -83,6 +90,8 @@ class WindowKeep : public BlockKeeper {
   };
   using Clock = std::chrono::steady_clock;
 
+  /// ERRORS: DamagedWork.
+  [[nodiscard]] WindowRecord checked_record(std::span<const std::byte> bytes) const;
   void replay();
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   /// The version of a block that a window takes; null: there is none yet.
@@ -98,6 +107,9 @@ class WindowKeep : public BlockKeeper {
   [[nodiscard]] std::unique_ptr<io::ZstdPacker> take_packer();
   void give_back(std::unique_ptr<io::ZstdPacker> packer);
   [[nodiscard]] static std::vector<KeptPlace> places_of(const WindowRecord& record);
+  WindowRecord add(WindowRecord record, std::span<const std::byte> packed);
+  void take_over(const std::filesystem::path& part);
+  void take_over(const WindowRecord& record, SegmentFile& from);
   void write_group();
   void compact_log();
 

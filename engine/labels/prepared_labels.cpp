@@ -141,6 +141,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
                                const SizeImage* image)
     : volume_(volume),
       margin_(periodic_margin(settings)),
+      needed_(bricks),
       counts_(std::move(counts)),
       original_(volume.info().shape, volume.table().size(), folder, bricks.original),
       sizes_(size_field(volume, settings.sizes)),

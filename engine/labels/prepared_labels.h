@@ -71,11 +71,17 @@ class PreparedLabels {
   }
   /// The faces of the box that are in the volume.  REQUIRES: has_source().
   [[nodiscard]] SourceSurface source(const Box3& box) const;
-  /// Returns the only label of a brick, before and after coarsening; none where it has several.
-  /// REQUIRES: it is needed.
+  /// Returns the bricks that windows need; labels of others are read when they are asked for.
+  [[nodiscard]] const NeededBricks& needed() const { return needed_; }
+  /// Returns the only label that the input has in a brick; none where it has several, or where the
+  /// brick is not needed.
   [[nodiscard]] std::optional<Label> only_label(Index3 brick) const {
-    const std::optional<Label> label = original_.uniform_label(brick);
-    return label == shapes().uniform_label(brick) ? label : std::nullopt;
+    return needed_.original.contains(brick) ? original_.uniform_label(brick) : std::nullopt;
+  }
+  /// Returns the only label that start meshes see in a brick; none where they see several.
+  /// REQUIRES: the brick is among needed().shapes.
+  [[nodiscard]] std::optional<Label> only_shape(Index3 brick) const {
+    return shapes().uniform_label(brick);
   }
   [[nodiscard]] Index3 margin() const { return margin_; }
   [[nodiscard]] bool is_coarse() const { return coarse_.has_value(); }
@@ -113,6 +119,7 @@ class PreparedLabels {
 
   io::DenseVolume volume_;  ///< looked at again only where some labels are prepared
   Index3 margin_;
+  NeededBricks needed_;
   std::optional<LabelCounts> counts_;
   io::BrickVolume original_;
   std::optional<io::BrickVolume> coarse_;

@@ -20,6 +20,10 @@ class WholeRun : public RunPart {
   [[nodiscard]] WorkFiles* work_files() override { return workdir_.get(); }
   [[nodiscard]] std::filesystem::path work_folder() const override { return folder_; }
   [[nodiscard]] BlockRouter* router() override { return nullptr; }
+  [[nodiscard]] std::unique_ptr<WindowKeep> open_keep(const std::filesystem::path& folder,
+                                                      const OpenKeep& open) override {
+    return open(folder);
+  }
   [[nodiscard]] std::shared_ptr<void> attach(RunStore& /*store*/) override { return nullptr; }
   [[nodiscard]] LabelPlan plan_labels(const io::DenseVolume& /*volume*/,
                                       const MeshSettings& /*settings*/, const RunHooks& /*hooks*/,
@@ -38,6 +42,7 @@ class WholeRun : public RunPart {
                                    const OutputOptions& options) override {
     return finish(mesh, sink, options);
   }
+  void finish_keep(WindowKeep& keep) override { keep.finish(); }
   [[nodiscard]] std::shared_ptr<Workdir> keep_for_rest(RunStore& store) override {
     try {
       store.save();

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/keep/window_keep.h"
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_counts.h"
 #include "engine/labels/label_need.h"
@@ -40,6 +41,9 @@ struct LabelPlan {
   std::optional<LabelCounts> counts;  ///< of the whole volume; none: known once all are prepared
 };
 
+/// Opens what is kept for later runs in a folder.
+using OpenKeep = std::function<std::unique_ptr<WindowKeep>(const std::filesystem::path& folder)>;
+
 /// Thrown by a run that was asked to save its work and to stop (RunHooks::stop_after_save).
 struct StoppedAfterSave {};
 
@@ -55,6 +59,10 @@ class RunPart {
   [[nodiscard]] virtual std::filesystem::path work_folder() const = 0;
   /// Null when all blocks stay here.
   [[nodiscard]] virtual BlockRouter* router() = 0;
+  /// Calls `open` with the folder where this process keeps what it does, which is `folder` of the
+  /// run for the process that speaks, and lies inside it for the others, whose turn is later.
+  [[nodiscard]] virtual std::unique_ptr<WindowKeep> open_keep(const std::filesystem::path& folder,
+                                                              const OpenKeep& open) = 0;
   /// Lets blocks come into the store from now on, until the result is destroyed.
   [[nodiscard]] virtual std::shared_ptr<void> attach(RunStore& store) = 0;
 
@@ -77,6 +85,9 @@ class RunPart {
   [[nodiscard]] virtual bool writes_with_others() const = 0;
   [[nodiscard]] virtual FinishedMesh write(const FinalMesh& mesh, io::MeshSink& sink,
                                            const OutputOptions& options) = 0;
+  /// To be called once the mesh is complete, where something is kept: the process that speaks has
+  /// what all have kept.
+  virtual void finish_keep(WindowKeep& keep) = 0;
   /// To be called once the mesh is complete and more is to be written (StoreOptions::stays): saves
   /// the work and gives the folder away, in which it stays until it is discarded.  Returns null if
   /// no run could go on from there; a failure to save is no error.

@@ -198,7 +198,7 @@ void go(RunContext& run) {
   const std::uint64_t windows = march(run, labels, forecast);
   write(run, labels.counts(), forecast);
   if (run.keep != nullptr) {
-    run.keep->finish();
+    run.part->finish_keep(*run.keep);
     run.report.keep = run.keep->facts();
   }
   if (run.hooks.store.stays) run.report.work = run.part->keep_for_rest(run.store);

@@ -113,6 +113,9 @@ struct RunHooks {
   bool owns_process = false;
 };
 
+/// Says where a run that ended early left its work, and how to go on with it.
+[[nodiscard]] std::string way_on(const RunHooks& hooks);
+
 /// For those who want to know before any work whether a run can keep what KeepOptions ask for.
 /// ERRORS: mw::Error(kUsage) where it cannot.
 void check_keep(const RunHooks& hooks, const MeshSettings& settings);

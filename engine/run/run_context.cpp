@@ -86,8 +86,12 @@ std::unique_ptr<WindowKeep> open_keep(RunContext& run, const io::VolumeInfo& inf
   const std::string settings =
       io::text(options.identity, "folder-format = ", kFolderFormat, "\nresults = ", results_id(),
                "\n", identity_text(info, run.settings));
-  return std::make_unique<WindowKeep>(options, settings, run.layout, run.budget,
-                                      run.lattice.labels().table(), run.hooks.store.group);
+  return run.part->open_keep(options.folder, [&](const std::filesystem::path& folder) {
+    KeepOptions here = options;
+    if (folder != options.folder) here = {.folder = folder, .use = KeepUse::kGoOn};
+    return std::make_unique<WindowKeep>(here, settings, run.layout, run.budget,
+                                        run.lattice.labels().table(), run.hooks.store.group);
+  });
 }
 
 RunReport begun_report(const RunContext& run) {
@@ -99,6 +103,15 @@ RunReport begun_report(const RunContext& run) {
 }
 
 }  // namespace
+
+std::string way_on(const RunHooks& hooks) {
+  const bool is_kept = !hooks.keep.folder.empty();
+  const bool are_many = hooks.processes != nullptr && hooks.processes->count() > 1;
+  const auto& folder = is_kept ? hooks.keep.folder : hooks.store.workdir;
+  return "the work so far is in " + folder.string() +
+         (is_kept && are_many ? ", run mwmesh without mpirun and with --resume to go on"
+                              : ", add --resume to go on");
+}
 
 void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
   if (hooks.keep.folder.empty()) return;
@@ -115,8 +128,9 @@ void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
                 "count: looks at the whole volume, so that an edit anywhere could change sizes "
                 "everywhere; with keep give size instead");
   }
-  if (hooks.processes != nullptr && hooks.processes->count() > 1) {
-    throw Error(ErrorKind::kUsage, "keep: works in one process only, run mwmesh without mpirun");
+  const bool are_many = hooks.processes != nullptr && hooks.processes->count() > 1;
+  if (are_many && hooks.keep.use == KeepUse::kUpdate) {
+    throw Error(ErrorKind::kUsage, "from: works in one process only, run mwmesh without mpirun");
   }
 }
 

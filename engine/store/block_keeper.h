@@ -41,6 +41,8 @@ class BlockKeeper {
   /// ERRORS: mw::Error(kResource) when the disk is full.
   [[nodiscard]] virtual std::vector<KeptPlace> keep(const WindowKey& window,
                                                     std::span<const LeftBlock> blocks) = 0;
+  /// A block that a window of another process left, and that one of this process takes next.
+  virtual void receive(const BlockKey& key, const LeftBlock& block) = 0;
   /// The bytes of a kept block, as encode_block() has them.
   /// ERRORS: DamagedWork when they are not those that were kept.
   [[nodiscard]] virtual std::vector<std::byte> read(const BlockKey& key,

@@ -44,6 +44,13 @@ std::uint64_t RunLayout::window(const WindowKey& key) const {
   return first_window_[key.march] + raster(key.window, grids_[key.march].windows());
 }
 
+std::uint32_t RunLayout::march_of(std::uint64_t window) const {
+  MW_ASSERT(window < windows());
+  std::uint32_t march = 0;
+  while (window >= first_window_[march + 1]) ++march;
+  return march;
+}
+
 std::vector<BlockKey> RunLayout::parts(const BlockKey& key) const {
   MW_ASSERT(key.march > 0);
   const Box3 before{{0, 0, 0}, grids_[key.march - 1].blocks()};

@@ -329,9 +329,10 @@ void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
   }
   done_.insert(layout_.window(key));
   for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (!stays(key, blocks[i])) continue;
     if (!places.empty() && (pins.empty() || places[i].size > 0)) {
       table_.put_kept(slots[i], places[i], pins.empty() ? nullptr : std::move(pins[i]));
-    } else if (stays(key, blocks[i])) {
+    } else {
       table_.put(slots[i], std::move(pins[i]));
     }
   }
@@ -370,6 +371,10 @@ void RunStore::send_away(const WindowKey& key, std::span<const BlockKey> blocks,
 void RunStore::receive(const BlockVersion& version, std::vector<std::byte> bytes,
                        std::uint64_t memory_bytes, MemoryBudget::Reservation room) {
   BlockPin pin = hold(std::move(bytes), memory_bytes, room);
+  if (keeper_ != nullptr) {
+    const Box3 voxels = voxels_of(decode_block(version.block, pin->bytes));
+    keeper_->receive(version.block, {pin->bytes, memory_bytes, voxels});
+  }
   const WindowOrder order = layout_.order(version.block.march);
   const std::uint64_t from = order.rank(version.from.window);
   const std::lock_guard lock(mutex_);

@@ -61,8 +61,8 @@ class RunStore {
   /// Goes on from what the journal among `files` holds.
   /// router: null where all windows are visited here.  With one, work becomes
   /// durable by checkpoint() alone.
-  /// keeper: null: nothing is kept.  With one there are no files and no router: what memory does
-  /// not hold is read again from what is kept, or was spilled where it is not.
+  /// keeper: null: nothing is kept.  With one there are no files: what memory does not hold is read
+  /// again from what is kept, or was spilled where it is not.
   /// REQUIRES: layout, budget, files (null: none), router and keeper outlive it.
   /// ERRORS: mw::Error(kResource) when the index alone exceeds the budget; kInput when the journal
   /// is damaged.
@@ -100,7 +100,7 @@ class RunStore {
   void note_done(const WindowKey& key, bool is_own);
 
   /// The window is done without a visit: its blocks, in their order, are those at these places.
-  /// REQUIRES: a keeper; as for a visit of the window.
+  /// REQUIRES: a keeper and no router; as for a visit of the window.
   void adopt(const WindowKey& key, std::span<const KeptPlace> places);
 
   /// Makes durable what is finished.  Does nothing without a work folder, or after an error in an

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/team/team_processes.h"
 
+#include "engine/keep/keep_folder.h"
 #include "engine/run/run_context.h"
 #include "engine/team/output/team_output.h"
 #include "engine/team/saved/saved_run.h"
@@ -20,6 +21,29 @@ TeamPart::TeamPart(Team& team, const RunLayout& layout, const RunHooks& hooks,
 
 std::filesystem::path TeamPart::work_folder() const {
   return work_ ? work_->own_folder() : std::filesystem::path();
+}
+
+std::unique_ptr<WindowKeep> TeamPart::open_keep(const std::filesystem::path& folder,
+                                                const OpenKeep& open) {
+  std::unique_ptr<WindowKeep> keep;
+  if (team_.is_first()) keep = open(folder);
+  if (keep != nullptr && keep->has_facts()) {
+    throw Error(ErrorKind::kUsage,
+                folder.string() +
+                    ": holds what an earlier run has kept, which one process alone goes on from; "
+                    "run mwmesh without mpirun, or delete the folder");
+  }
+  wait_for_all(team_);
+  if (!team_.is_first()) keep = open(kept_part(folder, team_.rank()));
+  return keep;
+}
+
+void TeamPart::finish_keep(WindowKeep& keep) {
+  if (!team_.is_first()) keep.finish();
+  wait_for_all(team_);
+  if (!team_.is_first()) return;
+  keep.take_over_parts();
+  keep.finish();
 }
 
 std::shared_ptr<void> TeamPart::attach(RunStore& store) {

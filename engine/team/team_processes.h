@@ -24,6 +24,11 @@ class TeamPart : public RunPart {
   [[nodiscard]] WorkFiles* work_files() override { return work_ ? &work_->own() : nullptr; }
   [[nodiscard]] std::filesystem::path work_folder() const override;
   [[nodiscard]] BlockRouter* router() override { return &traffic_; }
+  /// Every rank has a folder of its own; those that an earlier run has left in the first one's are
+  /// gone before the others open theirs.
+  /// ERRORS: mw::Error(kUsage) when an earlier run has kept something there.
+  [[nodiscard]] std::unique_ptr<WindowKeep> open_keep(const std::filesystem::path& folder,
+                                                      const OpenKeep& open) override;
   [[nodiscard]] std::shared_ptr<void> attach(RunStore& store) override;
 
   /// Settles who visits what (Partition), by the counts of the whole volume, of which every rank
@@ -41,6 +46,8 @@ class TeamPart : public RunPart {
   [[nodiscard]] bool writes_with_others() const override { return own_lines_.has_value(); }
   [[nodiscard]] FinishedMesh write(const FinalMesh& mesh, io::MeshSink& sink,
                                    const OutputOptions& options) override;
+  /// Rank 0 takes over the folders of all.
+  void finish_keep(WindowKeep& keep) override;
   /// Epochs are over by then, so nothing more is saved.
   [[nodiscard]] std::shared_ptr<Workdir> keep_for_rest(RunStore& /*store*/) override {
     return nullptr;

@@ -14,6 +14,9 @@ namespace mw::engine {
 /// ERRORS: mw::Error(kUsage) on every rank, naming what differs and where.
 void agree(Team& team, const std::string& identity);
 
+/// Returns when all ranks have called it.
+void wait_for_all(Team& team);
+
 /// Who visits what, so that work is shared evenly: as rank 0 says, since sums of doubles could
 /// differ between machines.
 [[nodiscard]] Partition deal_windows(Team& team, const RunLayout& layout,

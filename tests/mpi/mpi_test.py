@@ -294,6 +294,40 @@ class SharedRuns(unittest.TestCase):
         print(f"{kills} kills, {went_on} times gone on from an epoch", file=sys.stderr)
         self.assertGreater(went_on, 0)
 
+    def test_one_process_meshes_edits_of_what_several_have_kept(self):
+        self.synth("voronoi", "48,56,64", 30)
+        expected = self.alone("--order", "colour")
+        kept = self.folder / "kept"
+        for ranks in (2, 3):
+            shutil.rmtree(kept, ignore_errors=True)
+            self.expect_same(ranks, expected, "--certify", "off", "--keep", kept)
+            self.assertFalse(list(kept.glob("part-*")))
+            report = self.folder / "report.json"
+            self.assertEqual(self.alone("--force", "--from", kept, "--report", report), expected)
+            marches = json.loads(report.read_text())["engine"]["remesh"]["marches"]
+            self.assertEqual([march["visited"] for march in marches], [0] * len(marches))
+
+    def test_what_was_kept_is_gone_on_with_by_one_process(self):
+        self.synth("voronoi", "64,64,80", 40)
+        expected = self.alone("--order", "colour")
+        kept = self.folder / "kept"
+        run = subprocess.Popen(self.command(3, "--certify", "off", "--keep", kept,
+                                            "--save-every", "0.1"),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                               env=environment())
+        while run.poll() is None and not list(kept.glob("part-*/windows")):
+            time.sleep(0.01)
+        time.sleep(0.5)
+        run.send_signal(signal.SIGTERM)
+        run.communicate(timeout=60)
+        if run.returncode == 0:
+            self.skipTest("the run was over before the signal")
+        for options in (["--keep", kept, "--resume"], ["--from", kept]):
+            refused = self.run_shared(2, "--force", *options)
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn("without mpirun", refused.stderr)
+        self.assertEqual(self.alone("--force", "--keep", kept, "--resume"), expected)
+
     def end_by_signal(self, number, epochs):
         """Starts a run and sends mpirun a signal once an epoch counts; its exit code."""
         run = subprocess.Popen(self.command(3, "--certify", "off", "--save-every", "0.1"),

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Promise 5: a volume that was edited and is meshed from what an earlier run has kept gives the
 // bytes of a run that begins afresh.
+#include <atomic>
+
+#include "engine/team/team_processes.h"
 #include "tests/engine/keep/edits.h"
 #include "tests/engine/memory_run.h"
+#include "tests/engine/team/crowd.h"
 #include "tests/temp_folder.h"
 #include "tests/testing.h"
 
@@ -16,10 +20,11 @@ using mw::test::TempFolder;
 using test::below;
 using test::Editor;
 using test::expect_same;
+using test::for_ranks;
 using test::MemorySink;
-using test::MemoryVolume;
 using test::random_trial;
 using test::run_in_memory;
+using test::run_into;
 using test::Trial;
 
 struct Kept {
@@ -28,10 +33,8 @@ struct Kept {
 };
 
 Kept run_kept(const Trial& trial, const RunHooks& hooks) {
-  const MemoryVolume volume(trial.volume, trial.frame);
-  const io::LabelTable table = io::collect_labels(volume);
   MemorySink sink;
-  const RunReport report = mesh_volume(io::DenseVolume(volume, table), trial.settings, sink, hooks);
+  const RunReport report = run_into(sink, trial, hooks);
   return {sink.mesh(), report.keep.value()};
 }
 
@@ -161,6 +164,81 @@ TEST(Promise5SameBytes, AfterEditsFromWhatWasKeptWithSizes) {
   }
   EXPECT_GT(chain.skipped, 20U);
   EXPECT_GT(chain.visited, 100U);
+}
+
+/// A run of several processes that keep what they do; a visit of the last one fails, if asked.
+/// Returns the mesh of the first, and nothing of a run that fails.
+std::optional<Kept> run_shared(const Trial& trial, const std::filesystem::path& folder, int ranks,
+                               std::uint32_t seed, std::optional<int> failing_visit) {
+  std::optional<Kept> out;
+  for_ranks({.ranks = ranks, .seed = seed}, [&](Team& team) {
+    TeamProcesses processes(team);
+    RunHooks hooks = kept_in(folder, KeepUse::kBegin, 1 + team.rank() % 2);
+    hooks.processes = &processes;
+    std::atomic<int> visits = 0;
+    hooks.before_visit = [&](Index3) {
+      if (team.rank() == ranks - 1 && visits++ == failing_visit) throw std::bad_alloc();
+    };
+    try {
+      MemorySink sink;
+      const RunReport report = run_into(sink, trial, hooks);
+      if (team.is_first()) out = {sink.mesh(), report.keep.value()};
+    } catch (const std::exception&) {
+      EXPECT_TRUE(failing_visit.has_value());
+    }
+  });
+  return out;
+}
+
+/// Volumes that several rows of windows cover, so that processes share them.
+Trial shared_trial(std::mt19937& random, std::uint32_t i) {
+  const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
+  Trial trial = random_trial(
+      random, test::with_room(random_volume_of(random, kind, {10, 20, 16}, 2 + i % 7)));
+  trial.settings.window = 4;
+  trial.settings.marches = static_cast<int>(1 + i % 3);
+  trial.settings.order = Order::kColour;
+  return trial;
+}
+
+TEST(Promise5SameBytes, AfterEditsFromWhatSeveralProcessesHaveKept) {
+  std::mt19937 random(3503);
+  for (std::uint32_t i = 0; i < 8 && !HasFailure(); ++i) {
+    Trial trial = shared_trial(random, i);
+    SCOPED_TRACE(trial.text());
+    const TempFolder folder;
+    const std::filesystem::path kept = folder.path() / "kept";
+    const int ranks = static_cast<int>(2 + i % 3);
+    const auto begun = run_shared(trial, kept, ranks, i, std::nullopt);
+    ASSERT_TRUE(begun.has_value());
+    expect_same(begun->mesh, run_in_memory(trial));
+    const Kept again = run_kept(trial, kept_in(kept, KeepUse::kUpdate, 2));
+    expect_same(again.mesh, begun->mesh);
+    EXPECT_EQ(visited(again.facts), 0U);
+    EXPECT_EQ(skipped(again.facts), visited(begun->facts));
+    Editor editor(random);
+    Box3 box;
+    SCOPED_TRACE(editor.edit(trial.volume, box));
+    const Kept edited = run_kept(trial, kept_in(kept, KeepUse::kUpdate, 2));
+    expect_same(edited.mesh, run_in_memory(trial));
+  }
+}
+
+TEST(Promise5SameBytes, GoingOnFromWhatSeveralProcessesHadKeptWhenOneFailed) {
+  std::mt19937 random(3504);
+  std::uint64_t taken = 0;
+  for (std::uint32_t i = 0; i < 8 && !HasFailure(); ++i) {
+    const Trial trial = shared_trial(random, i);
+    SCOPED_TRACE(trial.text());
+    const TempFolder folder;
+    const std::filesystem::path kept = folder.path() / "kept";
+    const int visits = static_cast<int>(4 + below(random, 12));
+    EXPECT_FALSE(run_shared(trial, kept, static_cast<int>(2 + i % 3), i, visits).has_value());
+    const Kept rest = run_kept(trial, kept_in(kept, KeepUse::kGoOn, 2));
+    expect_same(rest.mesh, run_in_memory(trial));
+    taken += skipped(rest.facts);
+  }
+  EXPECT_GT(taken, 50U);
 }
 
 }  // namespace

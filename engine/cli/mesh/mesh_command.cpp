@@ -127,10 +127,7 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   run.stop_after_save = is_save_requested;
   run.progress = [&](const engine::RunProgress& at) { progress.show(at); };
   if (files.trace) run.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
-  run.store.kept = [&] {
-    const auto& folder = run.keep.folder.empty() ? run.store.workdir : run.keep.folder;
-    work = "the work so far is in " + folder.string() + ", add --resume to go on";
-  };
+  run.store.kept = [&] { work = engine::way_on(run); };
   try {
     return engine::mesh(volume, job, files.all());
   } catch (const Interrupted&) {
