@@ -246,6 +246,9 @@ struct Options {
   /// A folder in which the run keeps what later runs of the volume, edited, need not do again, in
   /// the place of a workdir; empty: nothing is kept.  Needs the setting order=colour.
   std::filesystem::path keep;
+  /// The most bytes that this folder takes when a run ends, until another run says otherwise; what
+  /// is gone is made again where an edit needs it.  0: as an earlier run said, or any number.
+  std::uint64_t keep_bytes = 0;
   /// An earlier run of the same settings has kept something there: only windows that the edit
   /// reaches are meshed again.  The mesh is that of a run that begins afresh; the report tells what
   /// the edit did ("delta").

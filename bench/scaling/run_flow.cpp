@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "engine/team/blocks/block_route.h"
+#include "engine/store/block_route.h"
 
 namespace mw::bench {
 

@@ -47,6 +47,7 @@ engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& 
   out.store.resume = options.resume;
   out.keep.folder = checked_path(options.keep, "keep");
   out.keep.use = options.from_kept ? engine::KeepUse::kUpdate : engine::KeepUse::kBegin;
+  if (options.keep_bytes > 0) out.keep.bytes = options.keep_bytes;
   for (const mwmesh::Box& box : options.changed) {
     out.keep.changed.push_back(
         {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}});
@@ -99,6 +100,9 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
                          const mwmesh::Hooks& hooks) {
   if (options.resume && options.workdir.empty()) {
     throw Error(ErrorKind::kUsage, "--resume: needs the --workdir of the run that ended early");
+  }
+  if (options.keep.empty() && options.keep_bytes > 0) {
+    throw Error(ErrorKind::kUsage, "--keep-bytes: is the size of a folder, give --keep as well");
   }
   if (options.keep.empty() && (options.from_kept || !options.changed.empty())) {
     throw Error(ErrorKind::kUsage, "--from: needs the folder that a run has kept something in");

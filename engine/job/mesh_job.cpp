@@ -82,6 +82,7 @@ class KeptInput {
     if (is_patched) patched_.emplace(counted_, *before_, std::move(changed));
     after_ = std::make_unique<io::AtomicFile>(folder_->path() / kLabelsFile);
     write_kept_labels(volume(), *after_);
+    folder_->expect_labels(after_->appended());
   }
 
   [[nodiscard]] const io::LabelVolume& volume() const {

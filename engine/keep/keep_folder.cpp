@@ -27,9 +27,9 @@ constexpr const char* kLockFile = "lock";
 constexpr const char* kSettingsFile = "settings.txt";
 constexpr const char* kChangingFile = "changing";
 constexpr const char* kPartPrefix = "part-";
-constexpr std::array<const char*, 8> kFiles{kLockFile,    kSettingsFile, kVersionsFile,
+constexpr std::array<const char*, 9> kFiles{kLockFile,    kSettingsFile, kVersionsFile,
                                             kWindowsFile, kLabelsFile,   kChosenFile,
-                                            kMeshFile,    kChangingFile};
+                                            kLimitFile,   kMeshFile,     kChangingFile};
 
 /// Left by a kill in an unlucky instant.
 bool is_left_over(const std::string& name) {
@@ -159,8 +159,9 @@ std::unique_ptr<WorkFile> KeepFolder::open_scratch() const {
 }
 
 std::uint64_t KeepFolder::bytes() const {
-  std::uint64_t sum = 0;
+  std::uint64_t sum = coming_labels_.value_or(0);
   for (const char* name : kFiles) {
+    if (coming_labels_ && name == std::string_view(kLabelsFile)) continue;
     std::error_code failed;
     const std::uintmax_t size = fs::file_size(path_ / name, failed);
     if (!failed) sum += size;

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/keep/keep_options.h"
 #include "engine/store/journal/work_file.h"
@@ -19,6 +21,7 @@ namespace mw::engine {
 ///     windows       what went into windows and came out (record_log.h, window_records.h)
 ///     labels        the labels of the run that was complete last (kept_labels.h)
 ///     chosen.txt    what the last run chose by itself
+///     limit.txt     bytes that all this may take when a run ends; not there: any number
 ///     mesh.txt      how large the mesh of the run was that was complete last
 ///     changing      boxes that runs which were not complete may have seen changed, a line each
 ///     part-N        such a folder, of the Nth process beside the first (kept_part()); the first
@@ -39,7 +42,9 @@ class KeepFolder : public WorkFiles {
   /// A file without a name.
   [[nodiscard]] std::unique_ptr<WorkFile> open_scratch() const;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Bytes of all its files.
+  /// A file of labels of this size replaces the one that is here when the run is complete.
+  void expect_labels(std::uint64_t bytes) { coming_labels_ = bytes; }
+  /// Bytes of all its files, once such labels have their place.
   [[nodiscard]] std::uint64_t bytes() const;
 
   /// The folders of other processes that are here.
@@ -60,11 +65,12 @@ class KeepFolder : public WorkFiles {
   void lock();
 
   std::filesystem::path path_;
+  std::optional<std::uint64_t> coming_labels_;
   io::FileDescriptor lock_;
 };
 
 /// Changes with what is in the files; it is one of the settings, so a folder of another is refused.
-inline constexpr int kFolderFormat = 2;
+inline constexpr int kFolderFormat = 3;
 
 /// Where a process of a run keeps what it does: in `folder` itself if it is the first, rank 0.
 [[nodiscard]] std::filesystem::path kept_part(const std::filesystem::path& folder, int rank);
@@ -73,6 +79,7 @@ inline constexpr const char* kVersionsFile = "versions";
 inline constexpr const char* kWindowsFile = "windows";
 inline constexpr const char* kLabelsFile = "labels";
 inline constexpr const char* kChosenFile = "chosen.txt";
+inline constexpr const char* kLimitFile = "limit.txt";
 inline constexpr const char* kMeshFile = "mesh.txt";
 
 }  // namespace mw::engine

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ enum class KeepUse {
 struct KeepOptions {
   std::filesystem::path folder;  ///< empty: nothing is kept
   KeepUse use = KeepUse::kBegin;
+  /// What the folder may take when the run ends; none: as an earlier run said, or any number.
+  std::optional<std::uint64_t> bytes;
   /// Boxes of the volume's voxels outside of which the labels are those of the run that was
   /// complete last; empty: anything may have changed.  For mesh() (engine/job/mesh_job.h).
   std::vector<Box3> changed;

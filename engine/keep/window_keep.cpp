@@ -3,11 +3,11 @@
 #include "engine/keep/window_keep.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <sstream>
 #include <utility>
 
+#include "engine/keep/required_visits.h"
 #include "engine/keep/window_pack.h"
-#include "engine/store/journal/mapped_file.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 
@@ -15,7 +15,6 @@ namespace mw::engine {
 namespace {
 
 constexpr int kPackLevel = 1;
-constexpr const char* kCompactedFile = ".windows.partial-compacted";
 
 std::uint64_t index_bytes_of(const RunLayout& layout) {
   return layout.slots() * sizeof(KeptVersion) + layout.windows() * sizeof(std::uint64_t) +
@@ -46,56 +45,13 @@ WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
                        const GroupCommit& limits)
     : layout_(layout),
       options_(options),
-      limits_(limits),
       keys_(table),
       folder_(opened(options, settings)),
+      kept_(*folder_, layout, limits),
       room_(budget.reserve(Purpose::kIndex, index_bytes_of(layout))),
-      versions_(layout.slots()),
-      bytes_(folder_->open(kVersionsFile)),
-      record_at_(layout.windows(), 0),
-      log_(std::make_unique<RecordLog>(folder_->open(kWindowsFile))) {
+      versions_(layout.slots()) {
   facts_.marches.resize(layout.marches());
-  replay();
-  take_over_parts();
-  facts_ = {.marches = std::vector<KeepFacts::March>(layout.marches())};  // nothing by this run
-}
-
-WindowRecord WindowKeep::checked_record(std::span<const std::byte> bytes) const {
-  try {
-    WindowRecord record = decode_window_record(bytes);
-    if (record.window >= record_at_.size()) throw BadBytes{"there is no such window"};
-    return record;
-  } catch (const BadBytes& bad) {
-    throw DamagedWork("records of windows", bad.reason);
-  }
-}
-
-/// The last fact of each window counts.
-void WindowKeep::replay() {
-  log_->replay([&](std::uint64_t at, std::span<const std::byte> bytes) {
-    record_at_[checked_record(bytes).window] = at + 1;
-    ++records_;
-  });
-  for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
-    const std::optional<WindowRecord> record = record_of(window);
-    if (!record) continue;
-    ++live_;
-    if (record->extent.size > 0 && !bytes_.take(record->extent)) {
-      throw DamagedWork("records of windows", "two point to the same bytes, or to none");
-    }
-  }
-}
-
-std::optional<WindowRecord> WindowKeep::record_of(std::uint64_t window) const {
-  std::uint64_t at = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    at = record_at_[window];
-  }
-  if (at == 0) return std::nullopt;
-  std::optional<WindowRecord> out;
-  log_->read(at - 1, [&](std::span<const std::byte> bytes) { out = checked_record(bytes); });
-  return out;
+  kept_.take_over_parts();
 }
 
 void WindowKeep::begin(const PreparedLabels& labels, const MeshSettings& settings,
@@ -112,6 +68,19 @@ void WindowKeep::begin(const PreparedLabels& labels, const MeshSettings& setting
   io::DigestMaker scope;
   scope.add(chosen);
   scope_ = scope.finish();
+  if (kept_.has_dropped()) find_required();
+}
+
+/// As if all windows that may be recalled were.
+void WindowKeep::find_required() {
+  const Recalls recalls = [this](const WindowKey& key) {
+    const Known known = look_up(key);
+    if (known.record) leave(key, *known.record);
+    return known.record.has_value();
+  };
+  required_ = required_visits(layout_, recalls,
+                              [this](std::uint64_t window) { return kept_.is_dropped(window); });
+  std::fill(versions_.begin(), versions_.end(), KeptVersion{});
 }
 
 std::vector<BlockKey> WindowKeep::blocks_of(const WindowKey& key) const {
@@ -157,7 +126,7 @@ WindowKeep::Known WindowKeep::look_up(const WindowKey& key, const VersionOf& ver
   }
   out.input.blocks = blocks.finish();
   out.input.bricks = digests_->of_bricks(out.seen);
-  const std::optional<WindowRecord> record = record_of(layout_.window(key));
+  const std::optional<WindowRecord> record = kept_.of(layout_.window(key));
   if (!record || !(record->input.blocks == out.input.blocks)) return out;
   if (!(record->input.bricks == out.input.bricks)) {
     out.input.labels = digests_->exact(out.seen);
@@ -207,7 +176,7 @@ bool WindowKeep::will_recall(const WindowKey& follower) const {
 bool WindowKeep::is_needed(const WindowKey& key) const {
   for (const std::int64_t step : {0, 1}) {
     const auto next = follower(key, {key.window.x + step, key.window.y, key.window.z});
-    if (next && !will_recall(*next)) return true;
+    if (next && (is_required(*next) || !will_recall(*next))) return true;
   }
   return false;
 }
@@ -220,7 +189,7 @@ bool WindowKeep::recalls(const WindowKey& key) {
     if (known != known_.end()) return known->second.record.has_value();
   }
   Known known = look_up(key);
-  if (known.record && is_first(key) && is_needed(key)) known.record.reset();
+  if (is_required(key) || (known.record && is_first(key) && is_needed(key))) known.record.reset();
   const bool out = known.record.has_value();
   const std::lock_guard lock(mutex_);
   known_.emplace(window, std::move(known));
@@ -311,30 +280,12 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
     packed = pack_blocks(kept, *packer);
     give_back(std::move(packer));
   }
-  const WindowRecord added = add(std::move(record), packed);
-  leave(key, added);
-  return places_of(added);
-}
-
-/// Writes the bytes of a fact, and the records of its group once that is full.
-WindowRecord WindowKeep::add(WindowRecord record, std::span<const std::byte> packed) {
-  bool full = false;
-  {
-    const std::optional<WindowRecord> old = record_of(record.window);
-    const std::lock_guard lock(mutex_);
-    if (!packed.empty()) record.extent = bytes_.write(packed);
-    if (old && old->extent.size > 0) superseded_.push_back(old->extent);
-    if (!old) ++live_;
-    group_.push_back(record);
-    ++facts_.marches[layout_.march_of(record.window)].visited;
-    facts_.bytes_written += packed.size();
-    full = group_.size() >= limits_.windows || Clock::now() - group_since_ >= limits_.age;
-  }
-  if (full) {
-    const std::unique_lock turn(saving_, std::try_to_lock);  // else another thread is at it
-    if (turn.owns_lock()) write_group();
-  }
-  return record;
+  record = kept_.add(std::move(record), packed);
+  leave(key, record);
+  const std::lock_guard lock(mutex_);
+  ++facts_.marches[key.march].visited;
+  facts_.bytes_written += packed.size();
+  return places_of(record);
 }
 
 void WindowKeep::receive(const BlockKey& key, const LeftBlock& block) {
@@ -345,7 +296,7 @@ void WindowKeep::receive(const BlockKey& key, const LeftBlock& block) {
 std::vector<std::byte> WindowKeep::read(const BlockKey& key, const KeptPlace& place) const {
   if (place.size == 0) throw Error(ErrorKind::kInternal, name(key) + " is needed and not kept");
   std::vector<std::byte> kept;
-  bytes_.read({place.offset, place.size}, [&](std::span<const std::byte> packed) {
+  kept_.read({place.offset, place.size}, [&](std::span<const std::byte> packed) {
     try {
       kept = unpack_block(packed, place.part);
     } catch (const BadBytes& bad) {
@@ -360,95 +311,34 @@ std::vector<std::byte> WindowKeep::read(const BlockKey& key, const KeptPlace& pl
   return from_kept(key, kept, keys_);
 }
 
-/// Bytes first, then the records that point to them; then what these replace is free.
-void WindowKeep::write_group() {
-  std::vector<WindowRecord> group;
-  std::vector<Extent> superseded;
-  {
-    const std::lock_guard lock(mutex_);
-    group = std::exchange(group_, {});
-    superseded = std::exchange(superseded_, {});
-    group_since_ = Clock::now();
-  }
-  if (group.empty()) return;
-  bytes_.sync();
-  std::vector<std::uint64_t> places;
-  for (const WindowRecord& record : group) places.push_back(log_->append(encode(record).written()));
-  log_->sync();
-  const std::lock_guard lock(mutex_);
-  for (std::size_t i = 0; i < group.size(); ++i) record_at_[group[i].window] = places[i] + 1;
-  records_ += group.size();
-  for (const Extent& extent : superseded) bytes_.release(extent);
-}
-
-void WindowKeep::save() {
-  const std::lock_guard turn(saving_);
-  write_group();
-}
-
 void WindowKeep::take_over_parts() {
-  for (const std::filesystem::path& part : folder_->parts()) take_over(part);
+  const std::vector<std::uint64_t> by_march = kept_.take_over_parts();
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < by_march.size(); ++i) facts_.marches[i].visited += by_march[i];
 }
 
-/// Its records go first, so that a folder which is half gone after a kill holds no fact.
-void WindowKeep::take_over(const std::filesystem::path& part) {
-  const std::filesystem::path records = part / kWindowsFile;
-  if (std::filesystem::exists(records)) {
-    RecordLog log(std::make_unique<MappedFile>(records));
-    SegmentFile bytes(std::make_unique<MappedFile>(part / kVersionsFile));
-    log.replay([&](std::uint64_t /*at*/, std::span<const std::byte> record) {
-      take_over(checked_record(record), bytes);
-    });
-    save();
-    std::filesystem::remove(records);
-  }
-  std::error_code ignored;  // what stays holds no facts, and goes next time
-  std::filesystem::remove_all(part, ignored);
-}
-
-void WindowKeep::take_over(const WindowRecord& record, SegmentFile& from) {
-  if (record.extent.size == 0) {
-    static_cast<void>(add(record, {}));
+/// A limit holds for later runs that name none.
+void WindowKeep::shrink() {
+  std::uint64_t limit = 0;
+  if (options_.bytes) {
+    limit = *options_.bytes;
+    folder_->put_text(kLimitFile, io::text(limit, "\n"));
+  } else if (!(std::istringstream(folder_->text(kLimitFile)) >> limit)) {
     return;
   }
-  if (!from.take(record.extent)) {
-    throw DamagedWork("records of windows", "two point to the same bytes, or to none");
-  }
-  from.read(record.extent,
-            [&](std::span<const std::byte> packed) { static_cast<void>(add(record, packed)); });
-}
-
-/// Most records are of windows that have newer ones: the others alone are written again.
-void WindowKeep::compact_log() {
-  const std::filesystem::path file = folder_->path() / kCompactedFile;
-  std::filesystem::remove(file);
-  {
-    RecordLog compacted(folder_->open(kCompactedFile));
-    for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
-      if (record_at_[window] == 0) continue;
-      log_->read(record_at_[window] - 1, [&](std::span<const std::byte> bytes) {
-        static_cast<void>(compacted.append(bytes));
-      });
-    }
-    compacted.sync();
-    compacted.trim();
-  }
-  std::filesystem::rename(file, folder_->path() / kWindowsFile);
+  kept_.shrink_to(limit);
+  const std::uint64_t taken = folder_->bytes();
+  if (taken <= limit || !options_.say) return;
+  options_.say(io::text(folder_->path().string(), ": takes ", (taken >> 20U) + 1,
+                        " MiB, more than --keep-bytes says: blocks that every later run reads, "
+                        "labels and records have to stay"));
 }
 
 void WindowKeep::finish() {
-  const std::lock_guard turn(saving_);
-  write_group();
-  if (records_ > 2 * live_) compact_log();
-  log_->trim();
+  shrink();
+  kept_.finish();
   const std::lock_guard lock(mutex_);
-  bytes_.trim();
   facts_.bytes_kept = folder_->bytes();
-}
-
-bool WindowKeep::has_facts() const {
-  const std::lock_guard lock(mutex_);
-  return live_ > 0;
 }
 
 KeepFacts WindowKeep::facts() const {

@@ -3,7 +3,6 @@
 // Visits that were made before are not made again.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -14,13 +13,10 @@
 #include "engine/keep/keep_folder.h"
 #include "engine/keep/keep_options.h"
 #include "engine/keep/kept_block.h"
+#include "engine/keep/kept_facts.h"
 #include "engine/keep/label_digests.h"
-#include "engine/keep/record_log.h"
-#include "engine/keep/window_records.h"
 #include "engine/store/block_keeper.h"
 #include "engine/store/memory_budget.h"
-#include "engine/store/run_store.h"
-#include "engine/store/table/segment_file.h"
 #include "io/codec/pack_zstd.h"
 
 namespace mw::engine {
@@ -39,6 +35,10 @@ namespace mw::engine {
 /// Blocks and labels are digested by the labels' own numbers, and visits depend on nothing but the
 /// order of these (kernels/README.md, "Determinism").
 ///
+/// Where the folder is to take less than all that takes, bytes of some windows are given up
+/// (KeptFacts::shrink_to()).  Such a window is visited again, too, where others may take its
+/// blocks.
+///
 /// Each process of a run keeps its own visits, in a folder of its own.
 ///
 /// Thread safety: windows that share no block may be asked for and kept at the same time.
@@ -51,7 +51,8 @@ class WindowKeep : public BlockKeeper {
   WindowKeep(const KeepOptions& options, const std::string& settings, const RunLayout& layout,
              MemoryBudget& budget, const io::LabelTable& table, const GroupCommit& limits);
 
-  /// Before the first march.  inner_quality: that is kept to (MeshSettings).  labels outlive it.
+  /// To be called before the first march.  inner_quality: that is kept to (MeshSettings).  labels
+  /// outlive it.
   void begin(const PreparedLabels& labels, const MeshSettings& settings, double inner_quality,
              int threads);
 
@@ -69,7 +70,7 @@ class WindowKeep : public BlockKeeper {
   [[nodiscard]] std::unique_ptr<WorkFile> open_spill() override { return folder_->open_scratch(); }
 
   /// What was kept so far survives a power cut.
-  void save();
+  void save() { kept_.save(); }
   /// Has what other processes of the run kept in folders beside this one's files
   /// (kept_part()) from then on; they are gone then.  REQUIRES: nobody is at work in them.
   /// ERRORS: DamagedWork.
@@ -77,7 +78,7 @@ class WindowKeep : public BlockKeeper {
   /// The run is complete.
   void finish();
   /// Whether a later run finds anything.
-  [[nodiscard]] bool has_facts() const;
+  [[nodiscard]] bool has_facts() const { return kept_.any(); }
 
   [[nodiscard]] KeepFacts facts() const;
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_->path(); }
@@ -88,11 +89,7 @@ class WindowKeep : public BlockKeeper {
     SeenLabels seen;
     std::optional<WindowRecord> record;  ///< the fact that tells the outcome
   };
-  using Clock = std::chrono::steady_clock;
 
-  /// ERRORS: DamagedWork.
-  [[nodiscard]] WindowRecord checked_record(std::span<const std::byte> bytes) const;
-  void replay();
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   /// The version of a block that a window takes; null: there is none yet.
   using VersionOf = std::function<const KeptVersion*(const BlockKey& block)>;
@@ -100,43 +97,33 @@ class WindowKeep : public BlockKeeper {
   [[nodiscard]] Known look_up(const WindowKey& key) const;
   [[nodiscard]] bool is_first(const WindowKey& key) const;
   [[nodiscard]] std::optional<WindowKey> follower(const WindowKey& key, const Index3& block) const;
+  [[nodiscard]] bool is_required(const WindowKey& key) const {
+    return !required_.empty() && required_[layout_.window(key)];
+  }
   [[nodiscard]] bool will_recall(const WindowKey& follower) const;
   [[nodiscard]] bool is_needed(const WindowKey& key) const;
-  [[nodiscard]] std::optional<WindowRecord> record_of(std::uint64_t window) const;
   void leave(const WindowKey& key, const WindowRecord& record);
   [[nodiscard]] std::unique_ptr<io::ZstdPacker> take_packer();
   void give_back(std::unique_ptr<io::ZstdPacker> packer);
   [[nodiscard]] static std::vector<KeptPlace> places_of(const WindowRecord& record);
-  WindowRecord add(WindowRecord record, std::span<const std::byte> packed);
-  void take_over(const std::filesystem::path& part);
-  void take_over(const WindowRecord& record, SegmentFile& from);
-  void write_group();
-  void compact_log();
+  void find_required();
+  void shrink();
 
   const RunLayout& layout_;
   KeepOptions options_;
-  GroupCommit limits_;
   LabelKeys keys_;
   std::shared_ptr<KeepFolder> folder_;
+  KeptFacts kept_;
   MemoryBudget::Reservation room_;
   std::optional<LabelDigests> digests_;
   io::ContentDigest scope_;            ///< of what is settled for the run
   std::vector<KeptVersion> versions_;  ///< by slot: those that are there now
+  std::vector<bool> required_;         ///< by window: must be visited; empty: none
 
-  mutable std::mutex mutex_;  ///< guards the next lines
-  SegmentFile bytes_;
-  std::vector<std::uint64_t> record_at_;  ///< by window, 1 more than where its fact is; 0: none
+  mutable std::mutex mutex_;              ///< guards the next lines
   std::map<std::uint64_t, Known> known_;  ///< of windows that are asked for and not done
-  std::vector<WindowRecord> group_;       ///< not durable yet
   std::vector<std::unique_ptr<io::ZstdPacker>> packers_;  ///< that nobody uses
-  std::vector<Extent> superseded_;                        ///< by what is in the group
-  Clock::time_point group_since_ = Clock::now();
-  std::uint64_t live_ = 0;  ///< windows with a fact
   KeepFacts facts_;
-
-  std::mutex saving_;  ///< taken before mutex_; guards the log's end
-  std::unique_ptr<RecordLog> log_;
-  std::uint64_t records_ = 0;  ///< in the log
 };
 
 }  // namespace mw::engine

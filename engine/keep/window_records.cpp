@@ -28,6 +28,8 @@ std::uint32_t get_number(ByteReader& in) {
 ByteWriter encode(const WindowRecord& record) {
   ByteWriter out;
   out.varint(record.window);
+  out.varint(record.run);
+  out.varint(std::uint64_t{record.is_dropped});
   put(out, record.input.blocks);
   put(out, record.input.bricks);
   put(out, record.input.labels);
@@ -47,6 +49,8 @@ WindowRecord decode_window_record(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   WindowRecord out;
   out.window = in.varint();
+  out.run = get_number(in);
+  out.is_dropped = in.below(2) == 1;
   out.input.blocks = get_digest(in);
   out.input.bricks = get_digest(in);
   out.input.labels = get_digest(in);

@@ -40,6 +40,8 @@ struct KeptBlock {
 /// A visit: a fact that stays true whatever happens to the volume.
 struct WindowRecord {
   std::uint64_t window = 0;
+  std::uint32_t run = 0;    ///< that made the visit: see KeptFacts
+  bool is_dropped = false;  ///< the bytes of the blocks were given up for want of space
   VisitInput input;
   Extent extent;                  ///< of the blocks that are kept, packed together (window_pack.h)
   std::vector<KeptBlock> blocks;  ///< in the order of the window's blocks

@@ -41,12 +41,6 @@ Index3 colour_place(Index3 w, Index3 windows) {
   return {place(w.x, windows.x, w.y + w.z), place(w.y, windows.y, w.z), place(w.z, windows.z, 0)};
 }
 
-/// Index3 of a place in an x-fastest array of shape s.
-Index3 unraster(std::uint64_t index, Index3 s) {
-  const auto i = static_cast<std::int64_t>(index);
-  return {i % s.x, i / s.x % s.y, i / s.x / s.y};
-}
-
 /// The colour as the place in the Gray code of the parities, of those axes that have several
 /// windows.
 std::int64_t colour_step(Index3 window, Index3 windows) {
@@ -114,7 +108,7 @@ std::int64_t raster_step(Index3 window, Index3 windows) {
 }  // namespace
 
 Index3 WindowOrder::window(std::uint64_t rank) const {
-  const Index3 index = unraster(rank, grid_.windows());
+  const Index3 index = index_at(rank, grid_.windows());
   return order_ == Order::kRaster ? index : colour_window(index, grid_.windows());
 }
 

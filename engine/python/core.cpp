@@ -216,6 +216,7 @@ void add_options(py::module_& module) {
                     [](Options& o, const std::string& path) { o.workdir = path; })
       .def_readwrite("resume", &Options::resume)
       .def_property("keep", nullptr, [](Options& o, const std::string& path) { o.keep = path; })
+      .def_readwrite("keep_bytes", &Options::keep_bytes)
       .def_readwrite("from_kept", &Options::from_kept)
       .def_property("changed", nullptr,
                     [](Options& o, const std::vector<std::pair<Index, Index>>& boxes) {

@@ -34,9 +34,7 @@ BlockKey RunLayout::key(std::uint64_t slot) const {
   MW_ASSERT(slot < slots());
   BlockKey key;
   while (slot >= first_slot_[key.march + 1]) ++key.march;
-  const auto index = static_cast<std::int64_t>(slot - first_slot_[key.march]);
-  const Index3 shape = grids_[key.march].blocks();
-  key.block = {index % shape.x, index / shape.x % shape.y, index / (shape.x * shape.y)};
+  key.block = index_at(slot - first_slot_[key.march], grids_[key.march].blocks());
   return key;
 }
 
@@ -44,11 +42,12 @@ std::uint64_t RunLayout::window(const WindowKey& key) const {
   return first_window_[key.march] + raster(key.window, grids_[key.march].windows());
 }
 
-std::uint32_t RunLayout::march_of(std::uint64_t window) const {
+WindowKey RunLayout::window_key(std::uint64_t window) const {
   MW_ASSERT(window < windows());
-  std::uint32_t march = 0;
-  while (window >= first_window_[march + 1]) ++march;
-  return march;
+  WindowKey key;
+  while (window >= first_window_[key.march + 1]) ++key.march;
+  key.window = index_at(window - first_window_[key.march], grids_[key.march].windows());
+  return key;
 }
 
 std::vector<BlockKey> RunLayout::parts(const BlockKey& key) const {

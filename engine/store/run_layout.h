@@ -63,8 +63,7 @@ class RunLayout {
   [[nodiscard]] std::uint64_t slot(const BlockKey& key) const;
   [[nodiscard]] BlockKey key(std::uint64_t slot) const;
   [[nodiscard]] std::uint64_t window(const WindowKey& key) const;
-  /// REQUIRES: the number of a window.
-  [[nodiscard]] std::uint32_t march_of(std::uint64_t window) const;
+  [[nodiscard]] WindowKey window_key(std::uint64_t window) const;
 
   /// REQUIRES: key.march > 0.
   [[nodiscard]] std::vector<BlockKey> parts(const BlockKey& key) const;

@@ -330,6 +330,8 @@ class Case:
             return
         flags["order"] = "colour"
         kept, volume = ["--keep=kept"], self.volume
+        if self.random.random() < 0.4:
+            kept.append(f"--keep-bytes={self.random.choice([100_000, 1_000_000, 10_000_000])}")
         for folder in ("e", "f"):
             (self.folder / folder).mkdir()
         for _ in range(self.random.randint(2, 4)):

@@ -81,6 +81,13 @@ void add_keep_options(OptionSet& options, MeshRequest& request) {
                .listed = Listed::kInHelpAll,
                .repeats = true,
                .assign = into(request.job.run.keep.changed, parse_boxes)});
+  options.add({.name = "keep-bytes",
+               .value = "SIZE",
+               .help = "most that FOLDER takes when a run ends, as 512MiB, 4GB [any number]",
+               .group = kRunGroup,
+               .kind = ValueKind::kSize,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.job.run.keep.bytes, parse_bytes)});
   options.add({.name = "delta",
                .value = "FILE.json",
                .help = "with --from: writes what the edit did to labels, contacts and mesh",
@@ -305,6 +312,9 @@ void settle_keep(MeshRequest& request) {
   if (!updates && !(keep.changed.empty() && request.delta.empty())) {
     throw Error(ErrorKind::kUsage, std::string(keep.changed.empty() ? "--delta" : "--changed") +
                                        ": says what changed since a run, give --from as well");
+  }
+  if (keep.bytes && request.keep.empty() && !updates) {
+    throw Error(ErrorKind::kUsage, "--keep-bytes: is the size of a folder, give --keep as well");
   }
   if (!keep.changed.empty() && !request.volume.object.empty()) {
     throw Error(ErrorKind::kUsage,

@@ -65,15 +65,13 @@ def _size_place(volume, key):
 
 
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
-             drop_specks=None, workdir=None, resume=False, keep=None, from_kept=False,
-             changed=(), sample=None, certify="auto", report=True, parts="all", split=(),
+             drop_specks=None, workdir=None, resume=False, keep=None, keep_bytes=None,
+             from_kept=False, changed=(), sample=None, certify="auto", report=True, parts="all", split=(),
              cohesive=(), open_hinges=False, weld=None):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:
-        size = memory if isinstance(memory, str) else str(whole(memory, "memory", 80))
-        with naming("memory"):
-            options.memory = _core.bytes_of_text(size)
+        options.memory = _bytes(memory, "memory")
     options.labels = _labels(volume, labels, "labels")
     if background is not None:
         options.background = label(volume, background, "background")
@@ -95,6 +93,8 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.workdir = path_bytes(workdir, "workdir") if workdir is not None else ""
     options.resume = switch(resume, "resume")
     options.keep = path_bytes(keep, "keep") if keep is not None else ""
+    if keep_bytes is not None:
+        options.keep_bytes = _bytes(keep_bytes, "keep_bytes")
     options.from_kept = switch(from_kept, "from_kept")
     options.changed = [_box(box, "changed") for box in changed]
     options.sample = _samples({} if sample is None else sample)
@@ -104,6 +104,13 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.certify = known[certify]
     options.report = switch(report, "report")
     return options
+
+
+def _bytes(value, name):
+    """The bytes that a number or a text like "8GiB" means."""
+    size = value if isinstance(value, str) else str(whole(value, name, 80))
+    with naming(name):
+        return _core.bytes_of_text(size)
 
 
 def _labels(volume, value, name):
@@ -179,8 +186,8 @@ def _progress(wanted):
 
 
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
-            "resume", "keep", "from_kept", "changed", "sample", "certify", "report", "parts", "split",
-            "cohesive", "open_hinges", "weld")
+            "resume", "keep", "keep_bytes", "from_kept", "changed", "sample", "certify", "report",
+            "parts", "split", "cohesive", "open_hinges", "weld")
 
 
 def _check_known(arguments):
@@ -256,9 +263,10 @@ def mesh(volume, *, progress=None, **arguments):
         volume and mesh (half of what is free by default).
     workdir, resume
         a folder for spilled blocks and checkpoints; whether to go on from the checkpoint in it.
-    keep, from_kept, changed
+    keep, keep_bytes, from_kept, changed
         a folder that holds what a later run of the volume, edited, need not do again (set
-        order="colour"); whether one has left something there; and a list of boxes
+        order="colour"); the most bytes that it takes when a run ends, as memory has them; whether
+        an earlier run has left something there; and a list of boxes
         ((x0, y0, z0), (x1, y1, z1)) that have all changes since.  :class:`Session` does it all.
     sample
         {name: image file}: the image's mean in each tet becomes Mesh.values[name]; the file may end

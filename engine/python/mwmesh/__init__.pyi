@@ -184,6 +184,7 @@ def mesh(
     workdir: _Path | None = ...,
     resume: bool = ...,
     keep: _Path | None = ...,
+    keep_bytes: int | str | None = ...,
     from_kept: bool = ...,
     changed: Sequence[_Box] = ...,
     sample: Mapping[str, str | os.PathLike[str]] | None = ...,

@@ -3,6 +3,7 @@
 // Free runs by offset and by size.
 #include "engine/store/table/extent_allocator.h"
 
+#include <algorithm>
 #include <iterator>
 
 #include "kernels/core/assert.h"
@@ -48,6 +49,18 @@ std::optional<Extent> ExtentAllocator::allocate(std::uint64_t size) {
   const auto best = by_size_.lower_bound({needed, 0});
   if (best == by_size_.end()) return std::nullopt;
   const Extent extent{best->second, size};
+  const bool taken = take(extent);
+  MW_ASSERT(taken);
+  static_cast<void>(taken);
+  return extent;
+}
+
+std::optional<Extent> ExtentAllocator::allocate_before(std::uint64_t end, std::uint64_t size) {
+  const std::uint64_t needed = whole_sectors(size);
+  const auto first = std::find_if(free_.begin(), free_.end(),
+                                  [&](const auto& run) { return run.second >= needed; });
+  if (first == free_.end() || first->first + needed > end) return std::nullopt;
+  const Extent extent{first->first, size};
   const bool taken = take(extent);
   MW_ASSERT(taken);
   static_cast<void>(taken);

@@ -29,6 +29,13 @@ Extent SegmentFile::write(std::span<const std::byte> bytes) {
   return *extent;
 }
 
+std::optional<Extent> SegmentFile::copy_down(const Extent& extent) {
+  const std::optional<Extent> gap = free_.allocate_before(extent.offset, extent.size);
+  if (!gap) return std::nullopt;
+  read(extent, [&](std::span<const std::byte> bytes) { file_->write(gap->offset, bytes); });
+  return gap;
+}
+
 void SegmentFile::grow(std::uint64_t size) {
   const std::uint64_t segment =
       std::max(std::clamp(free_.end() / 8, kMinSegmentBytes, kLargestSegmentBytes), size);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "engine/store/journal/work_file.h"
 #include "engine/store/table/extent_allocator.h"
@@ -19,6 +20,9 @@ class SegmentFile {
   explicit SegmentFile(std::unique_ptr<WorkFile> file);
 
   [[nodiscard]] Extent write(std::span<const std::byte> bytes);
+  /// Writes a copy of an extent into a gap before it; nothing where there is none that is long
+  /// enough.
+  [[nodiscard]] std::optional<Extent> copy_down(const Extent& extent);
   void release(const Extent& extent) { free_.release(extent); }
   /// ENSURES: false when the extent is outside the file or overlaps another.
   [[nodiscard]] bool take(const Extent& extent) { return free_.take(extent); }
@@ -28,6 +32,9 @@ class SegmentFile {
   }
   void prefetch(const Extent& extent) const { file_->prefetch(extent.offset, extent.size); }
   void sync() { file_->sync(); }
+  /// Where the file ends, and how much of it are gaps.
+  [[nodiscard]] std::uint64_t end() const { return free_.end(); }
+  [[nodiscard]] std::uint64_t free_bytes() const { return free_.free_bytes(); }
   /// Makes the file end where its last extent does.
   void trim() {
     free_.trim();

@@ -7,8 +7,8 @@
 #include <condition_variable>
 
 #include "engine/march/arrivals.h"
+#include "engine/store/block_route.h"
 #include "engine/store/run_store.h"
-#include "engine/team/blocks/block_route.h"
 #include "engine/team/blocks/incoming_rooms.h"
 #include "engine/team/blocks/partition.h"
 #include "engine/team/team.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/team/blocks/block_route.h"
+#include "engine/store/block_route.h"
 #include "engine/team/blocks/partition.h"
 #include "kernels/core/index.h"
 

@@ -4,6 +4,7 @@
 """Meshing again after edits: the same bytes, what is read and skipped, kills in between, refusals."""
 import json
 import os
+import pathlib
 import random
 import signal
 import subprocess
@@ -96,6 +97,23 @@ class Keep(unittest.TestCase):
         self.mesh("--from", "k", "--changed", "4,3,2,5,4,3", "--changed", "20,20,20,30,26,22",
                   "--memory", "80MiB", "--threads", "4")
         self.expect_fresh()
+
+    def test_a_folder_that_may_not_hold_all(self):
+        self.mesh("--keep", "whole")
+        self.mesh("--keep", "k", "--keep-bytes", "400KB", "--force")
+        def taken(folder):
+            return sum(file.stat().st_size for file in pathlib.Path(folder).iterdir())
+        whole = taken("whole")
+        self.assertLess(taken("k"), whole)
+        self.volume[12:15, 3:6, 20:23] = 5
+        self.save()
+        self.mesh("--from", "k")
+        self.expect_fresh()
+        self.assertLess(taken("k"), whole)  # the limit of the first run holds
+        told = self.done("mesh", "v.npy", "-o", "m.vtu", "--from", "k", "--keep-bytes", "1KB",
+                         *SETTINGS)
+        self.assertIn("have to stay", told.stderr)
+        self.refused(2, "give --keep as well", "mesh", "v.npy", "-o", "m.vtu", "--keep-bytes", "1GB")
 
     def test_what_is_not_told_is_not_seen(self):
         """Counter-test: windows that are skipped wrongly give another mesh, which these tests see."""

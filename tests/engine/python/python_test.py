@@ -886,6 +886,19 @@ class Sessions(InFolder):
             self.assertEqual(delta["voxels_changed"], int((old != session.array).sum()))
             self.expect_fresh(session)
 
+    def test_a_folder_that_may_not_hold_all_gives_the_same_meshes(self):
+        sizes = []
+        for limit in (None, "120KB"):
+            folder = pathlib.Path(self.path(f"kept {limit}"))
+            session = mwmesh.Session(grains(), keep=folder, keep_bytes=limit, window=8)
+            for lo in ((2, 3, 4), (9, 9, 9)):
+                session.update((lo, tuple(v + 2 for v in lo)), 1)
+                self.expect_fresh(session)
+            sizes.append(sum(file.stat().st_size for file in folder.iterdir()))
+        self.assertLess(sizes[1], sizes[0])
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.mesh(grains(), keep_bytes="1GB")
+
     def test_edits_that_make_no_sense_change_nothing(self):
         session = mwmesh.Session(grains(), keep=self.path("kept"), window=8)
         before = session.array.copy()

@@ -177,6 +177,15 @@ class Sectors {
     }
     return longest * kSector;
   }
+  /// The lowest place for so many bytes.
+  [[nodiscard]] std::optional<std::uint64_t> first_free(std::uint64_t bytes) const {
+    std::uint64_t run = 0;
+    for (std::uint64_t s = 0; s < kSectors; ++s) {
+      run = taken_[s] ? 0 : run + 1;
+      if (run * kSector >= bytes) return (s + 1 - run) * kSector;
+    }
+    return std::nullopt;
+  }
 
  private:
   std::vector<bool> taken_ = std::vector<bool>(kSectors, false);
@@ -210,6 +219,30 @@ TEST(ExtentAllocator, AgreesWithAListOfSectors) {
     EXPECT_EQ(allocator.free_bytes(), kSectors * kSector);
     EXPECT_TRUE(allocator.allocate(kSectors * kSector));
   }
+}
+
+TEST(ExtentAllocator, TakesTheLowestPlaceBeforeAnEnd) {
+  std::mt19937 random(313);
+  std::size_t found = 0, refused = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    ExtentAllocator allocator;
+    allocator.grow(kSectors * kSector);
+    Sectors sectors;
+    for (int i = 0; i < 120; ++i) {
+      const Extent taken{random() % kSectors * kSector, kSector};
+      EXPECT_EQ(allocator.take(taken), sectors.set(taken, true));
+    }
+    const std::uint64_t size = 1 + random() % (8 * kSector);
+    const std::uint64_t end = random() % kSectors * kSector;
+    const auto first = sectors.first_free(size);
+    const bool fits = first && *first + size <= end;
+    const auto extent = allocator.allocate_before(end, size);
+    ASSERT_EQ(extent.has_value(), fits);
+    (fits ? found : refused) += 1;
+    EXPECT_EQ(extent.value_or(Extent{}), fits ? (Extent{*first, size}) : Extent{});
+  }
+  EXPECT_GT(found, 50U);
+  EXPECT_GT(refused, 30U);
 }
 
 TEST(ExtentAllocator, EndsWithTheLastExtentWhenTrimmed) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The windows over a block, by their ranks.
-#include "engine/team/blocks/block_route.h"
+#include "engine/store/block_route.h"
 
 #include "kernels/core/assert.h"
 
