@@ -7,6 +7,7 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "engine/cli/own_output.h"
 #include "engine/settings/material_text.h"
 #include "io/mesh/no_sink.h"
 #include "io/mesh/open_mesh.h"
@@ -22,16 +23,22 @@ struct ConvertJob {
   io::Element element = io::Element::kTet4;
   std::uint64_t pieces = 0;  ///< 0: not asked for
   io::MeshExtras extras;
+  bool force = false;
 };
 
-/// Remembers which values a mesh has.
-class ValueNames : public io::NoSink {
+/// Remembers what a mesh has that not every file can have.
+class Extras : public io::NoSink {
  public:
-  void begin(const io::MeshHeader& header) override { names_ = header.values; }
-  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  void begin(const io::MeshHeader& header) override {
+    values_ = header.values;
+    is_curved_ = header.record.curved;
+  }
+  [[nodiscard]] const std::vector<std::string>& values() const { return values_; }
+  [[nodiscard]] bool is_curved() const { return is_curved_; }
 
  private:
-  std::vector<std::string> names_;
+  std::vector<std::string> values_;
+  bool is_curved_ = false;
 };
 
 /// The mesh is read while the other is written; what is beside that is not to be the mesh.
@@ -44,6 +51,9 @@ void require_other_files(const ConvertJob& job) {
     if (!std::filesystem::equivalent(job.from, files[i], ignored)) continue;
     throw Error(ErrorKind::kUsage, files[i].string() + ": this is the mesh to read");
   }
+  const std::filesystem::path& pairs = job.extras.pairs;
+  if (pairs.empty() || pairs.lexically_normal() != job.to.lexically_normal()) return;
+  throw Error(ErrorKind::kUsage, "--pairs " + pairs.string() + ": this is the mesh to write");
 }
 
 std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
@@ -62,20 +72,24 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
   return io::open_mesh_pieces(job.to, job.pieces);
 }
 
-/// Says which values the new file does not have.
-void tell_values(const ConvertJob& job, const std::vector<std::string>& names) {
+/// Says what the new file does not have.
+void tell_left_out(const ConvertJob& job, const Extras& extras) {
+  if (extras.is_curved() && job.element != io::Element::kCurvedTet10) {
+    std::cout << "left out: curves of edges; --element tet10-curved keeps them" << std::endl;
+  }
   const std::string why = io::why_no_values(job.to);
-  if (names.empty() || why.empty() || job.extras.materials) return;
-  std::cout << "left out: values " << joined(names, ", ") << "; " << why << std::endl;
+  if (extras.values().empty() || why.empty() || job.extras.materials) return;
+  std::cout << "left out: values " << joined(extras.values(), ", ") << "; " << why << std::endl;
 }
 
 int run_convert(const ConvertJob& job) {
   require_other_files(job);
+  if (!job.force) require_own_output(job.to);
   const std::unique_ptr<io::MeshSink> sink = open_output(job);
-  ValueNames values;
-  io::TeeSink both(*sink, values);
+  Extras extras;
+  io::TeeSink both(*sink, extras);
   io::copy_mesh(job.from, both);
-  tell_values(job, values.names());
+  tell_left_out(job, extras);
   return kExitDone;
 }
 
@@ -122,6 +136,12 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .help = "nodes of --periodic faces: .csv, or equations in .inp",
                .group = kOutputGroup,
                .assign = into(job.extras.pairs)});
+  options.add({.name = "force",
+               .help = "replaces an OUT that is no mesh of this program",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .assign = into(job.force)});
   options.add({.name = "pieces",
                .value = "N",
                .help = "a .pvtu and N .vtu beside it; vertices have GlobalNodeIds",

@@ -84,7 +84,7 @@ void add_options(OptionSet& options, SynthJob& job) {
                .assign = into(job.spec.shape, parse_shape)});
   options.add({.name = "count",
                .value = "N",
-               .help = "number of labels",
+               .help = "labels; a few may have no voxel where the box cuts their cells",
                .flags = "--count,--labels",
                .required = true,
                .assign = into(job.spec.labels, parse_count)});

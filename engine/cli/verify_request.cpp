@@ -51,7 +51,7 @@ void add_bounds(OptionSet& options, VerifyRequest& request) {
                .assign = into(request.asked.interfaces,
                               [](const std::string& text) { return text == kInterfaces; })});
   options.add({.name = "surface",
-               .help = "as the mesh was made: whose voxels P4 counts in [the run's]",
+               .help = "as the mesh was made; P8 is promised of smooth ones [the run's]",
                .group = kShapeGroup,
                .choices = {"smooth", kVoxel},
                .assign = into(request.asked.smooth,

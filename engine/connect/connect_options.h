@@ -24,10 +24,12 @@ struct PartsRule {
   friend bool operator==(const PartsRule&, const PartsRule&) = default;
 };
 
+using LabelPair = std::pair<RawLabel, RawLabel>;
+
 /// Interfaces at which a mesh comes apart.
 struct SplitRule {
   bool all = false;
-  std::vector<std::pair<RawLabel, RawLabel>> pairs;  ///< smaller number first; ascending
+  std::vector<LabelPair> pairs;  ///< smaller number first; ascending
 
   [[nodiscard]] bool any() const { return all || !pairs.empty(); }
   [[nodiscard]] bool cuts(RawLabel one, RawLabel other) const;
@@ -98,6 +100,7 @@ struct ConnectFacts {
   std::uint64_t parts_after = 0;   ///< parts of the mesh with its doubled vertices
   std::uint64_t wedges = 0;        ///< between the sides of cohesive interfaces
   std::uint64_t closed = 0;        ///< facets of these whose vertices all stayed one
+  std::vector<LabelPair> apart;    ///< labels that were to come apart and share no face
   std::uint64_t labels = 0;        ///< of the mesh, before parts were left out
   std::uint64_t stiff_labels = 0;  ///< of these: labels of whose vertices none is inside
   std::vector<RawLabel> stiff;     ///< the first of those

@@ -52,6 +52,7 @@ PartFinder::PartFinder(ConnectOptions options, std::filesystem::path folder,
                        std::size_t memory_bytes)
     : options_(std::move(options)),
       split_(options_.all_split()),
+      met_(split_.pairs.size()),
       folder_(std::move(folder)),
       memory_bytes_(memory_bytes),
       stars_(folder_, memory_bytes_),
@@ -141,6 +142,7 @@ void PartFinder::find() {
             [&](std::uint64_t row, std::vector<StarTet>& star) { look_at_pinched(row, star); });
   count_wedges();
   count_parts();
+  tell_apart();
 }
 
 void PartFinder::each_star(io::ExternalSort<6>& records,
@@ -254,6 +256,7 @@ void PartFinder::look_at_pinched(std::uint64_t row, std::vector<StarTet>& star) 
   each_star_face(star, [&](const StarPair& pair) {
     const bool cuts = are_cut(split_, star, pair);
     is_cut = is_cut || cuts;
+    if (cuts) note_cut(star[pair[0]].label, star[pair[1]].label);
     joined.unite(pair[0], pair[1]);
     if (!cuts) split.unite(pair[0], pair[1]);
   });
@@ -263,6 +266,19 @@ void PartFinder::look_at_pinched(std::uint64_t row, std::vector<StarTet>& star) 
   if ((is_cut || options_.open_hinges) && split.count() > 1) double_vertex(row, star, split);
   if (is_cut && options_.cohesive.any()) find_cohesive_facets(row, star, split);
   count_hinges(row, star, std::move(joined));
+}
+
+void PartFinder::note_cut(RawLabel one, RawLabel other) {
+  const std::vector<LabelPair>& pairs = split_.pairs;
+  const auto pair =
+      std::lower_bound(pairs.begin(), pairs.end(), LabelPair(std::minmax(one, other)));
+  if (!split_.all) met_[static_cast<std::size_t>(pair - pairs.begin())] = true;
+}
+
+void PartFinder::tell_apart() {
+  for (std::size_t i = 0; i < met_.size() && !split_.all; ++i) {
+    if (!met_[i]) facts_.apart.push_back(split_.pairs[i]);
+  }
 }
 
 /// An edge is counted at its first vertex.

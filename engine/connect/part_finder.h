@@ -76,6 +76,8 @@ class PartFinder {
   void choose_parts();
   void count_parts();
   void look_at_pinched(std::uint64_t row, std::vector<StarTet>& star);
+  void note_cut(RawLabel one, RawLabel other);
+  void tell_apart();
   void count_hinges(std::uint64_t row, std::span<const StarTet> star, StarSets joined);
   void find_cohesive_facets(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
   void count_wedges();
@@ -87,7 +89,8 @@ class PartFinder {
   [[nodiscard]] std::uint32_t piece_at(std::uint64_t place) const;
 
   ConnectOptions options_;
-  SplitRule split_;  ///< all interfaces that come apart
+  SplitRule split_;        ///< all interfaces that come apart
+  std::vector<bool> met_;  ///< pairs of these that share a face
   std::filesystem::path folder_;
   std::size_t memory_bytes_;
   std::vector<io::TetRows> tets_;  ///< of the chunk

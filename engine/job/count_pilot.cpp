@@ -143,7 +143,7 @@ class Pilot {
  public:
   explicit Pilot(const PilotTask& task) : task_(task) {
     const MeshSettings& settings = task.job.settings;
-    const VoxelLattice lattice(task.labels, settings.surface);
+    const VoxelLattice lattice(task.labels);
     const auto& spacing = lattice.info().space.spacing;
     const double voxel = *std::min_element(spacing.begin(), spacing.end());
     const double diagonal = std::hypot(spacing[0], spacing[1], spacing[2]);

@@ -15,7 +15,7 @@ namespace mw::engine {
 int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_image) {
   const SizeSettings& sizes = job.settings.sizes;
   if (!sizes.rules.any() || sizes.count > 0) return 0;
-  const double kept = least_size(volume, job.settings), listed = sizes.rules.least();
+  const double kept = least_size(volume), listed = sizes.rules.least();
   if (std::ldexp(listed, io::kMostHalvings) < kept) {
     throw Error(ErrorKind::kUsage,
                 io::text("size ", listed,

@@ -29,28 +29,21 @@ void check_shape(Index3 shape, Index3 layers) {
                                       layers.z, " layers, as their spacing differs")
                            : "",
                        "; fewer than ", kMaxSampledVoxels,
-                       " can be meshed at once: mesh parts of it with --crop",
-                       cut ? ", or set --surface voxel" : ""));
+                       " can be meshed at once: mesh parts of it with --crop"));
 }
 
 /// The floor that the start mesh keeps.
 double kept_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
-  const Index3 layers = layers_of(volume, settings.surface);
+  const Index3 layers = layers_of(volume.space.spacing);
   const Metric metric(layered_spacing(volume.space.spacing, layers));
   return min_start_ratio(metric, largest_cell_level(settings));
 }
 
-/// Other settings under which the floor can be promised, in words.
-std::string ways_out(const io::VolumeInfo& volume, const MeshSettings& settings) {
-  MeshSettings cut = settings, dense = settings;
-  cut.surface = Surface::kSmooth;
+/// Another setting under which the floor can be promised, in words.
+std::string way_out(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  MeshSettings dense = settings;
   dense.start = StartMesh::kDense;
-  std::string out;
-  if (kept_floor(volume, cut) >= settings.quality_floor) {
-    out += ", or set --surface smooth, which cuts thick slices into layers";
-  }
-  if (kept_floor(volume, dense) >= settings.quality_floor) out += ", or set --start dense";
-  return out;
+  return kept_floor(volume, dense) >= settings.quality_floor ? ", or set --start dense" : "";
 }
 
 /// No step makes a tet below the floor; only the start mesh could have one.
@@ -60,18 +53,18 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
   // Rounded down, so that what is told can be promised.
   const double told = std::floor(1000 * kept) / 1000;
   const std::array<double, 3> voxel =
-      layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
-  throw Error(ErrorKind::kUsage, io::text("quality-floor ", settings.quality_floor,
-                                          " cannot be promised for voxels of ", voxel[0], " x ",
-                                          voxel[1], " x ", voxel[2], "; --quality-floor ", told,
-                                          " can be", ways_out(volume, settings)));
+      layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
+  throw Error(ErrorKind::kUsage,
+              io::text("quality-floor ", settings.quality_floor,
+                       " cannot be promised for voxels of ", voxel[0], " x ", voxel[1], " x ",
+                       voxel[2], "; --quality-floor ", told, " can be", way_out(volume, settings)));
 }
 
 /// Start meshes have edges as long as the diagonal of a voxel, and no step cuts an edge.  With a
 /// count sizes are weights, and the factor that is found for them keeps to that.
 void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
   if (!settings.sizes.rules.any() || settings.sizes.count > 0) return;
-  const double least = settings.sizes.rules.least(), kept = least_size(volume, settings);
+  const double least = settings.sizes.rules.least(), kept = least_size(volume);
   if (least >= kept) return;
   throw Error(
       ErrorKind::kUsage,
@@ -96,12 +89,12 @@ double farthest_coordinate(const io::VolumeInfo& volume) {
 
 /// Meshes are written in double: points of the lattice must stay apart there with room for the
 /// shapes of tets between them, and volumes of lengths must be numbers.
-void check_coordinates(const io::VolumeInfo& volume, const MeshSettings& settings) {
+void check_coordinates(const io::VolumeInfo& volume) {
   constexpr double kSmallest = 1e-30;
   constexpr double kLargest = 1e30;
   constexpr double kUnitsInLastPlace = 256;
   const double farthest = farthest_coordinate(volume);
-  const auto voxel = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
+  const auto voxel = layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
   const double min = std::min({voxel[0], voxel[1], voxel[2]});
   if (!(farthest <= kLargest) || min < kSmallest) {
     throw Error(ErrorKind::kInput,
@@ -120,8 +113,8 @@ void check_coordinates(const io::VolumeInfo& volume, const MeshSettings& setting
 
 }  // namespace
 
-double least_size(const io::VolumeInfo& volume, const MeshSettings& settings) {
-  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume, settings.surface));
+double least_size(const io::VolumeInfo& volume) {
+  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
   return std::sqrt(x * x + y * y + z * z) / SizeRules::kContracted;
 }
 
@@ -130,23 +123,19 @@ double told_size(double size) {
   return std::ceil(scale * size) / scale;
 }
 
-Index3 layers_of(const io::VolumeInfo& volume, Surface surface) {
-  return surface == Surface::kSmooth ? mw::layers_of(volume.space.spacing) : Index3{1, 1, 1};
-}
-
-VoxelLattice::VoxelLattice(const io::DenseVolume& volume, Surface surface)
+VoxelLattice::VoxelLattice(const io::DenseVolume& volume)
     : volume_(volume),
-      layers_(layers_of(volume.info(), surface)),
+      layers_(layers_of(volume.info().space.spacing)),
       layered_(volume.raw(), layers_),
       labels_(layered_, volume.table()) {}
 
 void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
   check(settings);
-  check_shape(volume.shape, layers_of(volume, settings.surface));
-  check_coordinates(volume, settings);
+  check_shape(volume.shape, layers_of(volume.space.spacing));
+  check_coordinates(volume);
   check_floor(volume, settings);
   check_sizes(volume, settings);
-  check_periodic(layered_shape(volume.shape, layers_of(volume, settings.surface)), settings);
+  check_periodic(layered_shape(volume.shape, layers_of(volume.space.spacing)), settings);
 }
 
 void check(const io::LabelTable& labels, const MeshSettings& settings) {

@@ -9,13 +9,9 @@
 
 namespace mw::engine {
 
-/// Returns the layers that a volume's voxels are cut into: layers_of() its spacing for smooth
-/// surfaces, else one.
-[[nodiscard]] Index3 layers_of(const io::VolumeInfo& volume, Surface surface);
-
 /// Returns the least size of edges that the marches keep: the diagonal of a voxel of the lattice
 /// may be SizeRules::kContracted times as long.
-[[nodiscard]] double least_size(const io::VolumeInfo& volume, const MeshSettings& settings);
+[[nodiscard]] double least_size(const io::VolumeInfo& volume);
 
 /// Returns a size rounded up to three digits, so that what is told can be kept.
 [[nodiscard]] double told_size(double size);
@@ -23,7 +19,7 @@ namespace mw::engine {
 /// A volume and the lattice that it is meshed on.  The volume must outlive it.
 class VoxelLattice {
  public:
-  VoxelLattice(const io::DenseVolume& volume, Surface surface);
+  explicit VoxelLattice(const io::DenseVolume& volume);
   VoxelLattice(const VoxelLattice&) = delete;
   VoxelLattice& operator=(const VoxelLattice&) = delete;
 

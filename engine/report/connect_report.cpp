@@ -31,6 +31,10 @@ Json hinge_json(const engine::HingePlace& hinge, bool is_signed) {
 
 Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
   Json others = Json::array(), hinges = Json::array(), stiff = Json::array();
+  Json apart = Json::array();
+  for (const auto& [one, other] : facts.apart) {
+    apart.push_back({label_json(one, labels_signed), label_json(other, labels_signed)});
+  }
   for (const RawLabel label : facts.stiff) stiff.push_back(label_json(label, labels_signed));
   for (const engine::PartPlace& part : facts.others) {
     others.push_back(other_json(part, labels_signed));
@@ -55,7 +59,8 @@ Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
             {"copies", facts.copies},
             {"parts_after", facts.parts_after},
             {"wedges", facts.wedges},
-            {"facets_without_wedge", facts.closed}}}};
+            {"facets_without_wedge", facts.closed},
+            {"labels_that_do_not_meet", std::move(apart)}}}};
 }
 
 std::string connect_text(const engine::ConnectFacts& facts) {
@@ -74,7 +79,9 @@ std::string connect_text(const engine::ConnectFacts& facts) {
   if (facts.hinge_vertices + facts.hinge_edges > 0) {
     add(io::text("hinges: ", facts.hinge_vertices, " vertices, ", facts.hinge_edges, " edges"));
   }
-  if (facts.hanging > 0) add("see --weld and --open-hinges");
+  if (facts.hanging > 0 || facts.hinge_vertices + facts.hinge_edges > 0) {
+    add("see --weld, --topology interfaces and --open-hinges");
+  }
   if (facts.copies > 0) {
     add(io::text(facts.doubled, " vertices doubled by ", facts.copies,
                  " copies, parts after that: ", facts.parts_after));
@@ -82,6 +89,15 @@ std::string connect_text(const engine::ConnectFacts& facts) {
   if (facts.wedges + facts.closed > 0) {
     add(io::text(facts.wedges, " cohesive wedges"));
     if (facts.closed > 0) add(io::text("none on ", facts.closed, " facets that cannot open"));
+  }
+  return out;
+}
+
+std::string apart_text(const engine::ConnectFacts& facts, bool labels_signed) {
+  std::string out;
+  for (const auto& [one, other] : facts.apart) {
+    out += (out.empty() ? "" : ", ") + label_text(one, labels_signed, {}) + "|" +
+           label_text(other, labels_signed, {});
   }
   return out;
 }

@@ -19,5 +19,7 @@ namespace mw::report {
 
 /// How many labels have no vertex inside; empty where all have one.
 [[nodiscard]] std::string stiff_text(const engine::ConnectFacts& facts);
+/// Says which labels were to come apart and do not meet; empty where there are none.
+[[nodiscard]] std::string apart_text(const engine::ConnectFacts& facts, bool labels_signed);
 
 }  // namespace mw::report

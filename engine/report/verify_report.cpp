@@ -98,6 +98,12 @@ Json region_json(const audit::RegionBetti& betti) {
   return {{"closed", betti_json(betti.closed)}, {"open", betti_json(betti.open)}};
 }
 
+bool is_in_box(const std::vector<audit::Check>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const audit::Check& check) {
+    return check.passed || check.name != "P2 box";
+  });
+}
+
 Json asked_json(const Bounds& bounds) {
   const io::MeshPromises& asked = bounds.promises;
   return {{"max_distance", asked.max_distance ? Json(*asked.max_distance) : Json()},
@@ -121,6 +127,10 @@ void print_verdict(const Verdict& verdict) {
     std::string name = check.name;
     name.resize(std::max<std::size_t>(name.size(), 16), ' ');
     std::cout << (check.passed ? "ok    " : "FAIL  ") << name << " " << check.detail << "\n";
+  }
+  if (!is_in_box(checks)) {
+    std::cout << "the mesh is not in the box of this volume: give verify the --spacing, --origin, "
+                 "--frame and --crop of the run that made it\n";
   }
   if (!verdict.audit.labels_changed.empty()) {
     std::cout << "labels whose topology changed:";

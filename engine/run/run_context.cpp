@@ -163,7 +163,7 @@ RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted
                        io::MeshSink& output, const RunHooks& asked)
     : settings(checked(volume, wanted)),
       sink(output),
-      lattice(volume, settings.surface),
+      lattice(volume),
       hooks(settled(asked, settings, lattice.layers())),
       layout(march_grids(lattice.info().shape, settings), settings.order),
       budget(hooks.store.memory, hooks.processes->count_here()),

@@ -72,7 +72,6 @@ std::string less_than_default(const io::MeshPromises& promises) {
   } else if (promises.quality_floor < usual.quality_floor) {
     add("radius ratio " + format_number(promises.quality_floor));
   }
-  if (!promises.smooth) add("distances in the voxels of the input");
   return out;
 }
 

@@ -30,10 +30,10 @@ enum class Order {
   kColour,  ///< eight colours by parity of the window's position: far wider on small volumes
 };
 
-/// What interfaces are made to follow, and on which lattice (voxel_lattice.h).
+/// What interfaces are made to follow.
 enum class Surface {
-  kSmooth,  ///< smooth surfaces that keep the labels' volumes; thick slices are cut into layers
-  kVoxel,   ///< the quadrics of the paper alone (Sec 5.2), on the voxels as they are
+  kSmooth,  ///< smooth surfaces that keep the labels' volumes
+  kVoxel,   ///< the quadrics of the paper alone (Sec 5.2)
 };
 
 /// What improves tets after each simplification.

@@ -41,9 +41,9 @@ namespace mw::io {
   return text(bytes / kMebibyte + (bytes % kMebibyte != 0 ? 1 : 0), "MiB");
 }
 
-/// Returns "the least that works is --memory 97MiB".
+/// Returns "it takes at least --memory 97MiB", where more may turn out to be needed later.
 [[nodiscard]] inline std::string min_memory(std::uint64_t bytes) {
-  return "the least that works is --memory " + mebibytes(bytes);
+  return "it takes at least --memory " + mebibytes(bytes);
 }
 
 }  // namespace mw::io

@@ -30,7 +30,7 @@ struct MeshPromises {
   std::optional<double> max_distance;  ///< voxels of the lattice; empty: no bound
   double quality_floor = 0;            ///< radius ratio
   bool interfaces = false;             ///< --topology interfaces
-  bool smooth = true;                  ///< --surface smooth: thick slices were cut into layers
+  bool smooth = true;                  ///< --surface smooth
   bool optimised = true;               ///< not --optimizer none
   /// Axes of the volume whose two faces have the same triangles (--periodic): bit 0 = x.
   unsigned periodic = 0;

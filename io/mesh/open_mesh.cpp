@@ -311,6 +311,11 @@ std::string read_mesh_extensions() {
   return extensions_where(&MeshFormat::is_read);
 }
 
+bool is_read_mesh_path(const std::filesystem::path& path) {
+  const MeshFormat* const format = find_format(path);
+  return format != nullptr && format->is_read();
+}
+
 bool is_mesh_path(const std::filesystem::path& path) {
   return find_format(path) != nullptr;
 }

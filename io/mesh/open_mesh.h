@@ -21,6 +21,9 @@ namespace mw::io {
 /// True if the extension is that of a mesh, even of one that is not read.
 [[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
 
+/// True if read_mesh() reads meshes with this extension.
+[[nodiscard]] bool is_read_mesh_path(const std::filesystem::path& path);
+
 /// ERRORS: mw::Error(kUsage) for a format that has no place for numbers of tets
 /// (MeshHeader::values).
 void require_place_for_values(const std::filesystem::path& path);

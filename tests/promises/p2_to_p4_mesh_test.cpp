@@ -133,8 +133,7 @@ TEST(Promise3Quality, InnerQualityTradesVerticesForShape) {
 
 double measured(const Trial& trial) {
   const auto mesh = small_mesh(run_in_memory(trial));
-  const Index3 layers =
-      trial.settings.surface == Surface::kSmooth ? layers_of(trial.frame.spacing) : Index3{1, 1, 1};
+  const Index3 layers = layers_of(trial.frame.spacing);
   const audit::LayeredLabels lattice = layered_labels(trial.volume.view(), layers);
   const auto report = measure_distance(lattice.view(), trial.volume.label_count, mesh.view(),
                                        layered_frame(trial.frame, layers));

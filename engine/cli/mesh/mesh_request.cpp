@@ -7,6 +7,7 @@
 
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "engine/cli/own_output.h"
 #include "engine/codt/worker_pool.h"
 #include "engine/sample/sample_text.h"
 #include "engine/settings/material_text.h"
@@ -159,7 +160,7 @@ void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
                .value = "all|largest|N",
                .help = "parts that are written; N: those of at least N tets",
                .group = kOutputGroup,
-               .kind = ValueKind::kIntegerOrText,
+               .kind = ValueKind::kNumberOrText,
                .fallback = "all",
                .listed = Listed::kInHelpAll,
                .assign = into(connect.parts, engine::parse_parts)});
@@ -294,10 +295,18 @@ void require_single_vertices_for_curves(const MeshRequest& request) {
               "vertices; tet10 is");
 }
 
-void require_periodic_for_pairs(const MeshRequest& request) {
-  if (request.extras.pairs.empty() || request.job.settings.periodic != 0) return;
-  throw Error(ErrorKind::kUsage,
-              "--pairs: only a cell that repeats itself has some, give --periodic");
+void check_pairs(const MeshRequest& request) {
+  if (request.extras.pairs.empty()) return;
+  if (request.job.settings.periodic == 0) {
+    throw Error(ErrorKind::kUsage,
+                "--pairs: only a cell that repeats itself has some, give --periodic");
+  }
+  const engine::ConnectOptions& connect = request.job.connect;
+  if (!connect.split.any() && !connect.cohesive.any() && !connect.open_hinges) return;
+  throw Error(
+      ErrorKind::kUsage,
+      "--pairs: are not known where vertices are doubled; leave out --split, --cohesive and "
+      "--open-hinges");
 }
 
 /// A folder that an earlier run has used is updated; one that a run was killed over is gone on
@@ -370,7 +379,7 @@ void check_mesh_request(MeshRequest& request) {
   require_room_for_values(request);
   require_room_for_wedges(request);
   require_single_vertices_for_curves(request);
-  require_periodic_for_pairs(request);
+  check_pairs(request);
   engine::check(request.job.settings);
   if (request.job.settings.optimizer == engine::Optimizer::kTetgen)
     (void)engine::codt::find_worker();

@@ -74,7 +74,7 @@ void print_halvings(const report::FinishedRun& run) {
   const int times = run.engine.halvings;
   if (times == 0) return;
   std::cout << "halved      " << (times == 1 ? "once" : "twice")
-            << ": a size is below two voxels, so each tet of the marches was cut into "
+            << ": a size is below the least of the marches, so each of their tets was cut into "
             << (times == 1 ? 8 : 64) << "; none has a radius ratio below "
             << format_figure(run.radius_ratio_floor) << "\n";
 }
@@ -83,6 +83,11 @@ void print_parts(const report::FinishedRun& run) {
   if (!run.connected) return;
   const std::string parts = report::connect_text(*run.connected);
   if (!parts.empty()) std::cout << "parts       " << parts << "\n";
+  const std::string apart = report::apart_text(*run.connected, run.labels.is_signed());
+  if (!apart.empty()) {
+    log_warning("--split, --cohesive: " + apart +
+                ": these labels share no face in the mesh, so nothing opens between them");
+  }
   const std::string stiff = report::stiff_text(*run.connected);
   if (!stiff.empty()) std::cout << "stiff       " << stiff << "\n";
 }

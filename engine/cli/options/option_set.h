@@ -27,7 +27,7 @@ enum class ValueKind {
   kLabels,
   kSize,
   kSwitch,
-  kIntegerOrText,  ///< a string or, for TOML, an integer too
+  kNumberOrText,  ///< a string or, for TOML, a number too
 };
 
 /// Where help lists an option.

@@ -67,7 +67,7 @@ std::optional<std::string> string_of_toml(const toml::node& node) {
 std::string canonical_text(ValueKind kind, const std::string& text) {
   switch (kind) {
     case ValueKind::kText:
-    case ValueKind::kIntegerOrText:
+    case ValueKind::kNumberOrText:
       return text;
     case ValueKind::kInteger:
       return std::to_string(parse_integer(text));
@@ -99,8 +99,8 @@ std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) 
     case ValueKind::kText:
     case ValueKind::kSize:
       return string_of_toml(node);
-    case ValueKind::kIntegerOrText:
-      return node.is_integer() ? number_of_toml(node) : string_of_toml(node);
+    case ValueKind::kNumberOrText:
+      return node.is_number() ? number_of_toml(node) : string_of_toml(node);
     case ValueKind::kInteger:
       return node.is_integer() ? number_of_toml(node) : std::nullopt;
     case ValueKind::kNumber:
@@ -148,8 +148,8 @@ const char* toml_type(ValueKind kind) {
       return "a string such as \"4G\"";
     case ValueKind::kSwitch:
       return "true or false";
-    case ValueKind::kIntegerOrText:
-      return "an integer or a string";
+    case ValueKind::kNumberOrText:
+      return "a number or a string";
   }
   return "";
 }
@@ -177,7 +177,7 @@ std::string toml_of_text(ValueKind kind, const std::string& text) {
 io::Json json_of_text(ValueKind kind, const std::string& text) {
   if (text.empty()) return nullptr;
   if (kind == ValueKind::kText || kind == ValueKind::kLabels || kind == ValueKind::kSize ||
-      kind == ValueKind::kIntegerOrText) {
+      kind == ValueKind::kNumberOrText) {
     return text;
   }
   if (text == kNone) return text;

@@ -25,8 +25,9 @@ ValueKind value_kind(SettingKind kind) {
       return ValueKind::kNumberOrAuto;
     case SettingKind::kSwitch:
       return ValueKind::kSwitch;
-    case SettingKind::kChoice:
     case SettingKind::kSizes:
+      return ValueKind::kNumberOrText;
+    case SettingKind::kChoice:
       break;
   }
   return ValueKind::kText;

@@ -148,7 +148,7 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .value = "N",
                .help = "parts below N voxels join a neighbour; N/26: parts join at corners",
                .group = kLabelGroup,
-               .kind = ValueKind::kIntegerOrText,
+               .kind = ValueKind::kNumberOrText,
                .assign = into(request.steps.specks, parse_specks)});
   options.add({.name = "weld",
                .value = "A,B",

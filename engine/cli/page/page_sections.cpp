@@ -10,6 +10,7 @@
 #include "engine/cli/options/values.h"
 #include "engine/cli/page/charts.h"
 #include "engine/cli/page/html_text.h"
+#include "io/mesh/open_mesh.h"
 
 namespace mw::cli {
 namespace {
@@ -169,6 +170,11 @@ std::vector<BarRow> memory_rows(const Json& purposes) {
   return out;
 }
 
+/// Whether an option of the input is not given, or says what it says anyway.
+bool is_fallback(const Json& value) {
+  return value.is_null() || (value.is_boolean() && !value.boolean()) || value == "file" || value == "labels";
+}
+
 std::string facts_table(const std::vector<std::array<std::string, 2>>& rows) {
   std::string out = "<table class=\"settings\">";
   for (const auto& [name, value] : rows) {
@@ -179,24 +185,20 @@ std::string facts_table(const std::vector<std::array<std::string, 2>>& rows) {
 
 }  // namespace
 
+/// What the run promised is in the mesh, so verify need only be told which voxels were meshed.
 std::string verify_command(const Json& report) {
-  constexpr std::array kNeeded{"spacing", "origin",      "frame", "shape",     "dtype",
-                               "endian",  "dataset",     "scale", "crop",      "merge",
-                               "labels",  "drop_specks", "weld",  "background"};
+  constexpr std::array kNeeded{"spacing", "origin",      "frame",  "shape", "dtype",  "dataset",
+                               "scale",   "overlap",     "values", "crop",  "object", "trust_paths",
+                               "merge",   "drop_specks", "weld",   "names"};
   const Json& settings = report["settings"];
   std::string out = "mwmesh verify " + quoted(flag_text(settings["input"])) + " " +
                     quoted(flag_text(settings["output"]));
   for (const std::string key : kNeeded) {
-    if (!settings.contains(key) || settings[key].is_null() || settings[key] == "file") continue;
+    if (!settings.contains(key) || is_fallback(settings[key])) continue;
     std::string flag = key;
     std::replace(flag.begin(), flag.end(), '_', '-');
-    out += " --" + flag + " " + quoted(flag_text(settings[key]));
-  }
-  out += " --max-distance " + quoted(flag_text(settings["max_distance"])) + " --quality-floor " +
-         flag_text(report["quality"]["radius_ratio_floor"]);
-  if (settings["topology"] != "labels") out += " --topology " + flag_text(settings["topology"]);
-  if (settings["surface"] != "smooth") {
-    out += " --surface " + flag_text(settings["surface"]) + " --max-volume-error none";
+    out += " --" + flag;
+    if (!settings[key].is_boolean()) out += " " + quoted(flag_text(settings[key]));
   }
   return out;
 }
@@ -238,9 +240,11 @@ std::string head_section(const Json& report) {
 std::string promise_section(const Json& report) {
   std::string out = "<section><h2>Promises</h2><div class=\"card\"><table class=\"promises\">\n";
   for (const Verdict& verdict : verdicts(report)) out += promise_row(verdict);
+  out += "</table></div>\n";
+  const std::string mesh = flag_text(report["settings"]["output"]);
+  if (!io::is_read_mesh_path(mesh)) return out + "</section>\n";
   return out +
-         "</table></div>\n<p class=\"soft\" style=\"margin-top:10px\">A second opinion on all "
-         "of them: <code>" +
+         "<p class=\"soft\" style=\"margin-top:10px\">A second opinion on all of them: <code>" +
          escaped(verify_command(report)) + "</code></p></section>\n";
 }
 

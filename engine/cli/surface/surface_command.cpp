@@ -92,8 +92,11 @@ class SurfaceJob {
   void print_frame() const {
     const io::WorldFrame frame = source_.mesh.header().record.frame;
     const bool known = frame != io::WorldFrame::kOwn;
-    std::cout << "coordinates " << (known ? name(frame) : "in a frame that the mesh does not name")
-              << "\n";
+    std::cout << "coordinates " << (known ? name(frame) : "in a frame that the mesh does not name");
+    if (request_.target == SurfaceTarget::kFolder) {
+      std::cout << ", taken to be in " << request_.folder.unit << " (--unit)";
+    }
+    std::cout << "\n";
   }
 
   void require_facets(const io::ShellPlan& plan, const std::string& what) const {

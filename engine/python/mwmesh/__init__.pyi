@@ -22,6 +22,8 @@ _Specks: TypeAlias = int | tuple[int, int]
 _Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
 _Certify: TypeAlias = Literal["auto", "on", "off"]
 _Axes: TypeAlias = Literal["zyx", "xyz"]
+_Overlap: TypeAlias = Literal["first", "last", "all"]
+_Values: TypeAlias = Literal["labels", "probabilities", "distances"]
 _Element: TypeAlias = Literal["tet4", "tet10", "tet10-curved"]
 #: A label by its number or by its name.
 _Label: TypeAlias = int | str
@@ -127,6 +129,7 @@ class Mesh:
         values: bool = True,
         materials: str | None = None,
         deck: bool = False,
+        pairs: _Path | None = None,
     ) -> None: ...
     def verify(
         self,
@@ -159,6 +162,11 @@ def as_volume(
     dataset: str | None = None,
     scale: int | None = None,
     crop: _Box | None = None,
+    overlap: _Overlap | None = None,
+    values: _Values | None = None,
+    object: int | Iterable[int] | None = None,
+    trust_paths: bool | None = None,
+    cache: _Path | None = None,
 ) -> _Volume: ...
 def mesh(
     volume: _Source,
@@ -174,6 +182,11 @@ def mesh(
     dataset: str | None = ...,
     scale: int | None = ...,
     crop: _Box | None = ...,
+    overlap: _Overlap | None = ...,
+    values: _Values | None = ...,
+    object: int | Iterable[int] | None = ...,
+    trust_paths: bool | None = ...,
+    cache: _Path | None = ...,
     threads: int = ...,
     memory: int | str | None = ...,
     labels: _Label | Iterable[_Label] | None = ...,
@@ -216,6 +229,7 @@ def mesh_to_file(
     element: _Element = "tet4",
     materials: str | None = None,
     deck: bool = False,
+    pairs: _Path | None = None,
     progress: _Progress | None = None,
     **arguments: Any,
 ) -> dict[str, Any] | None: ...

@@ -72,8 +72,8 @@ class Session:
         return self._last
 
     def update(self, *edit):
-        """update(box, values) writes values (a label, or an array indexed as the session's) into
-        box, ((x0, y0, z0), (x1, y1, z1)); update(array) replaces all labels.
+        """update(box, values) writes values (the number of a label, or an array of them, indexed
+        as the session's) into box, ((x0, y0, z0), (x1, y1, z1)); update(array) replaces all labels.
 
         Returns the new :class:`Mesh` and the delta, a dict: "box" and "voxels_changed"; "labels"
         that gained or lost voxels, with voxels and Betti numbers before and after; "contacts" whose
@@ -115,5 +115,20 @@ class Session:
             if not 0 <= first <= end <= extent:
                 raise unexpected("box", "corners inside the array, the lower first", edit[0])
         array = self._array.copy()
-        array[tuple(slice(a, b) for a, b in zip(lo, hi))] = edit[1]
+        part = array[tuple(slice(a, b) for a, b in zip(lo, hi))]
+        part[...] = self._labels(edit[1], part)
         return array
+
+    def _labels(self, values, part):
+        """The labels that update() was given for a part of the array, in its type."""
+        given = np.asarray(values)
+        if given.dtype.kind not in "biu":
+            raise unexpected("values", "the number of a label, or an array of them", values)
+        labels = given.astype(self._array.dtype)
+        if not np.array_equal(labels, given):
+            raise unexpected("values", f"labels that {self._array.dtype} can hold", values)
+        try:
+            return np.broadcast_to(labels, part.shape)
+        except ValueError:
+            raise unexpected("values", f"a label, or an array of shape {part.shape}",
+                             f"one of shape {labels.shape}") from None

@@ -64,7 +64,10 @@ void read_comments(MshInput& in, MshContent& out) {
   if (line == "$EndComments") return;
   if (line.starts_with(kMshRecord)) {
     out.record = parse_record(std::string_view(line).substr(kMshRecord.size()), in.name());
-    if (out.record.curved) in.fail("its tets are curved; those are read from .vtkhdf and .vtu");
+    if (out.record.curved) {
+      fail_input(in.name(), "$Comments", "the tets are curved, which is not read from .msh",
+                 "give the .vtkhdf or .vtu that it was converted from");
+    }
   }
   in.skip_section("Comments");
 }

@@ -174,9 +174,9 @@ TEST_F(ThickSlicesTest, ReportTellsTheLatticeAndTheInput) {
   EXPECT_EQ(r["input"]["voxels"], 24 * 24 * 8);
   const double vertices = r["output"]["vertices"];
   EXPECT_DOUBLE_EQ(r["output"]["vertex_fraction"], vertices / (25 * 25 * 9));
-  expect_done(
-      "mesh s.npy -o s.vtu --report r.json --surface voxel --quality-floor 0 --spacing 4,4,40");
-  EXPECT_EQ(report("r.json")["lattice"]["layers_xyz"], json::parse("[1, 1, 1]"));
+  expect_done("mesh s.npy -o s.vtu --report r.json --preset draft --spacing 4,4,40");
+  EXPECT_EQ(report("r.json")["lattice"]["layers_xyz"], json::parse("[1, 1, 10]"));
+  expect_done("verify s.npy s.vtu --spacing 4,4,40");
 }
 
 TEST_F(ThickSlicesTest, BoxIsThatOfTheInput) {
@@ -184,7 +184,7 @@ TEST_F(ThickSlicesTest, BoxIsThatOfTheInput) {
   for (const std::string frame :
        {" --spacing 0.1,0.7,2.3", " --spacing 0.1,0.7,2.3 --origin 0.3,-1e3,12.7"}) {
     expect_done("mesh s.npy -o smooth.vtu" + frame);
-    expect_done("mesh s.npy -o voxel.vtu --surface voxel --quality-floor 0" + frame);
+    expect_done("mesh s.npy -o voxel.vtu --surface voxel" + frame);
     const json smooth = json::parse(run("info smooth.vtu --json").out);
     EXPECT_EQ(smooth["box"], json::parse(run("info voxel.vtu --json").out)["box"]);
   }
@@ -192,16 +192,12 @@ TEST_F(ThickSlicesTest, BoxIsThatOfTheInput) {
 
 TEST_F(ThickSlicesTest, FloorThatCannotBePromisedIsRefusedBeforeTheWork) {
   make_slices();
-  const std::string mesh = "mesh s.npy -o s.vtu --surface voxel --spacing 4,4,40 ";
-  expect_failure(2, mesh, "--quality-floor 0.012 can be, or set --surface smooth");
-  expect_failure(2, mesh + "--quality-floor 0.013", "--quality-floor 0.012 can be");
-  expect_done(mesh + "--quality-floor 0.012");
-  expect_done(
-      "verify s.npy s.vtu --surface voxel --spacing 4,4,40 --quality-floor 0.012 "
-      "--max-distance 1.5");
-  expect_done(mesh + "--quality-floor 0");
-  expect_failure(2, "mesh s.npy -o s.vtu --spacing 1,1.49,1.51 --quality-floor 0.5",
+  const std::string mesh = "mesh s.npy -o s.vtu --spacing 1,1.49,1.51 ";
+  expect_failure(2, mesh + "--quality-floor 0.5",
                  "--quality-floor 0.315 can be, or set --start dense");
+  expect_failure(2, mesh + "--quality-floor 0.316", "--quality-floor 0.315 can be");
+  expect_done(mesh + "--quality-floor 0.315");
+  expect_done("verify s.npy s.vtu --spacing 1,1.49,1.51 --quality-floor 0.315");
   expect_done("mesh s.npy -o s.vtu --spacing 1,1.49,1.51 --quality-floor 0.5 --start dense");
   expect_done("mesh s.npy -o s.vtu --quality-floor 0.5");
   expect_done("verify s.npy s.vtu --quality-floor 0.5");
@@ -209,24 +205,21 @@ TEST_F(ThickSlicesTest, FloorThatCannotBePromisedIsRefusedBeforeTheWork) {
 
 TEST_F(ThickSlicesTest, LatticeThatIsTooLongIsRefused) {
   make_slices();
-  expect_failure(3, "mesh s.npy -o s.vtu --spacing 1e-3,1e-3,1e3", "--surface voxel");
+  expect_failure(3, "mesh s.npy -o s.vtu --spacing 1e-3,1e-3,1e3", "with --crop");
 }
 
 /// A bound holds in the voxels that the mesh was made in.
-TEST_F(ThickSlicesTest, VerifyCountsInTheLatticeOfTheSurface) {
+TEST_F(ThickSlicesTest, VerifyCountsInTheLattice) {
   make_slices();
   const std::string frame = " --spacing 1,1,6";
   const std::string bound = " --max-distance 1.5" + frame;
   expect_done("mesh s.npy -o s.vtu" + frame);
-  expect_done("mesh s.npy -o v.vtu --surface voxel --quality-floor 0" + frame);
+  expect_done("mesh s.npy -o v.vtu --surface voxel" + frame);
   const ProgramRun smooth = run("verify s.npy s.vtu --report q.json" + bound);
   EXPECT_EQ(smooth.code, 0) << smooth.out;
   EXPECT_NE(smooth.out.find("voxels cut into 1 x 1 x 6 layers"), std::string::npos) << smooth.out;
   EXPECT_EQ(report("q.json")["lattice"]["layers_xyz"], json::parse("[1, 1, 6]"));
-  EXPECT_EQ(run("verify s.npy v.vtu --surface smooth" + bound).code, 5);
-  // The mesh tells how it was made.
-  expect_done("verify s.npy v.vtu" + frame);
-  expect_done("verify s.npy v.vtu --quality-floor 0 --surface voxel" + bound);
+  expect_done("verify s.npy v.vtu" + bound);
 }
 
 TEST_F(ThickSlicesTest, ResumeGoesOnAndRefusesAnotherLattice) {
@@ -237,7 +230,7 @@ TEST_F(ThickSlicesTest, ResumeGoesOnAndRefusesAnotherLattice) {
       run(mesh + "1,1,3", "timeout --foreground --preserve-status -s TERM 0.6");
   EXPECT_EQ(stopped.code, 75) << stopped.err;
   expect_failure(2, mesh + "1,1,4 --resume", "spacing was 1,1,3 and is 1,1,4");
-  expect_failure(2, mesh + "1,1,3 --resume --surface voxel --quality-floor 0", "and is");
+  expect_failure(2, mesh + "1,1,3 --resume --surface voxel", "and is");
   expect_done(mesh + "1,1,3 --resume --report r.json");
   EXPECT_GT(report("r.json")["engine"]["windows_resumed"], 0);
   EXPECT_EQ(read("n.vtu"), read("whole.vtu"));

@@ -91,6 +91,13 @@ TEST_F(ConfigTest, FlagsTakeNegativeNumbers) {
   EXPECT_EQ(line("background", "--background -3"), "background = \"-3\"");
 }
 
+TEST_F(ConfigTest, TakesSizesAsNumbersAndAsText) {
+  for (const auto& [written, text] : {std::pair{"5", "5"}, {"2.5", "2.5"}, {"\"1=3\"", "1=3"}}) {
+    write("c.toml", std::string("size = ") + written + "\n");
+    EXPECT_EQ(line("size", "--config c.toml"), std::string("size = \"") + text + "\"");
+  }
+}
+
 TEST_F(ConfigTest, NamesFileLineAndKey) {
   const auto expect_refused = [&](const std::string& content, const std::string& piece) {
     write("c.toml", content);

@@ -8,6 +8,7 @@ import json
 import os
 import re
 import resource
+import shlex
 import shutil
 import subprocess
 import sys
@@ -132,6 +133,29 @@ class RunPage(unittest.TestCase):
         # A mesh without a floor is not said to keep one.
         run("mesh", "v.npy", "-o", "w.vtu", "--quality-floor", "0", "--html", "w.html")
         self.assertIn("the run had no floor", " ".join(Page("w.html").text))
+
+    def test_second_opinion_is_a_command_that_works(self):
+        masks = numpy.zeros((2, 8, 9, 10), numpy.uint8)
+        masks[0, 1:6, 2:7, 2:6] = masks[1, 3:7, 3:8, 4:9] = 1
+        for name, mask in zip("ab", masks):
+            header = ("ObjectType = Image\nNDims = 3\nDimSize = 10 9 8\nElementType = MET_UCHAR\n"
+                      "ElementSpacing = 1 1 1\nElementDataFile = LOCAL\n")
+            with open(f"{name}.mha", "wb") as file:
+                file.write(header.encode() + mask.tobytes())
+        numpy.save("share.npy", masks[0].astype(numpy.float32))
+        for options in (["v.npy", "--spacing", "2", "--crop", "1,1,1,12,11,10"],
+                        ["v.npy", "--topology", "interfaces", "--background", "1"],
+                        ["v.npy", "--element", "tet10-curved", "--background", "1"],
+                        ["v.npy", "--object", "2", "--surface", "voxel"],
+                        ["v.npy", "--merge", "1,2=1", "--drop-specks", "4/26"],
+                        ["a.mha,b.mha", "--overlap", "all", "--background", "0"],
+                        ["share.npy", "--values", "probabilities"]):
+            with self.subTest(options=options):
+                run("mesh", *options, "-o", "s.vtu", "--html", "s.html", "--force")
+                command = re.search(r"<code>mwmesh (verify .*?)</code>", Page("s.html").source)[1]
+                self.assertIn("all checks hold", run(*shlex.split(html.unescape(command))))
+        run("mesh", "v.npy", "-o", "s.inp", "--html", "s.html", "--force")  # is not read
+        self.assertNotIn("mwmesh verify", Page("s.html").source)
 
     def test_draws_a_cut_wherever_the_labels_are(self):
         for low in (1, 17):

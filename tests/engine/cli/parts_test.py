@@ -130,6 +130,14 @@ class Parts(unittest.TestCase):
             self.assertIn(what, out)
             self.assertFalse(pathlib.Path("no.vtu").exists())
 
+    def test_labels_that_do_not_meet_are_told(self):
+        code, out = fails("mesh", "v.npy", "-o", "apart.vtu", "--background", 0, "--split", "1|2,3|4",
+                          "--cohesive", "4|2", "--report", "apart.json")
+        self.assertEqual(code, 0, out)
+        self.assertIn("2|4, 3|4: these labels share no face", out)
+        self.assertEqual(report("apart.json")["parts"]["doubled"]["labels_that_do_not_meet"],
+                         [[2, 4], [3, 4]])
+
     def test_the_same_bytes_for_any_threads(self):
         for threads in (1, 3):
             run("mesh", "v.npy", "-o", f"t{threads}.vtu", "--background", 0, "--parts", 30, "--split",

@@ -143,6 +143,8 @@ class Periodic(unittest.TestCase):
                                (("grains.npy", "--periodic", "x", "--size", "3"), "--periodic: works without"),
                                (("grains.npy", "--periodic", "x", "--keep", "kept"), "without periodic"),
                                (("grains.npy", "--pairs", "p.csv"), "give --periodic"),
+                               (("grains.npy", "--periodic", "x", "--pairs", "p.csv", "--split", "*"),
+                                "vertices are doubled"),
                                (("grains.npy", "--periodic", "x", "--pairs", "p.txt"), "written as .csv")):
             with self.subTest(options):
                 done = start("mesh", *options, "-o", "refused.vtu")

@@ -208,14 +208,24 @@ TEST_F(UsageTest, EndsWith130AndCleanWhenInterrupted) {
                  "interrupted", "timeout --foreground --preserve-status -s INT 1");
 }
 
+TEST_F(UsageTest, ConvertReplacesNoFileOfOthers) {
+  expect_done("synth spheres --shape 8,8,8 --labels 2 --seed 1 -o v.npy");
+  expect_done("mesh v.npy -o v.vtu --periodic x");
+  write("notes.msh", "what somebody wrote");
+  expect_failure(2, "convert v.vtu notes.msh", "no mesh of mwmesh; --force replaces it");
+  EXPECT_EQ(read("notes.msh"), "what somebody wrote");
+  expect_done("convert v.vtu notes.msh --force");
+  expect_done("convert v.vtu notes.msh");
+  expect_failure(2, "convert v.vtu z.inp --pairs z.inp", "this is the mesh to write");
+}
+
 /// Points of the lattice are told apart in what is written, or the run is refused; up to what the
 /// message says it works.
 TEST_F(UsageTest, CoordinatesThatCannotBeToldApart) {
   expect_done("synth spheres --shape 12,12,12 --labels 2 --seed 1 -o v.npy");
   expect_failure(3, "mesh v.npy -o v.vtu --origin=4e15,4e15,4e15", "--origin nearer to 0");
   expect_failure(3, "mesh v.npy -o v.vtu --spacing 1e300,1e300,1e300", "1e+30");
-  expect_failure(3, "mesh v.npy -o v.vtu --spacing 5e-324,1,1 --surface voxel --quality-floor 0",
-                 "1e-30");
+  expect_failure(3, "mesh v.npy -o v.vtu --spacing 5e-324,5e-324,5e-324", "1e-30");
   expect_failure(3, "mesh v.npy -o v.vtu --spacing 4e-9,4e-9,4e-9 --origin=100,0,0", "can reach");
   for (const std::string position :
        {"--origin=1.7e10,-1.7e10,1.7e10", "--spacing 4e-9,4e-9,4e-9 --origin=0.5,-50,0.5",

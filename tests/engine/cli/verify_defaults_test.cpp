@@ -47,7 +47,7 @@ TEST_F(VerifyDefaultsTest, AsksWhatTheRunPromised) {
                {"max_volume_error", nullptr},
                {"of_run", true},
                {"less_than_default",
-                "distance 2.5, radius ratio 0.15, distances in the voxels of the input, "
+                "distance 2.5, radius ratio 0.15, "
                 "no volumes"}};
   EXPECT_EQ(asked("a.vtu"), a);
   EXPECT_EQ(asked("a.vtkhdf"), a);

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python package as its users call it; numpy alone is the oracle."""
 
+import ast
 import copy
 import csv
 import doctest
 import http.client
+import inspect
 import json
 import os
 import pathlib
@@ -79,6 +81,22 @@ class Documentation(unittest.TestCase):
         self.assertIn("max_distance", mwmesh.settings())
         self.assertEqual([name for name in dir(mwmesh) if not name.startswith("_")],
                          sorted(mwmesh.__all__))
+
+
+    def test_types_are_of_what_there_is(self):
+        stub = pathlib.Path(mwmesh.__file__).with_suffix(".pyi")
+        stubs = {}
+        for node in ast.walk(ast.parse(stub.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef):
+                arguments = node.args.posonlyargs + node.args.args + node.args.kwonlyargs
+                stubs[node.name] = {argument.arg for argument in arguments}
+        place = {*mwmesh.PLACE, "names"}
+        self.assertEqual(stubs["as_volume"], {"source", *place})
+        self.assertEqual(stubs["mesh"], {"volume", "progress", *place, *mwmesh._OPTIONS})
+        for function in (mwmesh.Mesh.save, mwmesh.Mesh.surface, mwmesh.read, mwmesh.synth):
+            self.assertEqual(stubs[function.__name__], {*inspect.signature(function).parameters})
+        self.assertLessEqual({*inspect.signature(mwmesh.mesh_to_file).parameters} - {"arguments"},
+                             stubs["mesh_to_file"])
 
 
 class SameMesh(InFolder):
@@ -900,8 +918,13 @@ class Sessions(InFolder):
             mwmesh.mesh(grains(), keep_bytes="1GB")
 
     def test_edits_that_make_no_sense_change_nothing(self):
-        session = mwmesh.Session(grains(), keep=self.path("kept"), window=8)
+        session = mwmesh.Session(grains().astype(np.uint8), keep=self.path("kept"), window=8)
         before = session.array.copy()
+        box = ((0, 0, 0), (2, 2, 2))
+        for wrong in (300, -1, 2.7, "a", None, np.full((2, 2, 2), 300), np.full((2, 2, 2), 1.5),
+                      np.zeros((3, 2, 2), int), [1, 2, 3]):
+            with self.subTest(values=wrong), self.assertRaises(mwmesh.UsageError):
+                session.update(box, wrong)
         for wrong in [(((0, 0, 0), (99, 1, 1)), 1), (before[1:],), (), (1, 2, 3)]:
             with self.assertRaises(mwmesh.UsageError):
                 session.update(*wrong)
