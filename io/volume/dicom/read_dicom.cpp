@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A DICOM segmentation through DCMTK, which sees the file in a child process only.
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dccodec.h>
 #include <dcmtk/dcmdata/dcfcache.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
 #include <dcmtk/dcmdata/dcpixel.h>
@@ -13,6 +14,8 @@
 #include <span>
 
 #include "io/file/errors.h"
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/source/file_source.h"
 #include "io/file/wall/apart.h"
 #include "io/volume/dicom/dicom_segments.h"
 
@@ -23,7 +26,9 @@ constexpr const char* kCheckDicom = "check that the file is complete, or export 
 constexpr std::size_t kPieceBytes = 1 << 20;
 constexpr std::size_t kMostNameBytes = 255;
 /// More would not fit the numbers of segments or the memory of the child.
-constexpr std::int32_t kMostSegments = 65535, kMostFrames = 1 << 22;
+constexpr std::int32_t kMostSegmentNumber = 65535, kMostFrames = 1 << 22;
+/// Label Map Segmentation Storage, which DCMTK 3.6.7 has no name for.
+constexpr const char* kLabelMapClass = "1.2.840.10008.5.1.4.1.1.66.7";
 
 /// What the child sends first; then segments, frames and the bytes of the pixels.
 struct SentSizes {
@@ -53,7 +58,7 @@ class DicomReader {
     data_ = file_.getDataset();
     OFString kind;
     data_->findAndGetOFString(DCM_SOPClassUID, kind);
-    if (kind != UID_SegmentationStorage) {
+    if (kind != UID_SegmentationStorage && kind != kLabelMapClass) {
       fail_input(name_, "SOP Class UID", "the file is DICOM, but no segmentation",
                  "images have no labels: export a DICOM segmentation, NIfTI or NRRD file of them, "
                  "for instance with 3D Slicer");
@@ -68,6 +73,8 @@ class DicomReader {
     read_frames();
     read_grid();
     read_segments();
+    match_frames();
+    check_packing();
     DcmElement* pixels = nullptr;
     check(data_->chooseRepresentation(EXS_LittleEndianExplicit, nullptr), "Pixel Data");
     check(data_->findAndGetElement(DCM_PixelData, pixels), "Pixel Data");
@@ -95,6 +102,18 @@ class DicomReader {
   }
   void demand(bool met, const char* attribute, const std::string& otherwise) const {
     if (!met) fail_input(name_, attribute, otherwise, kCheckDicom);
+  }
+
+  /// The only packing of pixels that dcmdata undoes is RLE.
+  void check_packing() const {
+    const DcmXfer packing(data_->getOriginalXfer());
+    if (!packing.isEncapsulated() ||
+        DcmCodecList::canChangeCoding(packing.getXfer(), EXS_LittleEndianExplicit)) {
+      return;
+    }
+    fail_input(name_, "Transfer Syntax UID",
+               text("pixels in ", packing.getXferName(), " are not unpacked"),
+               "export it uncompressed or in RLE, or unpack it, for instance with gdcmconv --raw");
   }
 
   void send_pixels(DcmElement& pixels, std::uint64_t bytes, const SendBytes& send) const {
@@ -192,35 +211,59 @@ class DicomReader {
     grid_.bits = whole(DCM_BitsAllocated);
     OFString type;
     data_->findAndGetOFString(DCM_SegmentationType, type);
-    const bool is_binary = type == "BINARY" && grid_.bits == 1;
-    const bool is_fractional = type == "FRACTIONAL" && grid_.bits == 8;
-    if (!is_binary && !is_fractional) {
+    if (type == "LABELMAP" && (grid_.bits == 8 || grid_.bits == 16)) {
+      read_label_type();
+    } else if (type == "FRACTIONAL" && grid_.bits == 8) {
+      const std::int32_t most = whole(DCM_MaximumFractionalValue);
+      demand(most >= 1 && most <= 255, "Maximum Fractional Value", "is not from 1 to 255");
+      grid_.threshold = (most + 1) / 2;
+    } else if (type != "BINARY" || grid_.bits != 1) {
       fail_input(name_, "Segmentation Type",
                  text("'", type.c_str(), "' of ", grid_.bits, " bits is not read"),
                  "export it as BINARY, or as NIfTI or NRRD");
     }
-    const std::int32_t most = is_binary ? 1 : whole(DCM_MaximumFractionalValue);
-    demand(most >= 1 && most <= 255, "Maximum Fractional Value", "is not from 1 to 255");
-    grid_.threshold = (most + 1) / 2;
+  }
+
+  /// Colours of a palette do not matter, as voxels are numbers of segments with one, too.
+  void read_label_type() {
+    demand(whole(DCM_SamplesPerPixel) == 1, "Samples per Pixel",
+           "is not 1, and a voxel of a label map has one number");
+    demand(whole(DCM_PixelRepresentation) == 0, "Pixel Representation",
+           "is not 0, and numbers of segments have no sign");
+    const std::int32_t largest = (1 << grid_.bits) - 1;
+    grid_.voxels = DicomVoxels::kLabels;
+    grid_.background = whole(DCM_PixelPaddingValue);
+    demand(grid_.background >= 0 && grid_.background <= largest, "Pixel Padding Value",
+           text("is not from 0 to ", largest));
   }
 
   void read_segments() {
+    const std::int32_t least = grid_.voxels == DicomVoxels::kLabels ? 0 : 1;
     DcmSequenceOfItems* sequence = nullptr;
     check(data_->findAndGetSequence(DCM_SegmentSequence, sequence), "Segment Sequence");
     DcmObject* next = nullptr;
     while ((next = sequence->nextInContainer(next)) != nullptr) {
       auto* const item = dynamic_cast<DcmItem*>(next);
       if (item == nullptr) continue;
+      demand(item->tagExistsWithValue(DCM_SegmentNumber), "Segment Number", "a segment has none");
       SentSegment out{.number = static_cast<std::int32_t>(number(item, DCM_SegmentNumber))};
-      demand(out.number >= 1 && out.number <= kMostSegments, "Segment Number",
-             text(out.number, " is not from 1 to ", kMostSegments));
+      demand(out.number >= least && out.number <= kMostSegmentNumber, "Segment Number",
+             text(out.number, " is not from ", least, " to ", kMostSegmentNumber));
       OFString label;
       item->findAndGetOFString(DCM_SegmentLabel, label);
       const std::string_view kept(label.c_str(), std::min(label.size(), kMostNameBytes));
       std::copy(kept.begin(), kept.end(), out.name.begin());
       segments_.push_back(out);
     }
-    for (const DicomFrame& frame : frames_) {
+  }
+
+  /// REQUIRES: segments were read.
+  void match_frames() {
+    for (DicomFrame& frame : frames_) {
+      if (grid_.voxels == DicomVoxels::kLabels) {
+        frame.segment = kAllSegments;
+        continue;
+      }
       const bool is_known = std::any_of(segments_.begin(), segments_.end(),
                                         [&](const auto& s) { return s.number == frame.segment; });
       demand(is_known, "Referenced Segment Number",
@@ -258,7 +301,7 @@ class DicomReceiver {
   void receive(ApartStream& stream) {
     SentSizes sizes;
     if (!stream.read(std::as_writable_bytes(std::span(&sizes, 1)))) return;
-    if (sizes.segments > kMostSegments || sizes.frames > kMostFrames ||
+    if (sizes.segments > kMostSegmentNumber + 1 || sizes.frames > kMostFrames ||
         sizes.pixel_bytes != pixel_bytes_of(sizes.grid, sizes.frames)) {
       return;
     }
@@ -287,14 +330,14 @@ class DicomReceiver {
 
  private:
   void receive_pixels(ApartStream& stream, std::uint64_t bytes) {
-    auto pixels = std::make_shared<UnlinkedFile>(scratch_folder());
+    UnlinkedFile pixels(scratch_folder());
     std::vector<std::byte> piece;
     for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
       piece.resize(std::min<std::uint64_t>(kPieceBytes, bytes - at));
       if (!stream.read(piece)) return;
-      pixels->write_at(at, piece);
+      pixels.write_at(at, piece);
     }
-    result_.pixels = std::move(pixels);
+    result_.pixels = std::make_shared<FileSource>(pixels.release(), bytes, name_);
     is_complete_ = true;
   }
 

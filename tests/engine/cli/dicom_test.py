@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""DICOM segmentations that pydicom writes: the mesh is that of the bare array of their labels, and
-lies where the attributes of the frames say."""
+"""DICOM segmentations that pydicom writes, as masks and as label maps: the mesh is that of the bare
+array of their labels, and lies where the attributes of the frames say."""
 import json
 import random
 import sys
@@ -14,15 +14,17 @@ try:
     import numpy
     import pydicom
     from pydicom.dataset import Dataset, FileMetaDataset
+    from pydicom.encaps import encapsulate
     from pydicom.sequence import Sequence
     from pydicom.uid import (CTImageStorage, DeflatedExplicitVRLittleEndian, ExplicitVRBigEndian,
-                             ExplicitVRLittleEndian, ImplicitVRLittleEndian, RLELossless,
-                             SegmentationStorage, generate_uid)
+                             ExplicitVRLittleEndian, ImplicitVRLittleEndian, JPEGLSLossless,
+                             RLELossless, SegmentationStorage, generate_uid)
     from places_test import organs, read_medit, turn
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
+LABEL_MAP_CLASS = "1.2.840.10008.5.1.4.1.1.66.7"  # which pydicom 2.3 has no name for
 ROW_SPACING, COLUMN_SPACING, STEP = 1.25, 1.5, 2.0
 FIRST = numpy.array([-20.5, 7.25, 100.0])
 
@@ -126,6 +128,47 @@ class Segmentation:
         data.save_as(path, write_like_original=False)
 
 
+class LabelMap(Segmentation):
+    """numbers: of segments, in (x, y, z)."""
+
+    def __init__(self, numbers, bits=8, **others):
+        super().__init__({0: numbers}, **others)
+        self.bits = bits
+        self.numbers = [int(n) for n in numpy.unique(numbers) if n != 0]
+        self.padding = None
+        self.is_palette = False
+
+    def pixels(self, frames):
+        order = ">" if self.syntax == ExplicitVRBigEndian else "<"
+        voxels = numpy.concatenate([self.masks[s][:, :, z].T.ravel() for s, z in frames])
+        return voxels.astype(f"{order}u{self.bits // 8}").tobytes()
+
+    def dataset(self):
+        out = super().dataset()
+        out.file_meta.MediaStorageSOPClassUID = out.SOPClassUID = LABEL_MAP_CLASS
+        out.SegmentationType = "LABELMAP"
+        out.SegmentSequence = Sequence(
+            [item(SegmentNumber=n, SegmentLabel=f"Gefäß {n}", SegmentAlgorithmType="MANUAL")
+             for n in self.numbers])
+        out.BitsAllocated = out.BitsStored = self.bits
+        out.HighBit = self.bits - 1
+        out["PixelData"].VR = "OW" if self.bits == 16 else "OB"
+        for frame in out.PerFrameFunctionalGroupsSequence:
+            del frame.SegmentIdentificationSequence
+        if self.padding is not None:
+            out.add_new("PixelPaddingValue", "US", self.padding)
+        if self.is_palette:
+            self.add_palette(out)
+        return out
+
+    @staticmethod
+    def add_palette(out):
+        out.PhotometricInterpretation = "PALETTE COLOR"
+        for colour in ("Red", "Green", "Blue"):
+            out.add_new(f"{colour}PaletteColorLookupTableDescriptor", "US", [256, 0, 8])
+            out.add_new(f"{colour}PaletteColorLookupTableData", "OW", bytes(range(256)))
+
+
 class Dicom(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -141,7 +184,7 @@ class Dicom(unittest.TestCase):
         labels = self.labels if labels is None else labels
         slices = [z for _, z in segmentation.frames()]
         labels = labels[:, :, min(slices):max(slices) + 1]  # there are no others for the file
-        numpy.save("array.npy", labels.astype(numpy.uint8).transpose(2, 1, 0))
+        numpy.save("array.npy", labels.astype(numpy.uint16).transpose(2, 1, 0))
         run("mesh", "array.npy", "--spacing", ",".join(map(str, self.spacing)), "-o", "array.mesh",
             "--force")
         run("mesh", "s.dcm", "-o", "s.mesh", "--force", *options)
@@ -202,8 +245,50 @@ class Dicom(unittest.TestCase):
         last = numpy.where(masks[2], 2, masks[1])
         self.check(segmentation, last, "--overlap", "last")
 
-    def refused(self, change, *words):
-        data = Segmentation(self.masks).dataset()
+    def test_label_map(self):
+        numbers = organs()  # 0, 3 and 700
+        for syntax in (ExplicitVRLittleEndian, ImplicitVRLittleEndian, ExplicitVRBigEndian,
+                       DeflatedExplicitVRLittleEndian, RLELossless):
+            with self.subTest(syntax.name):
+                self.check(LabelMap(numbers, bits=16, syntax=syntax), numbers)
+                rows = json.loads(run("info", "s.dcm", "--json"))["labels"]["per_label"]
+                self.assertEqual([(row["label"], row.get("name")) for row in rows],
+                                 [(0, None), (3, "Gefäß 3"), (700, "Gefäß 700")])
+        for syntax in (ExplicitVRLittleEndian, ExplicitVRBigEndian, RLELossless):
+            with self.subTest(syntax.name):
+                palette = LabelMap(numbers % 251, syntax=syntax)
+                palette.is_palette = True
+                self.check(palette, numbers % 251)
+
+    def test_label_map_in_any_order_and_at_any_place(self):
+        numbers = organs()
+        for seed, axes in enumerate((numpy.eye(3), turn(0, 30) @ turn(2, 50), turn(1, 90))):
+            label_map = LabelMap(numbers, bits=16, axes=axes)
+            label_map.shuffled = seed
+            label_map.slice_spacing = label_map.shares_grid = seed % 2 == 0
+            self.check(label_map, numbers)
+
+    def test_slices_that_a_label_map_lacks_are_background(self):
+        for padding in (None, 0, 9, 65535):
+            numbers = organs()
+            numbers[numbers == 0] = padding or 0
+            label_map = LabelMap(numbers.copy(), bits=16)
+            label_map.padding = padding
+            label_map.kept = lambda _, z: 1 <= z <= 10 and z not in (3, 4, 7)
+            numbers[:, :, [3, 4, 7]] = padding or 0
+            self.check(label_map, numbers)
+
+    def test_labels_need_no_segment(self):
+        numbers = organs()
+        label_map = LabelMap(numbers, bits=16)
+        label_map.numbers = [0, 12, 700, 65535]
+        self.check(label_map, numbers)
+        rows = json.loads(run("info", "s.dcm", "--json"))["labels"]["per_label"]
+        self.assertEqual([(row["label"], row.get("name")) for row in rows],
+                         [(0, "Gefäß 0"), (3, None), (700, "Gefäß 700")])
+
+    def refused(self, change, *words, segmentation=None):
+        data = (segmentation or Segmentation(self.masks)).dataset()
         change(data)
         data.save_as("bad.dcm", write_like_original=False)
         done = start("mesh", "bad.dcm", "-o", "bad.mesh")
@@ -238,9 +323,48 @@ class Dicom(unittest.TestCase):
             "PlaneOrientationSequence"), "Orientation")
         self.refused(lambda d: setattr(d.SegmentSequence[1], "SegmentNumber", 7), "segment 2")
 
+    def test_label_maps_that_cannot_be_read(self):
+        def refused(change, *words, syntax=ExplicitVRLittleEndian):
+            self.refused(change, *words, segmentation=LabelMap(organs(), bits=16, syntax=syntax))
+
+        def shift(data):
+            place = data.PerFrameFunctionalGroupsSequence[2].PlanePositionSequence[0]
+            place.ImagePositionPatient[2] += 0.7
+
+        def repeat(data):
+            frames = data.PerFrameFunctionalGroupsSequence
+            frames[1].PlanePositionSequence = frames[0].PlanePositionSequence
+
+        def pack(data):
+            data.file_meta.TransferSyntaxUID = JPEGLSLossless
+            data.PixelData = encapsulate([b"\xff\xd8\xff\xd9"] * data.NumberOfFrames)
+            data["PixelData"].is_undefined_length = True
+
+        refused(lambda d: setattr(d, "BitsAllocated", 32), "LABELMAP", "32 bits", "NIfTI")
+        refused(lambda d: setattr(d, "SegmentationType", "BINARY"), "BINARY", "16 bits")
+        refused(lambda d: setattr(d, "SamplesPerPixel", 3), "Samples per Pixel")
+        refused(lambda d: setattr(d, "PixelRepresentation", 1), "Pixel Representation")
+        refused(lambda d: d.add_new("PixelPaddingValue", "SS", -1), "Pixel Padding Value", "65535")
+        refused(lambda d: setattr(d, "PixelData", d.PixelData[:-2]), "Pixel Data", "bytes")
+        refused(lambda d: d.__delitem__("PixelData"), "Pixel Data")
+        refused(lambda d: setattr(d, "Columns", 60000), "Pixel Data", "bytes")
+        refused(lambda d: setattr(d, "Rows", 0), "Rows and Columns")
+        refused(lambda d: setattr(d, "NumberOfFrames", 0), "Number of Frames")
+        refused(lambda d: d.__delitem__("NumberOfFrames"), "Number of Frames")
+        refused(lambda d: d.__delitem__("PerFrameFunctionalGroupsSequence"), "Per-Frame")
+        refused(lambda d: d.__delitem__("SegmentSequence"), "Segment Sequence")
+        refused(lambda d: d.SegmentSequence[1].__delitem__("SegmentNumber"), "Segment Number")
+        refused(shift, "Image Position", "step")
+        refused(repeat, "frames 1 and 2 are both at one place", "BINARY")
+        refused(pack, "JPEG-LS", "RLE")
+
     def test_damage_is_refused_or_read(self):
+        self.check_damage(Segmentation(self.masks))
+        self.check_damage(LabelMap(organs(), bits=16))
+
+    def check_damage(self, segmentation):
         chance = random.Random(41)
-        Segmentation(self.masks).save("good.dcm")
+        segmentation.save("good.dcm")
         with open("good.dcm", "rb") as file:
             good = file.read()
         refused = 0
