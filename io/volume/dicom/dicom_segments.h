@@ -61,8 +61,8 @@ struct DicomSegments {
 
 /// Reads a file of the classes Segmentation Storage and Label Map Segmentation Storage, in a
 /// process of its own (io/file/wall/apart.h).
-/// Memory: the headers of the frames, some kilobytes each, in that process only; the pixels go to
-/// $TMPDIR.
+/// Memory: the headers of the frames, some kilobytes each, packed pixels, and
+/// one frame unpacked, in that process only; the pixels go to $TMPDIR.
 /// ENSURES: there are frames, each of a segment that is there, or of all in a label map, and pixels
 /// of all of them; numbers are finite.  A label map may have labels that no segment has.
 /// ERRORS: mw::Error(kInput) naming file and attribute for damage, for images and for fields of

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "io/file/errors.h"
@@ -74,24 +75,18 @@ class DicomReader {
     read_grid();
     read_segments();
     match_frames();
-    check_packing();
-    DcmElement* pixels = nullptr;
-    check(data_->chooseRepresentation(EXS_LittleEndianExplicit, nullptr), "Pixel Data");
-    check(data_->findAndGetElement(DCM_PixelData, pixels), "Pixel Data");
+    DcmPixelData& pixels = pixel_data();
     const SentSizes sizes{.grid = grid_,
                           .segments = segments_.size(),
                           .frames = frames_.size(),
                           .pixel_bytes = pixel_bytes_of(grid_, frames_.size())};
-    if (pixels->getLength() < sizes.pixel_bytes) {
-      fail_input(
-          name_, "Pixel Data",
-          text("has ", pixels->getLength(), " bytes, and the frames need ", sizes.pixel_bytes),
-          kCheckDicom);
-    }
+    const DcmXfer packing(data_->getOriginalXfer());
+    const bool is_packed = packing.isEncapsulated();
+    is_packed ? check_packing(packing) : check_length(pixels, sizes.pixel_bytes);
     send(std::as_bytes(std::span(&sizes, 1)));
     send(std::as_bytes(std::span(segments_)));
     send(std::as_bytes(std::span(frames_)));
-    send_pixels(*pixels, sizes.pixel_bytes, send);
+    is_packed ? send_packed(pixels, send) : send_plain(pixels, sizes.pixel_bytes, send);
   }
 
  private:
@@ -104,19 +99,47 @@ class DicomReader {
     if (!met) fail_input(name_, attribute, otherwise, kCheckDicom);
   }
 
+  [[nodiscard]] DcmPixelData& pixel_data() const {
+    DcmElement* found = nullptr;
+    check(data_->findAndGetElement(DCM_PixelData, found), "Pixel Data");
+    auto* const pixels = dynamic_cast<DcmPixelData*>(found);
+    demand(pixels != nullptr, "Pixel Data", "has no pixels");
+    return *pixels;
+  }
+
+  /// A label map with more bytes than one to make their number even has voxels of another size.
+  void check_length(DcmPixelData& pixels, std::uint64_t bytes) const {
+    const std::uint64_t length = pixels.getLength();
+    const bool may_be_longer = grid_.voxels == DicomVoxels::kMasks;
+    demand(length >= bytes && (may_be_longer || length <= bytes + 1), "Pixel Data",
+           text("has ", length, " bytes, and the frames need ", bytes));
+  }
+
   /// The only packing of pixels that dcmdata undoes is RLE.
-  void check_packing() const {
-    const DcmXfer packing(data_->getOriginalXfer());
-    if (!packing.isEncapsulated() ||
-        DcmCodecList::canChangeCoding(packing.getXfer(), EXS_LittleEndianExplicit)) {
-      return;
-    }
+  void check_packing(const DcmXfer& packing) const {
+    if (DcmCodecList::canChangeCoding(packing.getXfer(), EXS_LittleEndianExplicit)) return;
     fail_input(name_, "Transfer Syntax UID",
                text("pixels in ", packing.getXferName(), " are not unpacked"),
                "export it uncompressed or in RLE, or unpack it, for instance with gdcmconv --raw");
   }
 
-  void send_pixels(DcmElement& pixels, std::uint64_t bytes, const SendBytes& send) const {
+  /// Unpacks a frame at a time.
+  void send_packed(DcmPixelData& pixels, const SendBytes& send) const {
+    const std::uint64_t bytes = pixel_bytes_of(grid_, 1);
+    demand(bytes < std::numeric_limits<Uint32>::max(), "Rows and Columns", "are too many");
+    std::vector<std::byte> frame(bytes + bytes % 2);  // DCMTK asks for an even number
+    DcmFileCache cache;
+    Uint32 fragment = 0;
+    OFString colours;
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      check(pixels.getUncompressedFrame(data_, static_cast<Uint32>(i), fragment, frame.data(),
+                                        static_cast<Uint32>(frame.size()), colours, &cache),
+            "Pixel Data");
+      send(std::span(frame).first(bytes));
+    }
+  }
+
+  void send_plain(DcmPixelData& pixels, std::uint64_t bytes, const SendBytes& send) const {
     std::vector<std::byte> piece;
     DcmFileCache cache;
     for (std::uint64_t at = 0; at < bytes; at += piece.size()) {

@@ -14,7 +14,7 @@ try:
     import numpy
     import pydicom
     from pydicom.dataset import Dataset, FileMetaDataset
-    from pydicom.encaps import encapsulate
+    from pydicom.encaps import decode_data_sequence, encapsulate
     from pydicom.sequence import Sequence
     from pydicom.uid import (CTImageStorage, DeflatedExplicitVRLittleEndian, ExplicitVRBigEndian,
                              ExplicitVRLittleEndian, ImplicitVRLittleEndian, JPEGLSLossless,
@@ -254,11 +254,12 @@ class Dicom(unittest.TestCase):
                 rows = json.loads(run("info", "s.dcm", "--json"))["labels"]["per_label"]
                 self.assertEqual([(row["label"], row.get("name")) for row in rows],
                                  [(0, None), (3, "Gefäß 3"), (700, "Gefäß 700")])
+        odd = numbers[1:, 1:, 1:] % 251  # so is the number of bytes of a frame, and of all
         for syntax in (ExplicitVRLittleEndian, ExplicitVRBigEndian, RLELossless):
             with self.subTest(syntax.name):
-                palette = LabelMap(numbers % 251, syntax=syntax)
+                palette = LabelMap(odd, syntax=syntax)
                 palette.is_palette = True
-                self.check(palette, numbers % 251)
+                self.check(palette, odd)
 
     def test_label_map_in_any_order_and_at_any_place(self):
         numbers = organs()
@@ -340,6 +341,11 @@ class Dicom(unittest.TestCase):
             data.PixelData = encapsulate([b"\xff\xd8\xff\xd9"] * data.NumberOfFrames)
             data["PixelData"].is_undefined_length = True
 
+        def lose(data):
+            data.compress(RLELossless)
+            data.PixelData = encapsulate(decode_data_sequence(data.PixelData)[:-1])
+
+        refused(lambda d: setattr(d, "BitsAllocated", 8), "Pixel Data", "bytes")
         refused(lambda d: setattr(d, "BitsAllocated", 32), "LABELMAP", "32 bits", "NIfTI")
         refused(lambda d: setattr(d, "SegmentationType", "BINARY"), "BINARY", "16 bits")
         refused(lambda d: setattr(d, "SamplesPerPixel", 3), "Samples per Pixel")
@@ -357,10 +363,12 @@ class Dicom(unittest.TestCase):
         refused(shift, "Image Position", "step")
         refused(repeat, "frames 1 and 2 are both at one place", "BINARY")
         refused(pack, "JPEG-LS", "RLE")
+        refused(lose, "Pixel Data")
 
     def test_damage_is_refused_or_read(self):
         self.check_damage(Segmentation(self.masks))
         self.check_damage(LabelMap(organs(), bits=16))
+        self.check_damage(LabelMap(organs(), bits=16, syntax=RLELossless))
 
     def check_damage(self, segmentation):
         chance = random.Random(41)
