@@ -82,11 +82,19 @@ class DicomReader {
                           .pixel_bytes = pixel_bytes_of(grid_, frames_.size())};
     const DcmXfer packing(data_->getOriginalXfer());
     const bool is_packed = packing.isEncapsulated();
-    is_packed ? check_packing(packing) : check_length(pixels, sizes.pixel_bytes);
+    if (is_packed) {
+      check_packing(packing);
+    } else {
+      check_length(pixels, sizes.pixel_bytes);
+    }
     send(std::as_bytes(std::span(&sizes, 1)));
     send(std::as_bytes(std::span(segments_)));
     send(std::as_bytes(std::span(frames_)));
-    is_packed ? send_packed(pixels, send) : send_plain(pixels, sizes.pixel_bytes, send);
+    if (is_packed) {
+      send_packed(pixels, send);
+    } else {
+      send_plain(pixels, sizes.pixel_bytes, send);
+    }
   }
 
  private:
