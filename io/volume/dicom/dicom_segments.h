@@ -6,10 +6,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/file/source/byte_source.h"
+#include "io/names/label_names.h"
 #include "io/volume/volume_space.h"
 
 namespace mw::io {
@@ -42,6 +44,7 @@ struct DicomGrid {
 struct DicomSegment {
   std::int32_t number = 0;
   std::string name;
+  std::optional<Colour> colour;
 };
 
 /// A slice of one segment, or of all.

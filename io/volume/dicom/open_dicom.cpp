@@ -241,7 +241,7 @@ VolumeInfo info_of(const DicomSegments& dicom, const SliceGrid& slices, const st
 LabelNames names_of(const DicomSegments& dicom) {
   std::vector<LabelName> rows;
   for (const DicomSegment& s : dicom.segments) {
-    rows.push_back({.label = static_cast<RawLabel>(s.number), .name = s.name, .colour = {}});
+    rows.push_back({.label = static_cast<RawLabel>(s.number), .name = s.name, .colour = s.colour});
   }
   return LabelNames(std::move(rows));
 }
@@ -263,7 +263,7 @@ std::unique_ptr<LabelVolume> merged_masks(DicomSegments dicom, const FramesOfSeg
          .value = 1,
          .file = text(dicom.pixels->name(), ", segment ", segment.number, " '", segment.name, "'"),
          .name = segment.name,
-         .colour = {}});
+         .colour = segment.colour});
   }
   return merger.finish();
 }

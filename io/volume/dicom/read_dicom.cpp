@@ -18,6 +18,7 @@
 #include "io/file/scratch/scratch_file.h"
 #include "io/file/source/file_source.h"
 #include "io/file/wall/apart.h"
+#include "io/names/cielab.h"
 #include "io/volume/dicom/dicom_segments.h"
 
 namespace mw::io {
@@ -41,6 +42,7 @@ struct SentSizes {
 struct SentSegment {
   std::int32_t number = 0;
   std::array<char, kMostNameBytes + 1> name{};  ///< ends with 0
+  Colour colour{};                              ///< four zeros: it has none
 };
 
 std::uint64_t pixel_bytes_of(const DicomGrid& grid, std::uint64_t frames) {
@@ -171,6 +173,16 @@ class DicomReader {
     return value >= 0 && value <= 1e9 ? static_cast<std::int32_t>(value) : -1;
   }
 
+  /// What the segment is shown in; four zeros where there is none.
+  [[nodiscard]] static Colour colour_of(DcmItem* segment) {
+    const Uint16* values = nullptr;
+    unsigned long count = 0;
+    const OFCondition found =
+        segment->findAndGetUint16Array(DCM_RecommendedDisplayCIELabValue, values, &count);
+    if (found.bad() || values == nullptr || count != 3) return {};
+    return srgb_of(cielab_of({values[0], values[1], values[2]}));
+  }
+
   /// A functional group: the frame's own, or the one that all frames share.
   [[nodiscard]] DcmItem* group(DcmItem* frame, const DcmTagKey& sequence) const {
     for (DcmItem* from : {frame, shared_}) {
@@ -284,6 +296,7 @@ class DicomReader {
       item->findAndGetOFString(DCM_SegmentLabel, label);
       const std::string_view kept(label.c_str(), std::min(label.size(), kMostNameBytes));
       std::copy(kept.begin(), kept.end(), out.name.begin());
+      out.colour = colour_of(item);
       segments_.push_back(out);
     }
   }
@@ -345,7 +358,8 @@ class DicomReceiver {
     result_.grid = sizes.grid;
     for (SentSegment& s : segments) {
       s.name.back() = '\0';
-      result_.segments.push_back({s.number, s.name.data()});
+      result_.segments.push_back({.number = s.number, .name = s.name.data(), .colour = {}});
+      if (s.colour != Colour{}) result_.segments.back().colour = s.colour;
     }
     receive_pixels(stream, sizes.pixel_bytes);
   }

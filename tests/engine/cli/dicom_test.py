@@ -53,6 +53,16 @@ class Segmentation:
         self.shuffled = None
         self.slice_spacing = True
         self.shares_grid = True
+        self.colours = {}  # by segment, in CIELab as the attribute has it
+
+    def segments(self, numbers):
+        out = Sequence([item(SegmentNumber=n, SegmentLabel=f"Gefäß {n}",
+                             SegmentAlgorithmType="MANUAL") for n in numbers])
+        for segment in out:
+            if segment.SegmentNumber in self.colours:
+                colour = self.colours[segment.SegmentNumber]
+                segment.add_new("RecommendedDisplayCIELabValue", "US", colour)
+        return out
 
     def place(self, z):
         return [f"{x:.10g}" for x in FIRST + self.axes[:, 2] * STEP * z]
@@ -94,9 +104,7 @@ class Segmentation:
         if self.fractional:
             out.SegmentationFractionalType = "OCCUPANCY"
             out.MaximumFractionalValue = self.most
-        out.SegmentSequence = Sequence(
-            [item(SegmentNumber=s, SegmentLabel=f"Gefäß {s}", SegmentAlgorithmType="MANUAL")
-             for s in self.masks])
+        out.SegmentSequence = self.segments(self.masks)
         shape = next(iter(self.masks.values())).shape
         out.Columns, out.Rows = shape[:2]
         out.SamplesPerPixel, out.PhotometricInterpretation = 1, "MONOCHROME2"
@@ -147,9 +155,7 @@ class LabelMap(Segmentation):
         out = super().dataset()
         out.file_meta.MediaStorageSOPClassUID = out.SOPClassUID = LABEL_MAP_CLASS
         out.SegmentationType = "LABELMAP"
-        out.SegmentSequence = Sequence(
-            [item(SegmentNumber=n, SegmentLabel=f"Gefäß {n}", SegmentAlgorithmType="MANUAL")
-             for n in self.numbers])
+        out.SegmentSequence = self.segments(self.numbers)
         out.BitsAllocated = out.BitsStored = self.bits
         out.HighBit = self.bits - 1
         out["PixelData"].VR = "OW" if self.bits == 16 else "OB"
@@ -287,6 +293,27 @@ class Dicom(unittest.TestCase):
         rows = json.loads(run("info", "s.dcm", "--json"))["labels"]["per_label"]
         self.assertEqual([(row["label"], row.get("name")) for row in rows],
                          [(0, "Gefäß 0"), (3, None), (700, "Gefäß 700")])
+
+    def test_colours(self):
+        white, red = [65535, 0x8080, 0x8080], [35578, 53664, 50858]  # L 54.29, a 80.81, b 69.89
+        for syntax in (ExplicitVRLittleEndian, ImplicitVRLittleEndian, ExplicitVRBigEndian):
+            for kind, numbers in ((Segmentation(self.masks, syntax=syntax), (1, 2)),
+                                  (LabelMap(organs(), bits=16, syntax=syntax), (3, 700))):
+                kind.colours = {numbers[0]: red}
+                self.check_colours(kind, [None, [255, 0, 0, 255], None])
+                kind.colours = dict(zip(numbers, ([0, 0x8080, 0x8080], white)))
+                self.check_colours(kind, [None, [0, 0, 0, 255], [255, 255, 255, 255]])
+                for damaged in (white[:2], [*white, 0], []):
+                    kind.colours[numbers[0]] = damaged
+                    self.check_colours(kind, [None, None, [255, 255, 255, 255]])
+
+    def check_colours(self, segmentation, expected):
+        segmentation.save("s.dcm")
+        run("mesh", "s.dcm", "-o", "s.vtkhdf", "--force")
+        volume = json.loads(run("info", "s.dcm", "--json"))["labels"]["per_label"]
+        mesh = json.loads(run("info", "s.vtkhdf", "--json"))["volume"]["per_label"]
+        for rows in (volume, mesh):
+            self.assertEqual([row.get("colour") for row in rows], expected)
 
     def refused(self, change, *words, segmentation=None):
         data = (segmentation or Segmentation(self.masks)).dataset()
