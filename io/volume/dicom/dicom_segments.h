@@ -16,6 +16,9 @@
 
 namespace mw::io {
 
+/// The way out that errors name where a file is damaged.
+inline constexpr const char* kCheckDicom = "check that the file is complete, or export it again";
+
 /// What voxels say.
 enum class DicomVoxels : std::int32_t {
   kMasks,   ///< whether they belong to the segment that their frame is of

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A DICOM segmentation through DCMTK, which sees the file in a child process only.
 #include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dccodec.h>
 #include <dcmtk/dcmdata/dcfcache.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
 #include <dcmtk/dcmdata/dcpixel.h>
-#include <dcmtk/dcmdata/dcrledrg.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <span>
 
 #include "io/file/errors.h"
@@ -20,11 +18,11 @@
 #include "io/file/wall/apart.h"
 #include "io/names/cielab.h"
 #include "io/volume/dicom/dicom_segments.h"
+#include "io/volume/dicom/frame_unpacker.h"
 
 namespace mw::io {
 namespace {
 
-constexpr const char* kCheckDicom = "check that the file is complete, or export it again";
 constexpr std::size_t kPieceBytes = 1 << 20;
 constexpr std::size_t kMostNameBytes = 255;
 /// More would not fit the numbers of segments or the memory of the child.
@@ -55,7 +53,6 @@ std::uint64_t pixel_bytes_of(const DicomGrid& grid, std::uint64_t frames) {
 class DicomReader {
  public:
   DicomReader(const std::string& path, const std::string& name) : name_(name) {
-    DcmRLEDecoderRegistration::registerCodecs();
     constexpr Uint32 kMostInMemory = 4096;  // pixels stay on the disk
     check(file_.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, kMostInMemory), "structure");
     data_ = file_.getDataset();
@@ -82,21 +79,17 @@ class DicomReader {
                           .segments = segments_.size(),
                           .frames = frames_.size(),
                           .pixel_bytes = pixel_bytes_of(grid_, frames_.size())};
-    const DcmXfer packing(data_->getOriginalXfer());
-    const bool is_packed = packing.isEncapsulated();
-    if (is_packed) {
-      check_packing(packing);
+    std::optional<FrameUnpacker> unpacker;
+    if (DcmXfer(data_->getOriginalXfer()).isEncapsulated()) {
+      unpacker.emplace(*data_, pixels, grid_, name_);
     } else {
       check_length(pixels, sizes.pixel_bytes);
     }
     send(std::as_bytes(std::span(&sizes, 1)));
     send(std::as_bytes(std::span(segments_)));
     send(std::as_bytes(std::span(frames_)));
-    if (is_packed) {
-      send_packed(pixels, send);
-    } else {
-      send_plain(pixels, sizes.pixel_bytes, send);
-    }
+    if (!unpacker) return send_plain(pixels, sizes.pixel_bytes, send);
+    for (std::size_t i = 0; i < frames_.size(); ++i) send(unpacker->next());
   }
 
  private:
@@ -123,30 +116,6 @@ class DicomReader {
     const bool may_be_longer = grid_.voxels == DicomVoxels::kMasks;
     demand(length >= bytes && (may_be_longer || length <= bytes + 1), "Pixel Data",
            text("has ", length, " bytes, and the frames need ", bytes));
-  }
-
-  /// The only packing of pixels that dcmdata undoes is RLE.
-  void check_packing(const DcmXfer& packing) const {
-    if (DcmCodecList::canChangeCoding(packing.getXfer(), EXS_LittleEndianExplicit)) return;
-    fail_input(name_, "Transfer Syntax UID",
-               text("pixels in ", packing.getXferName(), " are not unpacked"),
-               "export it uncompressed or in RLE, or unpack it, for instance with gdcmconv --raw");
-  }
-
-  /// Unpacks a frame at a time.
-  void send_packed(DcmPixelData& pixels, const SendBytes& send) const {
-    const std::uint64_t bytes = pixel_bytes_of(grid_, 1);
-    demand(bytes < std::numeric_limits<Uint32>::max(), "Rows and Columns", "are too many");
-    std::vector<std::byte> frame(bytes + bytes % 2);  // DCMTK asks for an even number
-    DcmFileCache cache;
-    Uint32 fragment = 0;
-    OFString colours;
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-      check(pixels.getUncompressedFrame(data_, static_cast<Uint32>(i), fragment, frame.data(),
-                                        static_cast<Uint32>(frame.size()), colours, &cache),
-            "Pixel Data");
-      send(std::span(frame).first(bytes));
-    }
   }
 
   void send_plain(DcmPixelData& pixels, std::uint64_t bytes, const SendBytes& send) const {
@@ -262,7 +231,7 @@ class DicomReader {
       grid_.threshold = (most + 1) / 2;
     } else if (type != "BINARY" || grid_.bits != 1) {
       fail_input(name_, "Segmentation Type",
-                 text("'", type.c_str(), "' of ", grid_.bits, " bits is not read"),
+                 text("'", clean_name(type.c_str()), "' of ", grid_.bits, " bits is not read"),
                  "export it as BINARY, or as NIfTI or NRRD");
     }
   }
@@ -358,7 +327,8 @@ class DicomReceiver {
     result_.grid = sizes.grid;
     for (SentSegment& s : segments) {
       s.name.back() = '\0';
-      result_.segments.push_back({.number = s.number, .name = s.name.data(), .colour = {}});
+      result_.segments.push_back(
+          {.number = s.number, .name = clean_name(s.name.data()), .colour = {}});
       if (s.colour != Colour{}) result_.segments.back().colour = s.colour;
     }
     receive_pixels(stream, sizes.pixel_bytes);
