@@ -6,22 +6,37 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "io/file/scratch/scratch_file.h"
 #include "io/file/source/byte_source.h"
+#include "io/names/label_names.h"
 #include "io/volume/volume_space.h"
 
 namespace mw::io {
+
+/// The way out that errors name where a file is damaged.
+inline constexpr const char* kCheckDicom = "check that the file is complete, or export it again";
+
+/// What voxels say.
+enum class DicomVoxels : std::int32_t {
+  kMasks,   ///< whether they belong to the segment that their frame is of
+  kLabels,  ///< the number of their segment (Segmentation Type LABELMAP)
+};
+
+/// Frames of labels are of no segment of their own.
+inline constexpr std::int32_t kAllSegments = 0;
 
 /// What all frames have in common.  Lengths are in mm, places in DICOM's patient coordinates (LPS).
 struct DicomGrid {
   std::int32_t rows = 0;
   std::int32_t columns = 0;
-  std::int32_t bits = 1;       ///< of a voxel: 1, or 8
-  std::int32_t threshold = 1;  ///< the least value of a voxel that belongs to a segment
-  Vector3 along_row{1, 0, 0};  ///< direction from a voxel to the next column
+  DicomVoxels voxels = DicomVoxels::kMasks;
+  std::int32_t bits = 1;        ///< of a voxel: of masks 1 or 8, of labels 8 or 16
+  std::int32_t threshold = 1;   ///< of masks: the least value of a voxel that belongs to a segment
+  std::int32_t background = 0;  ///< of labels: that of voxels of no segment
+  Vector3 along_row{1, 0, 0};   ///< direction from a voxel to the next column
   Vector3 along_column{0, 1, 0};
   double column_spacing = 0;  ///< between columns
   double row_spacing = 0;
@@ -32,28 +47,30 @@ struct DicomGrid {
 struct DicomSegment {
   std::int32_t number = 0;
   std::string name;
+  std::optional<Colour> colour;
 };
 
-/// A slice of one segment.
+/// A slice of one segment, or of all.
 struct DicomFrame {
-  std::int32_t segment = 0;
+  std::int32_t segment = kAllSegments;
   Vector3 first{};  ///< the centre of its first voxel
 };
 
 /// Frames follow each other in `pixels` without gaps, rows first, as DICOM packs them: where voxels
-/// have one bit, the lowest bit of a byte comes first.
+/// have one bit, the lowest bit of a byte comes first; where they have 16, the lower byte does.
 struct DicomSegments {
   DicomGrid grid;
   std::vector<DicomSegment> segments;
   std::vector<DicomFrame> frames;
-  std::shared_ptr<const UnlinkedFile> pixels;
+  std::shared_ptr<const ByteSource> pixels;
 };
 
-/// Reads a file of the class Segmentation Storage, in a process of its own (io/file/wall/apart.h).
-/// Memory: the headers of the frames, some kilobytes each, in that process only; the pixels go to
-/// $TMPDIR.
-/// ENSURES: there are frames, each of a segment that is there, and pixels of all of them; numbers
-/// are finite.
+/// Reads a file of the classes Segmentation Storage and Label Map Segmentation Storage, in a
+/// process of its own (io/file/wall/apart.h).
+/// Memory: the headers of the frames, some kilobytes each, packed pixels, and
+/// one frame unpacked, in that process only; the pixels go to $TMPDIR.
+/// ENSURES: there are frames, each of a segment that is there, or of all in a label map, and pixels
+/// of all of them; numbers are finite.  A label map may have labels that no segment has.
 /// ERRORS: mw::Error(kInput) naming file and attribute for damage, for images and for fields of
 /// probabilities that cannot be masks; kResource when the disk is full or there can be no process.
 [[nodiscard]] DicomSegments read_dicom_segments(const ByteSource& source);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// From frames, each of one segment at one place, to masks on a grid.
+// From frames, each at one place, to labels on a grid: by masks of segments, or as they are.
 #include "io/volume/dicom/open_dicom.h"
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "io/volume/dicom/dicom_segments.h"
 #include "io/volume/file_space.h"
 #include "io/volume/masks/mask_merger.h"
+#include "io/volume/raw_array.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -105,11 +106,13 @@ class SliceGrid {
   Vector3 first_{};  ///< the centre of the first voxel
 };
 
+/// Frames by slice; -1: there is none.
+using SliceFrames = std::vector<std::int64_t>;
+
 /// The voxels of one segment: 1, and 0 elsewhere.
 class SegmentMask : public LabelVolume {
  public:
-  /// frames: by slice; -1: there is none.
-  SegmentMask(const DicomSegments& dicom, const VolumeInfo& info, std::vector<std::int64_t> frames)
+  SegmentMask(const DicomSegments& dicom, const VolumeInfo& info, SliceFrames frames)
       : dicom_(dicom), info_(info), frames_(std::move(frames)) {}
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
@@ -146,26 +149,68 @@ class SegmentMask : public LabelVolume {
 
   const DicomSegments& dicom_;
   const VolumeInfo& info_;
-  std::vector<std::int64_t> frames_;
+  SliceFrames frames_;
 };
 
-/// For each segment the frames by slice; -1: there is none.
-using FramesOfSegments = std::map<std::int32_t, std::vector<std::int64_t>>;
+/// The voxels of a label map.
+class LabelMap : public LabelVolume {
+ public:
+  LabelMap(const DicomSegments& dicom, VolumeInfo info, SliceFrames frames)
+      : pixels_(dicom.pixels),
+        background_(static_cast<RawLabel>(dicom.grid.background)),
+        info_(std::move(info)),
+        frames_(std::move(frames)) {}
+
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
+    std::fill(out.begin(), out.end(), background_);
+    for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
+      const std::int64_t frame = frames_[static_cast<std::size_t>(z)];
+      if (frame < 0) continue;
+      const Box3 part{{box.lo.x, box.lo.y, z}, {box.hi.x, box.hi.y, z + 1}};
+      read_array(*pixels_, slice(z, frame), part, {box, out});
+    }
+  }
+
+ private:
+  [[nodiscard]] StoredArray slice(std::int64_t z, std::int64_t frame) const {
+    const Index3 n = info_.shape;
+    return {.first = static_cast<std::uint64_t>(frame * n.x * n.y),
+            .strides = {1, n.x, n.x * n.y},
+            .coding = {.type = info_.type, .order = ByteOrder::kLittle},
+            .box = {{0, 0, z}, {n.x, n.y, z + 1}},
+            .name = pixels_->name()};
+  }
+
+  std::shared_ptr<const ByteSource> pixels_;
+  RawLabel background_;
+  VolumeInfo info_;
+  SliceFrames frames_;
+};
+
+using FramesOfSegments = std::map<std::int32_t, SliceFrames>;
 
 FramesOfSegments frames_by_slice(const DicomSegments& dicom, const SliceGrid& slices,
                                  const std::string& file) {
+  const bool is_label_map = dicom.grid.voxels == DicomVoxels::kLabels;
+  const SliceFrames none(static_cast<std::size_t>(slices.count()), -1);
   FramesOfSegments out;
-  for (const DicomSegment& s : dicom.segments) {
-    out[s.number].assign(static_cast<std::size_t>(slices.count()), -1);
+  if (is_label_map) {
+    out[kAllSegments] = none;
+  } else {
+    for (const DicomSegment& s : dicom.segments) out[s.number] = none;
   }
   for (std::size_t i = 0; i < dicom.frames.size(); ++i) {
     const std::int32_t segment = dicom.frames[i].segment;
     std::int64_t& frame = out[segment][static_cast<std::size_t>(slices.slice(i))];
     if (frame >= 0) {
       fail_input(file, "Image Position (Patient)",
-                 text("frames ", frame + 1, " and ", i + 1, " are both of segment ", segment,
-                      " at one place"),
-                 "export it again with one frame for each slice of a segment");
+                 text("frames ", frame + 1, " and ", i + 1, " are both ",
+                      is_label_map ? "" : text("of segment ", segment, " "), "at one place"),
+                 is_label_map ? "export segments that overlap as BINARY"
+                              : "export it again with one frame for each slice of a segment");
     }
     frame = static_cast<std::int64_t>(i);
   }
@@ -187,10 +232,40 @@ VolumeInfo info_of(const DicomSegments& dicom, const SliceGrid& slices, const st
   space.steps_field = "Pixel Spacing, Image Orientation (Patient)";
   space.first_field = "Image Position (Patient)";
   VolumeInfo info{.shape = {grid.columns, grid.rows, slices.count()},
-                  .type = VoxelType::kU8,
+                  .type = grid.bits == 16 ? VoxelType::kU16 : VoxelType::kU8,
                   .format = "dicom"};
   info.space = placed(file, space, options);
   return info;
+}
+
+LabelNames names_of(const DicomSegments& dicom) {
+  std::vector<LabelName> rows;
+  for (const DicomSegment& s : dicom.segments) {
+    rows.push_back({.label = static_cast<RawLabel>(s.number), .name = s.name, .colour = s.colour});
+  }
+  return LabelNames(std::move(rows));
+}
+
+std::unique_ptr<LabelVolume> label_map(const DicomSegments& dicom, VolumeInfo info,
+                                       SliceFrames frames) {
+  info.names = names_of(dicom);
+  return std::make_unique<LabelMap>(dicom, std::move(info), std::move(frames));
+}
+
+std::unique_ptr<LabelVolume> merged_masks(DicomSegments dicom, const FramesOfSegments& frames,
+                                          const VolumeInfo& info, MaskMerger merger) {
+  std::sort(dicom.segments.begin(), dicom.segments.end(),
+            [](const DicomSegment& a, const DicomSegment& b) { return a.number < b.number; });
+  for (const DicomSegment& segment : dicom.segments) {
+    const SegmentMask mask(dicom, info, frames.at(segment.number));
+    merger.add(
+        {.volume = &mask,
+         .value = 1,
+         .file = text(dicom.pixels->name(), ", segment ", segment.number, " '", segment.name, "'"),
+         .name = segment.name,
+         .colour = segment.colour});
+  }
+  return merger.finish();
 }
 
 }  // namespace
@@ -207,20 +282,12 @@ std::unique_ptr<LabelVolume> open_dicom(std::unique_ptr<ByteSource> source,
   const std::string file = source->name();
   DicomSegments dicom = read_dicom_segments(*source);
   const SliceGrid slices(dicom, file);
-  const FramesOfSegments frames = frames_by_slice(dicom, slices, file);
+  FramesOfSegments frames = frames_by_slice(dicom, slices, file);
   const VolumeInfo info = info_of(dicom, slices, file, options);
-  std::sort(dicom.segments.begin(), dicom.segments.end(),
-            [](const DicomSegment& a, const DicomSegment& b) { return a.number < b.number; });
-  MaskMerger merger(info, options.overlap, file);
-  for (const DicomSegment& segment : dicom.segments) {
-    const SegmentMask mask(dicom, info, frames.at(segment.number));
-    merger.add({.volume = &mask,
-                .value = 1,
-                .file = text(file, ", segment ", segment.number, " '", segment.name, "'"),
-                .name = segment.name,
-                .colour = {}});
+  if (dicom.grid.voxels == DicomVoxels::kLabels) {
+    return label_map(dicom, info, std::move(frames.at(kAllSegments)));
   }
-  return merger.finish();
+  return merged_masks(std::move(dicom), frames, info, MaskMerger(info, options.overlap, file));
 }
 
 }  // namespace mw::io

@@ -17,9 +17,11 @@ namespace mw::io {
 
 /// Segments become labels as masks do, in the order of their numbers (MaskMerger), with their
 /// names; slices that no frame is about are empty.  Values of FRACTIONAL segmentations count from
-/// half of the most on.  Array axes: columns, rows, slices along the normal.
+/// half of the most on.  Labels of a LABELMAP stay as they are, numbers of segments, and have their
+/// names; slices without a frame have its Pixel Padding Value, or 0.
+/// Array axes: columns, rows, slices along the normal.
 /// ERRORS: those of read_dicom_segments() and MaskMerger; mw::Error(kInput) when frames do not lie
-/// on one grid, or two frames of a segment lie at one place.
+/// on one grid, or two frames of a segment, or of a label map, lie at one place.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_dicom(std::unique_ptr<ByteSource> source,
                                                       const OpenOptions& options);
 

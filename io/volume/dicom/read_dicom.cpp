@@ -5,25 +5,30 @@
 #include <dcmtk/dcmdata/dcfcache.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
 #include <dcmtk/dcmdata/dcpixel.h>
-#include <dcmtk/dcmdata/dcrledrg.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "io/file/errors.h"
+#include "io/file/scratch/scratch_file.h"
+#include "io/file/source/file_source.h"
 #include "io/file/wall/apart.h"
+#include "io/names/cielab.h"
 #include "io/volume/dicom/dicom_segments.h"
+#include "io/volume/dicom/frame_unpacker.h"
 
 namespace mw::io {
 namespace {
 
-constexpr const char* kCheckDicom = "check that the file is complete, or export it again";
 constexpr std::size_t kPieceBytes = 1 << 20;
 constexpr std::size_t kMostNameBytes = 255;
 /// More would not fit the numbers of segments or the memory of the child.
-constexpr std::int32_t kMostSegments = 65535, kMostFrames = 1 << 22;
+constexpr std::int32_t kMostSegmentNumber = 65535, kMostFrames = 1 << 22;
+/// Label Map Segmentation Storage, which DCMTK 3.6.7 has no name for.
+constexpr const char* kLabelMapClass = "1.2.840.10008.5.1.4.1.1.66.7";
 
 /// What the child sends first; then segments, frames and the bytes of the pixels.
 struct SentSizes {
@@ -35,6 +40,7 @@ struct SentSizes {
 struct SentSegment {
   std::int32_t number = 0;
   std::array<char, kMostNameBytes + 1> name{};  ///< ends with 0
+  Colour colour{};                              ///< four zeros: it has none
 };
 
 std::uint64_t pixel_bytes_of(const DicomGrid& grid, std::uint64_t frames) {
@@ -47,13 +53,12 @@ std::uint64_t pixel_bytes_of(const DicomGrid& grid, std::uint64_t frames) {
 class DicomReader {
  public:
   DicomReader(const std::string& path, const std::string& name) : name_(name) {
-    DcmRLEDecoderRegistration::registerCodecs();
     constexpr Uint32 kMostInMemory = 4096;  // pixels stay on the disk
     check(file_.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, kMostInMemory), "structure");
     data_ = file_.getDataset();
     OFString kind;
     data_->findAndGetOFString(DCM_SOPClassUID, kind);
-    if (kind != UID_SegmentationStorage) {
+    if (kind != UID_SegmentationStorage && kind != kLabelMapClass) {
       fail_input(name_, "SOP Class UID", "the file is DICOM, but no segmentation",
                  "images have no labels: export a DICOM segmentation, NIfTI or NRRD file of them, "
                  "for instance with 3D Slicer");
@@ -68,23 +73,23 @@ class DicomReader {
     read_frames();
     read_grid();
     read_segments();
-    DcmElement* pixels = nullptr;
-    check(data_->chooseRepresentation(EXS_LittleEndianExplicit, nullptr), "Pixel Data");
-    check(data_->findAndGetElement(DCM_PixelData, pixels), "Pixel Data");
+    match_frames();
+    DcmPixelData& pixels = pixel_data();
     const SentSizes sizes{.grid = grid_,
                           .segments = segments_.size(),
                           .frames = frames_.size(),
                           .pixel_bytes = pixel_bytes_of(grid_, frames_.size())};
-    if (pixels->getLength() < sizes.pixel_bytes) {
-      fail_input(
-          name_, "Pixel Data",
-          text("has ", pixels->getLength(), " bytes, and the frames need ", sizes.pixel_bytes),
-          kCheckDicom);
+    std::optional<FrameUnpacker> unpacker;
+    if (DcmXfer(data_->getOriginalXfer()).isEncapsulated()) {
+      unpacker.emplace(*data_, pixels, grid_, name_);
+    } else {
+      check_length(pixels, sizes.pixel_bytes);
     }
     send(std::as_bytes(std::span(&sizes, 1)));
     send(std::as_bytes(std::span(segments_)));
     send(std::as_bytes(std::span(frames_)));
-    send_pixels(*pixels, sizes.pixel_bytes, send);
+    if (!unpacker) return send_plain(pixels, sizes.pixel_bytes, send);
+    for (std::size_t i = 0; i < frames_.size(); ++i) send(unpacker->next());
   }
 
  private:
@@ -97,7 +102,23 @@ class DicomReader {
     if (!met) fail_input(name_, attribute, otherwise, kCheckDicom);
   }
 
-  void send_pixels(DcmElement& pixels, std::uint64_t bytes, const SendBytes& send) const {
+  [[nodiscard]] DcmPixelData& pixel_data() const {
+    DcmElement* found = nullptr;
+    check(data_->findAndGetElement(DCM_PixelData, found), "Pixel Data");
+    auto* const pixels = dynamic_cast<DcmPixelData*>(found);
+    demand(pixels != nullptr, "Pixel Data", "has no pixels");
+    return *pixels;
+  }
+
+  /// A label map with more bytes than one to make their number even has voxels of another size.
+  void check_length(DcmPixelData& pixels, std::uint64_t bytes) const {
+    const std::uint64_t length = pixels.getLength();
+    const bool may_be_longer = grid_.voxels == DicomVoxels::kMasks;
+    demand(length >= bytes && (may_be_longer || length <= bytes + 1), "Pixel Data",
+           text("has ", length, " bytes, and the frames need ", bytes));
+  }
+
+  void send_plain(DcmPixelData& pixels, std::uint64_t bytes, const SendBytes& send) const {
     std::vector<std::byte> piece;
     DcmFileCache cache;
     for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
@@ -119,6 +140,16 @@ class DicomReader {
   [[nodiscard]] std::int32_t whole(const DcmTagKey& key) const {
     const double value = number(data_, key);
     return value >= 0 && value <= 1e9 ? static_cast<std::int32_t>(value) : -1;
+  }
+
+  /// What the segment is shown in; four zeros where there is none.
+  [[nodiscard]] static Colour colour_of(DcmItem* segment) {
+    const Uint16* values = nullptr;
+    unsigned long count = 0;
+    const OFCondition found =
+        segment->findAndGetUint16Array(DCM_RecommendedDisplayCIELabValue, values, &count);
+    if (found.bad() || values == nullptr || count != 3) return {};
+    return srgb_of(cielab_of({values[0], values[1], values[2]}));
   }
 
   /// A functional group: the frame's own, or the one that all frames share.
@@ -192,35 +223,60 @@ class DicomReader {
     grid_.bits = whole(DCM_BitsAllocated);
     OFString type;
     data_->findAndGetOFString(DCM_SegmentationType, type);
-    const bool is_binary = type == "BINARY" && grid_.bits == 1;
-    const bool is_fractional = type == "FRACTIONAL" && grid_.bits == 8;
-    if (!is_binary && !is_fractional) {
+    if (type == "LABELMAP" && (grid_.bits == 8 || grid_.bits == 16)) {
+      read_label_type();
+    } else if (type == "FRACTIONAL" && grid_.bits == 8) {
+      const std::int32_t most = whole(DCM_MaximumFractionalValue);
+      demand(most >= 1 && most <= 255, "Maximum Fractional Value", "is not from 1 to 255");
+      grid_.threshold = (most + 1) / 2;
+    } else if (type != "BINARY" || grid_.bits != 1) {
       fail_input(name_, "Segmentation Type",
-                 text("'", type.c_str(), "' of ", grid_.bits, " bits is not read"),
+                 text("'", clean_name(type.c_str()), "' of ", grid_.bits, " bits is not read"),
                  "export it as BINARY, or as NIfTI or NRRD");
     }
-    const std::int32_t most = is_binary ? 1 : whole(DCM_MaximumFractionalValue);
-    demand(most >= 1 && most <= 255, "Maximum Fractional Value", "is not from 1 to 255");
-    grid_.threshold = (most + 1) / 2;
+  }
+
+  /// Colours of a palette do not matter, as voxels are numbers of segments with one, too.
+  void read_label_type() {
+    demand(whole(DCM_SamplesPerPixel) == 1, "Samples per Pixel",
+           "is not 1, and a voxel of a label map has one number");
+    demand(whole(DCM_PixelRepresentation) == 0, "Pixel Representation",
+           "is not 0, and numbers of segments have no sign");
+    const std::int32_t largest = (1 << grid_.bits) - 1;
+    grid_.voxels = DicomVoxels::kLabels;
+    grid_.background = whole(DCM_PixelPaddingValue);
+    demand(grid_.background >= 0 && grid_.background <= largest, "Pixel Padding Value",
+           text("is not from 0 to ", largest));
   }
 
   void read_segments() {
+    const std::int32_t least = grid_.voxels == DicomVoxels::kLabels ? 0 : 1;
     DcmSequenceOfItems* sequence = nullptr;
     check(data_->findAndGetSequence(DCM_SegmentSequence, sequence), "Segment Sequence");
     DcmObject* next = nullptr;
     while ((next = sequence->nextInContainer(next)) != nullptr) {
       auto* const item = dynamic_cast<DcmItem*>(next);
       if (item == nullptr) continue;
+      demand(item->tagExistsWithValue(DCM_SegmentNumber), "Segment Number", "a segment has none");
       SentSegment out{.number = static_cast<std::int32_t>(number(item, DCM_SegmentNumber))};
-      demand(out.number >= 1 && out.number <= kMostSegments, "Segment Number",
-             text(out.number, " is not from 1 to ", kMostSegments));
+      demand(out.number >= least && out.number <= kMostSegmentNumber, "Segment Number",
+             text(out.number, " is not from ", least, " to ", kMostSegmentNumber));
       OFString label;
       item->findAndGetOFString(DCM_SegmentLabel, label);
       const std::string_view kept(label.c_str(), std::min(label.size(), kMostNameBytes));
       std::copy(kept.begin(), kept.end(), out.name.begin());
+      out.colour = colour_of(item);
       segments_.push_back(out);
     }
-    for (const DicomFrame& frame : frames_) {
+  }
+
+  /// REQUIRES: segments were read.
+  void match_frames() {
+    for (DicomFrame& frame : frames_) {
+      if (grid_.voxels == DicomVoxels::kLabels) {
+        frame.segment = kAllSegments;
+        continue;
+      }
       const bool is_known = std::any_of(segments_.begin(), segments_.end(),
                                         [&](const auto& s) { return s.number == frame.segment; });
       demand(is_known, "Referenced Segment Number",
@@ -258,7 +314,7 @@ class DicomReceiver {
   void receive(ApartStream& stream) {
     SentSizes sizes;
     if (!stream.read(std::as_writable_bytes(std::span(&sizes, 1)))) return;
-    if (sizes.segments > kMostSegments || sizes.frames > kMostFrames ||
+    if (sizes.segments > kMostSegmentNumber + 1 || sizes.frames > kMostFrames ||
         sizes.pixel_bytes != pixel_bytes_of(sizes.grid, sizes.frames)) {
       return;
     }
@@ -271,7 +327,9 @@ class DicomReceiver {
     result_.grid = sizes.grid;
     for (SentSegment& s : segments) {
       s.name.back() = '\0';
-      result_.segments.push_back({s.number, s.name.data()});
+      result_.segments.push_back(
+          {.number = s.number, .name = clean_name(s.name.data()), .colour = {}});
+      if (s.colour != Colour{}) result_.segments.back().colour = s.colour;
     }
     receive_pixels(stream, sizes.pixel_bytes);
   }
@@ -287,14 +345,14 @@ class DicomReceiver {
 
  private:
   void receive_pixels(ApartStream& stream, std::uint64_t bytes) {
-    auto pixels = std::make_shared<UnlinkedFile>(scratch_folder());
+    UnlinkedFile pixels(scratch_folder());
     std::vector<std::byte> piece;
     for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
       piece.resize(std::min<std::uint64_t>(kPieceBytes, bytes - at));
       if (!stream.read(piece)) return;
-      pixels->write_at(at, piece);
+      pixels.write_at(at, piece);
     }
-    result_.pixels = std::move(pixels);
+    result_.pixels = std::make_shared<FileSource>(pixels.release(), bytes, name_);
     is_complete_ = true;
   }
 

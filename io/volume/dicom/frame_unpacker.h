@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Packed pixels of a DICOM file through DCMTK.  To be used where DCMTK sees the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/volume/dicom/dicom_segments.h"
+
+class DcmDataset;
+class DcmPixelData;
+class DcmPixelSequence;
+
+namespace mw::io {
+
+/// Unpacks the frames of a file in RLE, JPEG-LS or lossless JPEG, one after the other.
+class FrameUnpacker {
+ public:
+  /// REQUIRES: data, pixels, grid and file stay as long as this does.
+  /// ERRORS: mw::Error(kInput) for packings that DCMTK does not undo, and for those that do not
+  /// keep the numbers of voxels.
+  FrameUnpacker(DcmDataset& data, DcmPixelData& pixels, const DicomGrid& grid,
+                const std::string& file);
+
+  /// Returns the voxels of the next frame, as DicomSegments has them, until the next call.
+  /// ERRORS: mw::Error(kInput) naming the frame if it is damaged: also if DCMTK goes on with a
+  /// warning.
+  [[nodiscard]] std::span<const std::byte> next();
+
+ private:
+  [[noreturn]] void fail(const std::string& fault) const;
+  [[nodiscard]] std::string fault_of_header() const;
+
+  DcmDataset& data_;
+  DcmPixelData& pixels_;
+  DcmPixelSequence* fragments_ = nullptr;
+  const DicomGrid& grid_;
+  const std::string& file_;
+  bool is_rle_ = false;
+  std::uint32_t fragment_ = 1;  ///< the first of the next frame; 0 is a table
+  std::uint32_t frame_ = 0;
+  std::size_t frame_bytes_ = 0;
+  std::vector<std::byte> voxels_;
+};
+
+}  // namespace mw::io
