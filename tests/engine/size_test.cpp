@@ -7,6 +7,7 @@
 #include "kernels/audit/shape/quality.h"
 #include "kernels/audit/topology/betti.h"
 #include "kernels/core/index.h"
+#include "kernels/core/layers.h"
 #include "tests/engine/memory_run.h"
 #include "tests/expect_error.h"
 
@@ -25,7 +26,7 @@ std::vector<Label> labels_of(const SmallVolume& volume) {
 
 double diagonal_of(const Trial& trial) {
   const MemoryVolume volume(trial.volume, trial.frame);
-  const Index3 layers = mw::layers_of(volume.info().space.spacing);
+  const Index3 layers = layers_of(volume.info().space.spacing);
   const auto& s = trial.frame.spacing;
   return std::hypot(s[0] / static_cast<double>(layers.x), s[1] / static_cast<double>(layers.y),
                     s[2] / static_cast<double>(layers.z));
