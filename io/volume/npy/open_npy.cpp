@@ -89,13 +89,15 @@ std::vector<std::int64_t> parse_tuple(std::string_view value, std::string_view f
              "reshape or pick one channel");
 }
 
-/// Finds the components, too.
-Index3 parse_shape(std::string_view value, NpyHeader& header, std::string_view file) {
+/// Finds the components, too, where voxels have scores.
+Index3 parse_shape(std::string_view value, NpyHeader& header, VoxelValues values,
+                   std::string_view file) {
   std::vector<std::int64_t> axes = parse_tuple(value, file);
   if (axes.size() == 2) axes.insert(axes.begin(), 1);
   // One volume of a series, or one channel.
   while (axes.size() > 3 && axes.front() == 1) axes.erase(axes.begin());
-  while (axes.size() > 3 && axes.back() == 1) axes.pop_back();
+  const std::size_t most = values == VoxelValues::kLabels ? 3 : 4;
+  while (axes.size() > most && axes.back() == 1) axes.pop_back();
   if (axes.size() == 4 && axes.front() > 1 && axes.front() <= kMaxComponents) {
     header.components = axes.front();
     axes.erase(axes.begin());
@@ -133,7 +135,7 @@ NpyPrefix parse_npy_prefix(std::span<const std::byte> bytes, std::string_view fi
   return prefix;
 }
 
-NpyHeader parse_npy_dict(std::string_view dict, std::string_view file) {
+NpyHeader parse_npy_dict(std::string_view dict, VoxelValues values, std::string_view file) {
   NpyHeader header;
   parse_descr(parse_quoted(value_of(dict, "descr", file), file), header, file);
   const std::string_view fortran = value_of(dict, "fortran_order", file);
@@ -141,7 +143,7 @@ NpyHeader parse_npy_dict(std::string_view dict, std::string_view file) {
   if (!header.fortran_order && !fortran.starts_with("False")) {
     fail_input(file, "npy header 'fortran_order'", "neither True nor False");
   }
-  header.shape = parse_shape(value_of(dict, "shape", file), header, file);
+  header.shape = parse_shape(value_of(dict, "shape", file), header, values, file);
   return header;
 }
 
@@ -192,7 +194,7 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
   }
   std::string dict(prefix.dict_length, '\0');
   source->read_at(prefix.dict_offset, std::as_writable_bytes(std::span(dict)));
-  const NpyHeader header = parse_npy_dict(dict, source->name());
+  const NpyHeader header = parse_npy_dict(dict, options.values, source->name());
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "npy", .is_placed = false};
   info.z_fastest = header.fortran_order;
   info.space = placed(source->name(), {}, options);

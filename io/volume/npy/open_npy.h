@@ -37,7 +37,8 @@ struct NpyHeader {
 
 /// ERRORS of both: mw::Error(kInput) naming file and field.
 [[nodiscard]] NpyPrefix parse_npy_prefix(std::span<const std::byte> bytes, std::string_view file);
-[[nodiscard]] NpyHeader parse_npy_dict(std::string_view dict, std::string_view file);
+[[nodiscard]] NpyHeader parse_npy_dict(std::string_view dict, VoxelValues values,
+                                       std::string_view file);
 
 /// A whole version 1.0 header, padded to a multiple of 64 bytes, for a C-order array [z, y, x].
 [[nodiscard]] std::string format_npy_header(const VolumeInfo& info);

@@ -22,11 +22,9 @@ struct Fields {
   [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(values.size()); }
 };
 
-/// Eighths from -1 to 1, so that many are equal.  Along x there are two voxels or more, as a .npy
-/// file's last axis of one element is dropped.
+/// Eighths from -1 to 1, so that many are equal.
 Fields random_fields(Random& random, std::size_t components) {
   Fields out{.shape = pick_shape(random, 7), .values = {}};
-  out.shape.x = std::max<std::int64_t>(out.shape.x, 2);
   for (std::size_t c = 0; c < components; ++c) {
     std::vector<float>& one = out.values.emplace_back();
     for (std::size_t v = 0; v < out.voxels(); ++v) {
