@@ -291,6 +291,8 @@ struct Mesh {
   std::map<std::string, std::vector<double>> values{};
   std::string report;  ///< JSON, the keys of `mwmesh mesh --report`; empty when there is none
   std::string record;  ///< one line of JSON about the run that made it, which files keep
+  /// Each eight tets are the straight parts of a curved one, as read() has them.
+  bool in_parts = false;
 };
 
 /// Takes a mesh that need not be in memory: begin, then points and tets by turns, then finish.

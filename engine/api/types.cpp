@@ -85,7 +85,8 @@ mwmesh::Mesh library_mesh(io::MeshData&& mesh) {
           .names = library_names(mesh.names),
           .values = std::move(values),
           .report = {},
-          .record = io::record_text(mesh.record)};
+          .record = io::record_text(mesh.record),
+          .in_parts = mesh.in_parts};
 }
 
 std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
@@ -119,6 +120,7 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
                         .labels_signed = mesh.labels_are_signed,
                         .names = io_names(mesh.names),
                         .record = io::parse_record(mesh.record, "mesh")};
+  header.in_parts = mesh.in_parts;
   if (values) {
     for (const auto& [name, column] : mesh.values) header.values.push_back(name);
   }

@@ -31,7 +31,7 @@ class Extras : public io::NoSink {
  public:
   void begin(const io::MeshHeader& header) override {
     values_ = header.values;
-    is_curved_ = header.record.curved;
+    is_curved_ = header.in_parts;
   }
   [[nodiscard]] const std::vector<std::string>& values() const { return values_; }
   [[nodiscard]] bool is_curved() const { return is_curved_; }
@@ -72,11 +72,10 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
   return io::open_mesh_pieces(job.to, job.pieces);
 }
 
-/// Says what the new file does not have.
+/// Says what the new file does not have, or not as the mesh had it.
 void tell_left_out(const ConvertJob& job, const Extras& extras) {
-  if (extras.is_curved() && job.element != io::Element::kCurvedTet10) {
-    std::cout << "left out: curves of edges; --element tet10-curved keeps them" << std::endl;
-  }
+  if (extras.is_curved())
+    std::cout << "each curved tet is written as eight of its parts" << std::endl;
   const std::string why = io::why_no_values(job.to);
   if (extras.values().empty() || why.empty() || job.extras.materials) return;
   std::cout << "left out: values " << joined(extras.values(), ", ") << "; " << why << std::endl;

@@ -182,7 +182,7 @@ void KeptFacts::shrink_to(std::uint64_t folder_bytes) {
   }
 }
 
-/// Gives up so many bytes, or all that may go.  Returns false if there are none.
+/// Gives up at least that many bytes, or all that may go.  Returns false if there are none.
 bool KeptFacts::drop(std::uint64_t bytes) {
   std::vector<KeptBytes> kept;
   for (std::uint64_t window = 0; window < record_at_.size(); ++window) {

@@ -73,7 +73,7 @@ io::ContentDigest LabelDigests::of_voxels(const LabelBox& labels) const {
   return maker.finish();
 }
 
-/// As of_voxels() when all of them have that label.
+/// Returns what of_voxels() does when all of them have that label.
 io::ContentDigest LabelDigests::of_one_label(Label label, const Box3& voxels) const {
   const std::array<std::uint64_t, 2> run = run_of(label, static_cast<std::size_t>(voxels.voxels()));
   io::DigestMaker maker;

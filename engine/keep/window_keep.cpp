@@ -71,7 +71,7 @@ void WindowKeep::begin(const PreparedLabels& labels, const MeshSettings& setting
   if (kept_.has_dropped()) find_required();
 }
 
-/// As if all windows that may be recalled were.
+/// Looks windows up in their order as if all that may be recalled were.
 void WindowKeep::find_required() {
   const Recalls recalls = [this](const WindowKey& key) {
     const Known known = look_up(key);

@@ -301,6 +301,7 @@ void add_mesh(py::module_& module) {
       .def_readwrite("names", &Mesh::names)
       .def_readonly("report", &Mesh::report)
       .def_readwrite("record", &Mesh::record)
+      .def_readwrite("in_parts", &Mesh::in_parts)
       .def("digest", [](const Mesh& mesh) {
         const py::gil_scoped_release no_gil;
         return digest(mesh);

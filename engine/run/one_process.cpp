@@ -20,9 +20,8 @@ class WholeRun : public RunPart {
   [[nodiscard]] WorkFiles* work_files() override { return workdir_.get(); }
   [[nodiscard]] std::filesystem::path work_folder() const override { return folder_; }
   [[nodiscard]] BlockRouter* router() override { return nullptr; }
-  [[nodiscard]] std::unique_ptr<WindowKeep> open_keep(const std::filesystem::path& folder,
-                                                      const OpenKeep& open) override {
-    return open(folder);
+  [[nodiscard]] std::unique_ptr<WindowKeep> open_keep(const OpenKeep& open) override {
+    return open(0);
   }
   [[nodiscard]] std::shared_ptr<void> attach(RunStore& /*store*/) override { return nullptr; }
   [[nodiscard]] LabelPlan plan_labels(const io::DenseVolume& /*volume*/,

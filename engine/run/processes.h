@@ -41,8 +41,8 @@ struct LabelPlan {
   std::optional<LabelCounts> counts;  ///< of the whole volume; none: known once all are prepared
 };
 
-/// Opens what is kept for later runs in a folder.
-using OpenKeep = std::function<std::unique_ptr<WindowKeep>(const std::filesystem::path& folder)>;
+/// Opens what a process keeps for later runs (kept_part()).
+using OpenKeep = std::function<std::unique_ptr<WindowKeep>(int process)>;
 
 /// Thrown by a run that was asked to save its work and to stop (RunHooks::stop_after_save).
 struct StoppedAfterSave {};
@@ -59,10 +59,9 @@ class RunPart {
   [[nodiscard]] virtual std::filesystem::path work_folder() const = 0;
   /// Null when all blocks stay here.
   [[nodiscard]] virtual BlockRouter* router() = 0;
-  /// Calls `open` with the folder where this process keeps what it does, which is `folder` of the
-  /// run for the process that speaks, and lies inside it for the others, whose turn is later.
-  [[nodiscard]] virtual std::unique_ptr<WindowKeep> open_keep(const std::filesystem::path& folder,
-                                                              const OpenKeep& open) = 0;
+  /// Calls `open` with the number of this process; that of the one that speaks is 0, and its turn
+  /// comes first.
+  [[nodiscard]] virtual std::unique_ptr<WindowKeep> open_keep(const OpenKeep& open) = 0;
   /// Lets blocks come into the store from now on, until the result is destroyed.
   [[nodiscard]] virtual std::shared_ptr<void> attach(RunStore& store) = 0;
 

@@ -86,9 +86,9 @@ std::unique_ptr<WindowKeep> open_keep(RunContext& run, const io::VolumeInfo& inf
   const std::string settings =
       io::text(options.identity, "folder-format = ", kFolderFormat, "\nresults = ", results_id(),
                "\n", identity_text(info, run.settings));
-  return run.part->open_keep(options.folder, [&](const std::filesystem::path& folder) {
+  return run.part->open_keep([&](int process) {
     KeepOptions here = options;
-    if (folder != options.folder) here = {.folder = folder, .use = KeepUse::kGoOn};
+    if (process > 0) here = {.folder = kept_part(options.folder, process), .use = KeepUse::kGoOn};
     return std::make_unique<WindowKeep>(here, settings, run.layout, run.budget,
                                         run.lattice.labels().table(), run.hooks.store.group);
   });

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/team/team_processes.h"
 
-#include "engine/keep/keep_folder.h"
 #include "engine/run/run_context.h"
 #include "engine/team/output/team_output.h"
 #include "engine/team/saved/saved_run.h"
@@ -23,18 +22,17 @@ std::filesystem::path TeamPart::work_folder() const {
   return work_ ? work_->own_folder() : std::filesystem::path();
 }
 
-std::unique_ptr<WindowKeep> TeamPart::open_keep(const std::filesystem::path& folder,
-                                                const OpenKeep& open) {
+std::unique_ptr<WindowKeep> TeamPart::open_keep(const OpenKeep& open) {
   std::unique_ptr<WindowKeep> keep;
-  if (team_.is_first()) keep = open(folder);
+  if (team_.is_first()) keep = open(team_.rank());
   if (keep != nullptr && keep->has_facts()) {
     throw Error(ErrorKind::kUsage,
-                folder.string() +
+                keep->folder().string() +
                     ": holds what an earlier run has kept, which one process alone goes on from; "
                     "run mwmesh without mpirun, or delete the folder");
   }
   wait_for_all(team_);
-  if (!team_.is_first()) keep = open(kept_part(folder, team_.rank()));
+  if (!team_.is_first()) keep = open(team_.rank());
   return keep;
 }
 

@@ -27,8 +27,7 @@ class TeamPart : public RunPart {
   /// Every rank has a folder of its own; those that an earlier run has left in the first one's are
   /// gone before the others open theirs.
   /// ERRORS: mw::Error(kUsage) when an earlier run has kept something there.
-  [[nodiscard]] std::unique_ptr<WindowKeep> open_keep(const std::filesystem::path& folder,
-                                                      const OpenKeep& open) override;
+  [[nodiscard]] std::unique_ptr<WindowKeep> open_keep(const OpenKeep& open) override;
   [[nodiscard]] std::shared_ptr<void> attach(RunStore& store) override;
 
   /// Settles who visits what (Partition), by the counts of the whole volume, of which every rank

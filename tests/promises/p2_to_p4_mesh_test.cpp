@@ -40,15 +40,15 @@ TEST(Promise3Quality, FloorHoldsUnderStrongAnisotropy) {
   }
 }
 
-/// Without layers the start mesh may be below the floor; then the run is refused and names the one
-/// that it can keep, and keeps it.
+/// Layers leave voxels that are up to half as long again along one axis, so the start mesh may be
+/// below a high floor; then the run is refused and names the one that it can keep, and keeps it.
 TEST(Promise3Quality, FloorThatCannotBeKeptIsRefusedWithTheOneThatCan) {
   std::mt19937 random(112);
   int refused = 0;
   for (int i = 0; i < 150 && !HasFailure(); ++i) {
     Trial trial = random_trial(random, random_small(random, 1, 7, 4));
-    trial.frame = kThickFrames[below(random, 4)];
-    trial.settings.surface = Surface::kVoxel;
+    trial.frame = kThickFrames.back();
+    trial.settings.quality_floor = 0.3 + 0.1 * below(random, 3);
     try {
       expect_promises(trial, Counter::kAudit);
     } catch (const Error& e) {
@@ -63,7 +63,7 @@ TEST(Promise3Quality, FloorThatCannotBeKeptIsRefusedWithTheOneThatCan) {
       expect_promises(trial, Counter::kAudit);
     }
   }
-  EXPECT_GT(refused, 50);
+  EXPECT_GT(refused, 30);
 }
 
 /// What users get who set nothing.

@@ -172,7 +172,8 @@ std::vector<BarRow> memory_rows(const Json& purposes) {
 
 /// Whether an option of the input is not given, or says what it says anyway.
 bool is_fallback(const Json& value) {
-  return value.is_null() || (value.is_boolean() && !value.boolean()) || value == "file" || value == "labels";
+  return value.is_null() || (value.is_boolean() && !value.boolean()) || value == "file" ||
+         value == "labels";
 }
 
 std::string facts_table(const std::vector<std::array<std::string, 2>>& rows) {

@@ -11,10 +11,9 @@ True
 True
 """
 
-import difflib
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -22,8 +21,8 @@ from . import _core
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
                       MissingPackageError, ResourceError, UsageError)
 from ._mesh import Materials, Mesh, Surface, Verdict
-from ._values import (count, file_options, label, naming, numbers, path_bytes, switch, text,
-                      unexpected, whole)
+from ._values import (check_names, count, file_options, label, naming, numbers, path_bytes,
+                      switch, text, unexpected, whole)
 from ._session import Session
 from ._volume import PLACE, as_volume
 
@@ -44,7 +43,10 @@ def _setting_text(value):
         return "none"
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
-    return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)
+    if not isinstance(value, (float, np.floating)):
+        return str(value)
+    number = float(value)
+    return str(int(number)) if number.is_integer() else repr(number)
 
 
 def _size_text(volume, value):
@@ -82,13 +84,15 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     options.split = _pairs_text(volume, split, "split")
     options.cohesive = _pairs_text(volume, cohesive, "cohesive")
     options.open_hinges = switch(open_hinges, "open_hinges")
+    if merge is not None and not isinstance(merge, Mapping):
+        raise unexpected("merge", "{label: label that it becomes}", merge)
     options.merge = {label(volume, a, "merge"): label(volume, b, "merge")
                      for a, b in (merge or {}).items()}
-    specks, corners = drop_specks if isinstance(drop_specks, tuple) else (drop_specks, 6)
-    options.drop_specks = count(specks or 0, "drop_specks")
-    if corners not in (6, 26):
+    specks = drop_specks if isinstance(drop_specks, tuple) else (drop_specks, 6)
+    if len(specks) != 2 or specks[1] not in (6, 26):
         raise unexpected("drop_specks", "voxels, or (voxels, 26)", drop_specks)
-    options.specks_joined_by_corners = corners == 26
+    options.drop_specks = count(specks[0] or 0, "drop_specks")
+    options.specks_joined_by_corners = specks[1] == 26
     options.weld = _labels(volume, weld, "weld")
     options.workdir = path_bytes(workdir, "workdir") if workdir is not None else ""
     options.resume = switch(resume, "resume")
@@ -96,6 +100,8 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
     if keep_bytes is not None:
         options.keep_bytes = _bytes(keep_bytes, "keep_bytes")
     options.from_kept = switch(from_kept, "from_kept")
+    if not isinstance(changed, (list, tuple)):
+        raise unexpected("changed", "a list of boxes", changed)
     options.changed = [_box(box, "changed") for box in changed]
     options.sample = _samples({} if sample is None else sample)
     known = {"auto": _core.Certify.auto, "on": _core.Certify.on, "off": _core.Certify.off}
@@ -117,7 +123,8 @@ def _labels(volume, value, name):
     """The labels of a list or of one label; none without a value."""
     if value is None:
         return []
-    wanted = [value] if isinstance(value, str) or np.ndim(value) == 0 else value
+    is_one = isinstance(value, str) or not isinstance(value, Iterable)
+    wanted = [value] if is_one or getattr(value, "ndim", 1) == 0 else value
     labels = [label(volume, one, name) for one in wanted]
     if not labels:
         raise UsageError(f"{name}: the list is empty")
@@ -190,25 +197,15 @@ _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks",
             "parts", "split", "cohesive", "open_hinges", "weld")
 
 
-def _check_known(arguments):
-    known = settings()
-    for name in arguments:
-        if name in known:
-            continue
-        near = difflib.get_close_matches(name, [*PLACE, "names", *_OPTIONS, "progress", *known], 1)
-        guess = f"did you mean {near[0]}?" if near else "there are " + ", ".join(known)
-        raise UsageError(f"{name}: no such argument or setting; {guess}")
-
-
 def _run(call, volume, arguments, progress):
     place = {k: arguments.pop(k) for k in (*PLACE, "names") if k in arguments}
     options = {k: arguments.pop(k) for k in _OPTIONS if k in arguments}
-    _check_known(arguments)
+    check_names(arguments, settings(), (*PLACE, "names", *_OPTIONS, "progress"))
     if place.get("object") is not None and not {"labels", "background"} & options.keys():
         options["labels"] = place["object"]
     volume = as_volume(volume, **place)
     settings_text = {k: _size_text(volume, v) if k == "size" else _setting_text(v)
-                     for k, v in arguments.items()}
+                     for k, v in arguments.items() if k != "size" or v is not None}
     bar = _progress(progress)
     try:
         return call(volume, settings_text, _options(volume, **options), bar)

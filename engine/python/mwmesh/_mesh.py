@@ -48,11 +48,12 @@ def _areas(points, triangles):
     return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
 
 
-def _restored(points, tets, labels, names, record, values):
+def _restored(points, tets, labels, names, record, in_parts, values):
     """Returns a mesh from the parts of its pickle."""
     mesh = Mesh(points, tets, labels)
     mesh._core.names = [_core.LabelName(*row) for row in names]
     mesh._core.record = record
+    mesh._core.in_parts = in_parts
     for name, column in values.items():
         mesh._core.set_values(name, column)
     return mesh
@@ -147,7 +148,8 @@ class Mesh:
     def __reduce__(self):
         rows = [(row.label, row.name, row.colour) for row in self._core.names]
         arrays = self.points, self.tets, self.labels
-        return _restored, (*arrays, rows, self._core.record, self.values), {"report": self.report}
+        run = self._core.record, self._core.in_parts
+        return _restored, (*arrays, rows, *run, self.values), {"report": self.report}
 
     @property
     def points(self):
@@ -382,15 +384,17 @@ class Mesh:
         return _core.picture(self._core, 800, 600) if 0 < len(self.tets) <= most else None
 
     def to_meshio(self):
-        """Returns a meshio.Mesh with cell data "label"; names are field data {name: [label, 3]}."""
+        """Returns a meshio.Mesh of the tets with cell data "label"; names are field data
+        {name: [label, 3]}.  Files of :meth:`save` have wedges, too."""
         meshio = _package("meshio")
         data = {"label": [self.labels]} | {name: [row] for name, row in self.values.items()}
         return meshio.Mesh(self.points, [("tetra", self.tets)], cell_data=data,
-                           field_data={name: np.array([label, 3])
+                           field_data={name: np.array([label, 3], self.labels.dtype)
                                        for label, name in self.names.items()})
 
     def to_vtk(self):
-        """Returns a vtkUnstructuredGrid with the cell array "label".  Names and colours are the
+        """Returns a vtkUnstructuredGrid of the tets with the cell array "label"; files of
+        :meth:`save` have wedges, too.  Names and colours are the
         field arrays "label_id", "label_name" and "label_colour", with a row for each label."""
         _package("vtkmodules")
         from vtkmodules.util import numpy_support

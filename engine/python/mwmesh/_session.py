@@ -55,9 +55,13 @@ class Session:
             self._folder = tempfile.TemporaryDirectory(prefix="mwmesh-session-")
             keep = self._folder.name
         self._keep = keep
-        usual = "xyz" if "affine" in settings else "zyx"
-        self._is_zyx = settings.get("axes", usual) == "zyx"
+        usual = "zyx" if settings.get("affine") is None else "xyz"
+        self._is_zyx = (settings.get("axes") or usual) == "zyx"
         self._last = self._run()
+
+    def __reduce_ex__(self, protocol):
+        raise UsageError("a session has a folder of its own and cannot be copied; "
+                         "begin another one with session.array")
 
     @property
     def array(self):

@@ -4,6 +4,7 @@
 names the argument; the core checks which numbers are allowed, the same for all its callers."""
 
 import contextlib
+import difflib
 import operator
 import os
 
@@ -16,6 +17,16 @@ from ._errors import Error, UsageError
 def unexpected(name, expected, value):
     """Returns the error for a value that is not what was expected."""
     return UsageError(f"{name}: expected {expected}, got {value!r}")
+
+
+def check_names(arguments, known, others=()):
+    """Refuses arguments that are neither known nor one of the others, and guesses what was meant."""
+    for name in arguments:
+        if name in known or name in others:
+            continue
+        near = difflib.get_close_matches(name, [*known, *others], 1)
+        guess = f"did you mean {near[0]}?" if near else "there are " + ", ".join(known)
+        raise UsageError(f"{name}: no such argument or setting; {guess}")
 
 
 @contextlib.contextmanager

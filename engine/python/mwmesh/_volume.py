@@ -8,8 +8,8 @@ import numpy as np
 
 from . import _core
 from ._errors import UsageError
-from ._values import (name_rows, numbers, path_bytes, text, three, unexpected, whole,
-                      whole_numbers)
+from ._values import (check_names, name_rows, numbers, path_bytes, switch, text, three,
+                      unexpected, whole, whole_numbers)
 
 #: Arrays are indexed [z, y, x], as .npy, HDF5, Zarr and TIFF have them, unless told otherwise.
 AXES = ("zyx", "xyz")
@@ -32,6 +32,15 @@ def _image_array(image):
     return np.asanyarray(proxy)
 
 
+def _image_affine(image, frame):
+    """Returns the affine of a nibabel image, whose frame is RAS, in that frame.  Numbers of 32 bits
+    are what their shortest decimals say, as for files."""
+    affine = np.asarray(image.affine, dtype=float)
+    if np.array_equal(affine, affine.astype(np.float32)):
+        affine = np.array([[float(str(v)) for v in row] for row in affine.astype(np.float32)])
+    return np.diag([-1.0, -1.0, 1.0, 1.0]) @ affine if frame == "lps" else affine
+
+
 def _image_unit(image):
     units = getattr(image.header, "get_xyzt_units", None)
     return {"mm": "mm", "meter": "m", "micron": "um"}.get(units()[0], "") if units else ""
@@ -42,7 +51,7 @@ def _space(spacing, origin, affine, frame, unit):
         if spacing is not None or origin is not None:
             raise UsageError("affine: spacing and origin follow from it, leave them out")
         matrix = numbers(affine, "affine", "a matrix of 4 x 4 or 3 x 4", (3, 4), (4, 4))
-        if not np.array_equal(matrix[3:], [[0, 0, 0, 1]][:len(matrix) - 3]):
+        if len(matrix) == 4 and not np.array_equal(matrix[3], [0, 0, 0, 1]):
             raise UsageError("affine: the last of four rows must be 0, 0, 0, 1")
         space = _core.space_of_affine(matrix[:3].tolist(), frame or "own")
     else:
@@ -99,7 +108,7 @@ def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, 
         None if scale is None else whole(scale, "scale", 32), three(spacing, "spacing"),
         three(origin, "origin"), frame or "file", box, text(overlap, "overlap"),
         text(values, "values") or "labels", np.asarray(wanted).view(np.uint64).tolist(),
-        bool(trust_paths), "" if cache is None else path_bytes(cache, "cache"))
+        False if trust_paths is None else switch(trust_paths, "trust_paths"), "" if cache is None else path_bytes(cache, "cache"))
 
 
 def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop,
@@ -116,8 +125,10 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
             "dataset, scale, crop, overlap, values, object, trust_paths and cache are for files: "
             "slice the array")
     if _is_image(source):
-        if affine is None and spacing is None and origin is None:
-            affine, frame = source.affine, frame or "ras"
+        if spacing is not None or origin is not None:
+            raise UsageError("spacing, origin: an image tells where it lies; give affine instead")
+        if affine is None:
+            affine, frame = _image_affine(source, frame), frame or "ras"
         unit_text = _image_unit(source) if unit is None else unit_text
         source, axes = _image_array(source), axes or "xyz"
     axes = axes or ("xyz" if affine is not None else "zyx")
@@ -135,6 +146,7 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
 def as_volume(source, *, names=None, **place):
     """Returns a volume from a path, a nibabel image, a numpy array, or an array that is read by
     region (h5py, Zarr, dask: an object with shape, dtype and slices).  See mwmesh.mesh()."""
+    check_names(place, PLACE)
     if not isinstance(source, _core.Volume):
         source = _volume(source, **{**dict.fromkeys(PLACE), **place})
     elif place:

@@ -33,7 +33,7 @@ class ExtentAllocator {
 
   /// Nothing when no free run is long enough.  REQUIRES: size > 0.
   [[nodiscard]] std::optional<Extent> allocate(std::uint64_t size);
-  /// As allocate(), at the lowest offset and before `end` as a whole.  Cost: linear in the number
+  /// Takes the lowest place that is before `end` as a whole.  Cost: linear in the number
   /// of free runs.
   [[nodiscard]] std::optional<Extent> allocate_before(std::uint64_t end, std::uint64_t size);
   /// Takes a given extent, as when an index is read back.

@@ -85,8 +85,9 @@ class Documentation(unittest.TestCase):
 
     def test_types_are_of_what_there_is(self):
         stub = pathlib.Path(mwmesh.__file__).with_suffix(".pyi")
-        stubs = {}
-        for node in ast.walk(ast.parse(stub.read_text(encoding="utf-8"))):
+        stubs, module = {}, ast.parse(stub.read_text(encoding="utf-8")).body
+        of_mesh = next(node.body for node in module if getattr(node, "name", "") == "Mesh")
+        for node in [*of_mesh, *module]:
             if isinstance(node, ast.FunctionDef):
                 arguments = node.args.posonlyargs + node.args.args + node.args.kwonlyargs
                 stubs[node.name] = {argument.arg for argument in arguments}
@@ -163,6 +164,28 @@ class SameMesh(InFolder):
         part = mwmesh.mesh(self.path("v.npy"), crop=((2, 3, 4), (20, 15, 16)))
         self.assertEqual(part.digest,
                          mwmesh.mesh(self.labels[4:16, 3:15, 2:20], origin=(2, 3, 4)).digest)
+
+    def test_curved_tets_that_were_read_are_judged_as_the_program_does(self):
+        labels = grains()
+        mwmesh.mesh(labels).save(self.path("c.vtu"), element="tet10-curved")
+        read = mwmesh.read(self.path("c.vtu"))
+        verdict = read.verify(labels)
+        self.assertTrue(verdict)
+        self.assertIn("P2 Jacobians", [check[0] for check in verdict.checks])
+        self.assertTrue(pickle.loads(pickle.dumps(read)).verify(labels))
+
+    @needs("nibabel")
+    def test_images_lie_where_their_files_do(self):
+        import nibabel
+        data = grains().astype(np.uint8)
+        turn = np.array([[.6, -.8, 0, 3], [.8, .6, 0, -7.3], [0, 0, 1.1, .4], [0, 0, 0, 1]])
+        for affine in (np.diag([.7, .7, 1.1, 1]), np.diag([-.7, .9, 3, 1]), turn):
+            nibabel.save(nibabel.Nifti1Image(data, affine), self.path("i.nii"))
+            for frame in (None, "ras", "lps"):
+                made = mwmesh.mesh(nibabel.load(self.path("i.nii")), frame=frame)
+                self.assertEqual(made.digest, mwmesh.mesh(self.path("i.nii"), frame=frame).digest)
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.mesh(nibabel.load(self.path("i.nii")), spacing=1)
 
     @needs("nibabel")
     def test_nibabel_images(self):
@@ -796,13 +819,22 @@ class Errors(InFolder):
             "split": ("1|2", 3, [1], [(1, 1)], [(1, 2, 0)], [(1, "x")], [(1, 77)]),
             "cohesive": ("1|2", 3, [(1, 1)], [(1, 77)], [(0, 1), (1, 0)]),
             "size": ({1: -1}, {1: nan}, {1: "x"}, {"Liver": 3}, {2**64: 3}),
-            "window": (5, 1e3, 2**40, True, nan, "x", [32]), "max_distance": (nan, inf, -1, "x"),
+            "window": (5, 1001.0, 2**40, True, nan, "x", [32]), "max_distance": (nan, inf, -1, "x"),
             "surface": ("smoth", 1), "preset": ("quick",), "gradation": (0.2, -1),
         }
+        values["merge"] += ([(1, 2)],)
+        values["drop_specks"] += ((5,),)
+        values["changed"] = (5, [5])
         for name, bad in values.items():
             for value in bad:
                 with self.subTest(name=name, value=value):
                     self.check(ValueError, name, labels, **{name: value})
+        self.check(ValueError, "did you mean spacing", labels, call=mwmesh.as_volume, spacings=1)
+        self.check(ValueError, "max_distance", labels, call=mwmesh.mesh(labels).verify, max_distance=1)
+        self.assertEqual(mwmesh.mesh(labels, affine=np.eye(4)[:3]).digest,
+                         mwmesh.mesh(labels, affine=np.eye(4)).digest)
+        self.assertEqual(mwmesh.mesh(labels, labels={1, 2}, count=500.0).digest,
+                         mwmesh.mesh(labels, labels=[1, 2], count=500).digest)
         np.save(self.path("v.npy"), labels)
         values = {"spacing": (-1, nan, (1, 1)), "origin": (inf,), "scale": (-1, 2**40, 0.5, 0),
                   "dataset": (3, "a"), "frame": ("mni",),
@@ -916,6 +948,17 @@ class Sessions(InFolder):
         self.assertLess(sizes[1], sizes[0])
         with self.assertRaises(mwmesh.UsageError):
             mwmesh.mesh(grains(), keep_bytes="1GB")
+
+    def test_arguments_that_are_none_are_not_given(self):
+        session = mwmesh.Session(grains(), affine=None, axes=None, window=8)
+        session.update(((2, 3, 4), (5, 6, 6)), 1)
+        self.expect_fresh(session)
+
+    def test_a_session_cannot_be_copied(self):
+        session = mwmesh.Session(grains(), window=8)
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaises(mwmesh.UsageError):
+                copied(session)
 
     def test_edits_that_make_no_sense_change_nothing(self):
         session = mwmesh.Session(grains().astype(np.uint8), keep=self.path("kept"), window=8)

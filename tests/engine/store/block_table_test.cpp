@@ -177,7 +177,7 @@ class Sectors {
     }
     return longest * kSector;
   }
-  /// The lowest place for so many bytes.
+  /// The lowest place for that many bytes.
   [[nodiscard]] std::optional<std::uint64_t> first_free(std::uint64_t bytes) const {
     std::uint64_t run = 0;
     for (std::uint64_t s = 0; s < kSectors; ++s) {
