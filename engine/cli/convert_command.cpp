@@ -74,8 +74,9 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
 
 /// Says what the new file does not have, or not as the mesh had it.
 void tell_left_out(const ConvertJob& job, const Extras& extras) {
-  if (extras.is_curved())
+  if (extras.is_curved()) {
     std::cout << "each curved tet is written as eight of its parts" << std::endl;
+  }
   const std::string why = io::why_no_values(job.to);
   if (extras.values().empty() || why.empty() || job.extras.materials) return;
   std::cout << "left out: values " << joined(extras.values(), ", ") << "; " << why << std::endl;

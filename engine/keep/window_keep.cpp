@@ -47,8 +47,8 @@ WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
       options_(options),
       keys_(table),
       folder_(opened(options, settings)),
-      kept_(*folder_, layout, limits),
       room_(budget.reserve(Purpose::kIndex, index_bytes_of(layout))),
+      kept_(*folder_, layout, limits),
       versions_(layout.slots()) {
   facts_.marches.resize(layout.marches());
   kept_.take_over_parts();

@@ -113,8 +113,8 @@ class WindowKeep : public BlockKeeper {
   KeepOptions options_;
   LabelKeys keys_;
   std::shared_ptr<KeepFolder> folder_;
-  KeptFacts kept_;
   MemoryBudget::Reservation room_;
+  KeptFacts kept_;
   std::optional<LabelDigests> digests_;
   io::ContentDigest scope_;            ///< of what is settled for the run
   std::vector<KeptVersion> versions_;  ///< by slot: those that are there now
