@@ -7,7 +7,6 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
-#include "engine/cli/own_output.h"
 #include "engine/settings/material_text.h"
 #include "io/mesh/no_sink.h"
 #include "io/mesh/open_mesh.h"
@@ -23,7 +22,6 @@ struct ConvertJob {
   io::Element element = io::Element::kTet4;
   std::uint64_t pieces = 0;  ///< 0: not asked for
   io::MeshExtras extras;
-  bool force = false;
 };
 
 /// Remembers what a mesh has that not every file can have.
@@ -84,7 +82,6 @@ void tell_left_out(const ConvertJob& job, const Extras& extras) {
 
 int run_convert(const ConvertJob& job) {
   require_other_files(job);
-  if (!job.force) require_own_output(job.to);
   const std::unique_ptr<io::MeshSink> sink = open_output(job);
   Extras extras;
   io::TeeSink both(*sink, extras);
@@ -136,12 +133,6 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .help = "nodes of --periodic faces: .csv, or equations in .inp",
                .group = kOutputGroup,
                .assign = into(job.extras.pairs)});
-  options.add({.name = "force",
-               .help = "replaces an OUT that is no mesh of this program",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .assign = into(job.force)});
   options.add({.name = "pieces",
                .value = "N",
                .help = "a .pvtu and N .vtu beside it; vertices have GlobalNodeIds",

@@ -7,7 +7,6 @@
 
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
-#include "engine/cli/own_output.h"
 #include "engine/codt/worker_pool.h"
 #include "engine/sample/sample_text.h"
 #include "engine/settings/material_text.h"

@@ -48,4 +48,8 @@ void check_mesh_request(MeshRequest& request);
 /// ERRORS: mw::Error(kUsage) naming flag and path.
 void require_paths_apart(const MeshRequest& request);
 
+/// Checks that a file that is to be replaced is empty or was written by this program.
+/// ERRORS: mw::Error(kUsage) naming --force.
+void require_own_output(const std::filesystem::path& output);
+
 }  // namespace mw::cli

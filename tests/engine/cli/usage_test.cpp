@@ -208,14 +208,9 @@ TEST_F(UsageTest, EndsWith130AndCleanWhenInterrupted) {
                  "interrupted", "timeout --foreground --preserve-status -s INT 1");
 }
 
-TEST_F(UsageTest, ConvertReplacesNoFileOfOthers) {
+TEST_F(UsageTest, ConvertWritesTwoFilesUnderTwoNames) {
   expect_done("synth spheres --shape 8,8,8 --labels 2 --seed 1 -o v.npy");
   expect_done("mesh v.npy -o v.vtu --periodic x");
-  write("notes.msh", "what somebody wrote");
-  expect_failure(2, "convert v.vtu notes.msh", "no mesh of mwmesh; --force replaces it");
-  EXPECT_EQ(read("notes.msh"), "what somebody wrote");
-  expect_done("convert v.vtu notes.msh --force");
-  expect_done("convert v.vtu notes.msh");
   expect_failure(2, "convert v.vtu z.inp --pairs z.inp", "this is the mesh to write");
 }
 
