@@ -101,9 +101,6 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
   if (options.resume && options.workdir.empty()) {
     throw Error(ErrorKind::kUsage, "--resume: needs the --workdir of the run that ended early");
   }
-  if (options.keep.empty() && options.keep_bytes > 0) {
-    throw Error(ErrorKind::kUsage, "--keep-bytes: is the size of a folder, give --keep as well");
-  }
   if (options.keep.empty() && (options.from_kept || !options.changed.empty())) {
     throw Error(ErrorKind::kUsage, "--from: needs the folder that a run has kept something in");
   }

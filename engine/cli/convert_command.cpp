@@ -25,7 +25,7 @@ struct ConvertJob {
 };
 
 /// Remembers what a mesh has that not every file can have.
-class Extras : public io::NoSink {
+class SourceFacts : public io::NoSink {
  public:
   void begin(const io::MeshHeader& header) override {
     values_ = header.values;
@@ -71,22 +71,22 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
 }
 
 /// Says what the new file does not have, or not as the mesh had it.
-void tell_left_out(const ConvertJob& job, const Extras& extras) {
-  if (extras.is_curved()) {
+void tell_left_out(const ConvertJob& job, const SourceFacts& source) {
+  if (source.is_curved()) {
     std::cout << "each curved tet is written as eight of its parts" << std::endl;
   }
   const std::string why = io::why_no_values(job.to);
-  if (extras.values().empty() || why.empty() || job.extras.materials) return;
-  std::cout << "left out: values " << joined(extras.values(), ", ") << "; " << why << std::endl;
+  if (source.values().empty() || why.empty() || job.extras.materials) return;
+  std::cout << "left out: values " << joined(source.values(), ", ") << "; " << why << std::endl;
 }
 
 int run_convert(const ConvertJob& job) {
   require_other_files(job);
   const std::unique_ptr<io::MeshSink> sink = open_output(job);
-  Extras extras;
-  io::TeeSink both(*sink, extras);
+  SourceFacts source;
+  io::TeeSink both(*sink, source);
   io::copy_mesh(job.from, both);
-  tell_left_out(job, extras);
+  tell_left_out(job, source);
   return kExitDone;
 }
 

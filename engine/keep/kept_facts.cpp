@@ -55,13 +55,17 @@ void KeptFacts::replay() {
     record_at_[checked(bytes).window] = at + 1;
     ++records_;
   });
-  for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
-    const std::optional<WindowRecord> record = of(window);
-    if (!record) continue;
+  each([&](const WindowRecord& record) {
     ++live_;
-    run_ = std::max(run_, record->run + 1);
-    dropped_[window] = record->is_dropped;
-    if (record->extent.size > 0 && !bytes_.take(record->extent)) fail_overlapping();
+    run_ = std::max(run_, record.run + 1);
+    dropped_[record.window] = record.is_dropped;
+    if (record.extent.size > 0 && !bytes_.take(record.extent)) fail_overlapping();
+  });
+}
+
+void KeptFacts::each(const std::function<void(const WindowRecord& record)>& use) const {
+  for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
+    if (const std::optional<WindowRecord> record = of(window)) use(*record);
   }
 }
 
@@ -171,25 +175,24 @@ void KeptFacts::take_over(const std::filesystem::path& part, std::vector<std::ui
 void KeptFacts::shrink_to(std::uint64_t folder_bytes) {
   const std::lock_guard turn(saving_);
   write_group();
-  bool is_less = true;
-  while (is_less) {
+  bool again = true;
+  while (again) {
     bytes_.trim();
     move_down();
     compact_log();
     bytes_.trim();
     const std::uint64_t taken = folder_.bytes();
-    is_less = taken > folder_bytes && drop(taken - folder_bytes);
+    again = taken > folder_bytes && drop(taken - folder_bytes);
   }
 }
 
 /// Gives up at least that many bytes, or all that may go.  Returns false if there are none.
 bool KeptFacts::drop(std::uint64_t bytes) {
   std::vector<KeptBytes> kept;
-  for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
-    const auto record = of(window);
-    if (!record || record->extent.size == 0) continue;
-    kept.push_back({window, record->run, sectors_of(record->extent)});
-  }
+  each([&](const WindowRecord& record) {
+    if (record.extent.size == 0) return;
+    kept.push_back({record.window, record.run, sectors_of(record.extent)});
+  });
   std::uint64_t given_up = 0;
   for (const KeptBytes& next : drop_order(layout_, std::move(kept), run_)) {
     if (given_up >= bytes) break;
@@ -209,10 +212,9 @@ bool KeptFacts::drop(std::uint64_t bytes) {
 /// Moves bytes from the end of the file into gaps before them.
 void KeptFacts::move_down() {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> places;  // offset, window
-  for (std::uint64_t window = 0; window < record_at_.size(); ++window) {
-    const auto record = of(window);
-    if (record && record->extent.size > 0) places.emplace_back(record->extent.offset, window);
-  }
+  each([&](const WindowRecord& record) {
+    if (record.extent.size > 0) places.emplace_back(record.extent.offset, record.window);
+  });
   std::sort(places.rbegin(), places.rend());
   for (const auto& [offset, window] : places) {
     const auto old = of(window);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -57,6 +58,8 @@ class KeptFacts {
   using Clock = std::chrono::steady_clock;
 
   void replay();
+  /// Calls use for the record of each window that has one, windows ascending.
+  void each(const std::function<void(const WindowRecord& record)>& use) const;
   /// ERRORS: DamagedWork.
   [[nodiscard]] WindowRecord checked(std::span<const std::byte> bytes) const;
   void put(const WindowRecord& record, const std::optional<WindowRecord>& old);

@@ -114,7 +114,10 @@ std::string way_on(const RunHooks& hooks) {
 }
 
 void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
-  if (hooks.keep.folder.empty()) return;
+  if (hooks.keep.folder.empty()) {
+    if (!hooks.keep.bytes) return;
+    throw Error(ErrorKind::kUsage, "keep-bytes: is the size of a folder, name it with keep");
+  }
   if (settings.order != Order::kColour) {
     throw Error(ErrorKind::kUsage,
                 "keep: needs order colour: in raster order an edit changes what all later windows "

@@ -15,6 +15,12 @@ std::uint64_t count(Index3 shape) {
   return static_cast<std::uint64_t>(shape.product());
 }
 
+/// The march that has a number, by the first one of each march.
+std::uint32_t march_of(const std::vector<std::uint64_t>& firsts, std::uint64_t number) {
+  const auto next = std::upper_bound(firsts.begin(), firsts.end(), number);
+  return static_cast<std::uint32_t>(next - firsts.begin() - 1);
+}
+
 }  // namespace
 
 RunLayout::RunLayout(std::vector<WindowGrid> grids, Order order)
@@ -32,10 +38,8 @@ std::uint64_t RunLayout::slot(const BlockKey& key) const {
 
 BlockKey RunLayout::key(std::uint64_t slot) const {
   MW_ASSERT(slot < slots());
-  BlockKey key;
-  while (slot >= first_slot_[key.march + 1]) ++key.march;
-  key.block = index_at(slot - first_slot_[key.march], grids_[key.march].blocks());
-  return key;
+  const std::uint32_t march = march_of(first_slot_, slot);
+  return {march, index_at(slot - first_slot_[march], grids_[march].blocks())};
 }
 
 std::uint64_t RunLayout::window(const WindowKey& key) const {
@@ -44,10 +48,8 @@ std::uint64_t RunLayout::window(const WindowKey& key) const {
 
 WindowKey RunLayout::window_key(std::uint64_t window) const {
   MW_ASSERT(window < windows());
-  WindowKey key;
-  while (window >= first_window_[key.march + 1]) ++key.march;
-  key.window = index_at(window - first_window_[key.march], grids_[key.march].windows());
-  return key;
+  const std::uint32_t march = march_of(first_window_, window);
+  return {march, index_at(window - first_window_[march], grids_[march].windows())};
 }
 
 std::vector<BlockKey> RunLayout::parts(const BlockKey& key) const {

@@ -321,9 +321,6 @@ void settle_keep(MeshRequest& request) {
     throw Error(ErrorKind::kUsage, std::string(keep.changed.empty() ? "--delta" : "--changed") +
                                        ": says what changed since a run, give --from as well");
   }
-  if (keep.bytes && request.keep.empty() && !updates) {
-    throw Error(ErrorKind::kUsage, "--keep-bytes: is the size of a folder, give --keep as well");
-  }
   if (!keep.changed.empty() && !request.volume.object.empty()) {
     throw Error(ErrorKind::kUsage,
                 "--changed: says nothing where --object finds the box anew, leave it out");

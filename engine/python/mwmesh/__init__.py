@@ -68,8 +68,8 @@ def _size_place(volume, key):
 
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
              drop_specks=None, workdir=None, resume=False, keep=None, keep_bytes=None,
-             from_kept=False, changed=(), sample=None, certify="auto", report=True, parts="all", split=(),
-             cohesive=(), open_hinges=False, weld=None):
+             from_kept=False, changed=(), sample=None, certify="auto", report=True, parts="all",
+             split=(), cohesive=(), open_hinges=False, weld=None):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:

@@ -394,8 +394,8 @@ class Mesh:
 
     def to_vtk(self):
         """Returns a vtkUnstructuredGrid of the tets with the cell array "label"; files of
-        :meth:`save` have wedges, too.  Names and colours are the
-        field arrays "label_id", "label_name" and "label_colour", with a row for each label."""
+        :meth:`save` have wedges, too.  Names and colours are the field arrays "label_id",
+        "label_name" and "label_colour", with a row for each label."""
         _package("vtkmodules")
         from vtkmodules.util import numpy_support
         from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray

@@ -113,7 +113,7 @@ class Keep(unittest.TestCase):
         told = self.done("mesh", "v.npy", "-o", "m.vtu", "--from", "k", "--keep-bytes", "1KB",
                          *SETTINGS)
         self.assertIn("have to stay", told.stderr)
-        self.refused(2, "give --keep as well", "mesh", "v.npy", "-o", "m.vtu", "--keep-bytes", "1GB")
+        self.refused(2, "name it with keep", "mesh", "v.npy", "-o", "m.vtu", "--keep-bytes", "1GB")
 
     def test_what_is_not_told_is_not_seen(self):
         """Counter-test: windows that are skipped wrongly give another mesh, which these tests see."""
