@@ -14,7 +14,6 @@ namespace {
 
 constexpr const char* kNone = "none";
 constexpr const char* kInterfaces = "interfaces";
-constexpr const char* kVoxel = "voxel";
 
 std::optional<double> parse_bound(const std::string& text) {
   if (text == kNone) return std::nullopt;
@@ -50,12 +49,6 @@ void add_bounds(OptionSet& options, VerifyRequest& request) {
                .choices = {"labels", kInterfaces},
                .assign = into(request.asked.interfaces,
                               [](const std::string& text) { return text == kInterfaces; })});
-  options.add({.name = "surface",
-               .help = "as the mesh was made; P8 is promised of smooth ones [the run's]",
-               .group = kShapeGroup,
-               .choices = {"smooth", kVoxel},
-               .assign = into(request.asked.smooth,
-                              [](const std::string& text) { return text != kVoxel; })});
 }
 
 }  // namespace

@@ -14,10 +14,9 @@ void check_unpacking(const io::LabelVolume& volume, const ReadingRoom& room) {
   if (unpacked < room.memory / room.shares / kLittle) return;
   const std::uint64_t least = room.shares * (room.beside + unpacked);
   if (least <= room.memory) return;
-  throw Error(
-      ErrorKind::kResource,
-      io::text("a memory budget of ", room.memory,
-               " bytes is too small to unpack a chunk of the volume; ", io::min_memory(least)));
+  throw Error(ErrorKind::kResource,
+              io::text("a memory budget of ", io::size_words(room.memory),
+                       " is too small to unpack a chunk of the volume; ", io::min_memory(least)));
 }
 
 }  // namespace mw::engine

@@ -115,7 +115,6 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
   if (asked.max_distance) bounds.max_distance = *asked.max_distance;
   bounds.quality_floor = asked.quality_floor.value_or(floor_of(bounds));
   bounds.halvings = 0;
-  bounds.smooth = asked.smooth.value_or(bounds.smooth);
   bounds.interfaces = asked.interfaces.value_or(bounds.interfaces && kept.labels.empty());
   if (!out.of_run) {
     out.told = kept.told;
@@ -126,7 +125,6 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
   const io::MeshPromises usual = promises_of({});
   if (asked.max_distance) recorded.max_distance = usual.max_distance;
   if (asked.quality_floor) recorded.quality_floor = usual.quality_floor;
-  if (asked.smooth) recorded.smooth = usual.smooth;
   out.told = less_than_default(recorded);
   const auto add = [&out](const std::string& words) {
     out.told += (out.told.empty() || words.empty() ? "" : ", ") + words;

@@ -16,7 +16,6 @@ namespace mw::engine {
 /// Bounds to check instead of those in the mesh's file; where one is empty, the file's counts.
 struct AskedBounds {
   std::optional<bool> interfaces;
-  std::optional<bool> smooth;
   std::optional<double> quality_floor;
   std::optional<std::optional<double>> max_distance;
   std::optional<std::optional<double>> max_volume_error;

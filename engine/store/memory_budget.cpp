@@ -82,9 +82,8 @@ void MemoryBudget::fail(std::uint64_t bytes) const {
   const auto all = static_cast<std::uint64_t>(sharers_);
   const std::string share =
       sharers_ > 1 ? ", one of " + std::to_string(sharers_) + " shares of --memory," : "";
-  throw Error(ErrorKind::kResource, "a memory budget of " + std::to_string(limit_) + " bytes" +
-                                        share + " is too small; " +
-                                        io::min_memory(all * min_with(bytes)));
+  throw Error(ErrorKind::kResource, "a memory budget of " + io::size_words(limit_) + share +
+                                        " is too small; " + io::min_memory(all * min_with(bytes)));
 }
 
 std::uint64_t MemoryBudget::used() const {

@@ -41,6 +41,14 @@ namespace mw::io {
   return text(bytes / kMebibyte + (bytes % kMebibyte != 0 ? 1 : 0), "MiB");
 }
 
+/// Returns a size for a message: "1000 bytes", "64MiB", "57.6MiB" (rounded down).
+[[nodiscard]] inline std::string size_words(std::uint64_t bytes) {
+  constexpr std::uint64_t kMebibyte = 1 << 20;
+  if (bytes < kMebibyte) return text(bytes, " bytes");
+  const std::uint64_t tenths = bytes % kMebibyte * 10 / kMebibyte;
+  return text(bytes / kMebibyte, tenths > 0 ? text(".", tenths) : "", "MiB");
+}
+
 /// Returns "it takes at least --memory 97MiB", where more may turn out to be needed later.
 [[nodiscard]] inline std::string min_memory(std::uint64_t bytes) {
   return "it takes at least --memory " + mebibytes(bytes);

@@ -214,8 +214,7 @@ def verify_arguments(random, settings):
     if not tells or random.random() < 0.3:
         bound = settings.get("max-distance", "1.5")
         floor = settings.floor()
-        out += [f"--max-distance={bound}", f"--quality-floor={floor}",
-                f"--surface={settings.get('surface', 'smooth')}"]
+        out += [f"--max-distance={bound}", f"--quality-floor={floor}"]
         if not settings.chosen:
             out.append(f"--topology={settings.get('topology', 'labels')}")
     if not tells and not promises_volumes(settings):

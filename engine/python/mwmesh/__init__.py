@@ -231,7 +231,7 @@ def mesh(volume, *, progress=None, **arguments):
         how arrays are indexed: "zyx" (as in .npy, HDF5, Zarr, TIFF), or "xyz" (as in NIfTI; the
         default with an affine and for nibabel images).
     frame, unit, names
-        "ras" or "lps"; "mm", "um" and so on; {label: name}, a list of the names of labels 0, 1, 2
+        "ras" or "lps", or "voxel" to keep nothing but the spacing; "mm", "um" and so on; {label: name}, a list of the names of labels 0, 1, 2
         and so on, or a file of ``mwmesh mesh --names``, which may have colours.  Labels are given
         by number or by name, wherever they are.
     dataset, scale, crop, overlap, values, object, trust_paths, cache

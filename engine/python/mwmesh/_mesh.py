@@ -383,40 +383,72 @@ class Mesh:
         most = 2_000_000
         return _core.picture(self._core, 800, 600) if 0 < len(self.tets) <= most else None
 
+    def _wedge_cells(self):
+        """Returns the rows of wedges, the tet under each, and its interface's number from 1 on."""
+        if '"cohesive"' not in self._core.record:
+            return np.empty((0, 6), np.int64), np.empty(0, np.int64), np.empty(0, np.int64)
+        rows, sides = self.wedges, self.wedge_labels
+        tets = np.flatnonzero(np.isin(self.tets, rows).sum(axis=1) >= 3)
+        facets = np.sort(self.tets[tets][:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]], axis=2)
+        all_facets = np.concatenate([facets.reshape(-1, 3), np.sort(rows[:, :3], axis=1)])
+        place = np.unique(all_facets, axis=0, return_inverse=True)[1].ravel()
+        tet_of = np.empty(place.max(initial=-1) + 1, np.int64)
+        tet_of[place[:4 * len(tets)]] = np.repeat(tets, 4)
+        begins = np.any(sides[1:] != sides[:-1], axis=1)
+        numbers = np.cumsum(np.concatenate([[1], begins]))[:len(rows)]
+        return rows, tet_of[place[4 * len(tets):]], numbers
+
     def to_meshio(self):
         """Returns a meshio.Mesh of the tets with cell data "label"; names are field data
-        {name: [label, 3]}.  Files of :meth:`save` have wedges, too."""
+        {name: [label, 3]}.  Wedges come behind the tets, with cell data "cohesive": the number of
+        their interface, which is 0 for tets.  Their label and values are those of the tet under
+        them."""
         meshio = _package("meshio")
+        rows, under, numbers = self._wedge_cells()
+        cells = [("tetra", self.tets)]
         data = {"label": [self.labels]} | {name: [row] for name, row in self.values.items()}
-        return meshio.Mesh(self.points, [("tetra", self.tets)], cell_data=data,
+        if len(rows) > 0:
+            cells.append(("wedge", rows))
+            data = {name: [row, row[under]] for name, (row,) in data.items()}
+            data["cohesive"] = [np.zeros(len(self.tets), np.int64), numbers]
+        return meshio.Mesh(self.points, cells, cell_data=data,
                            field_data={name: np.array([label, 3], self.labels.dtype)
                                        for label, name in self.names.items()})
 
     def to_vtk(self):
-        """Returns a vtkUnstructuredGrid of the tets with the cell array "label"; files of
-        :meth:`save` have wedges, too.  Names and colours are the field arrays "label_id",
-        "label_name" and "label_colour", with a row for each label."""
+        """Returns a vtkUnstructuredGrid of the tets with the cell array "label".  Wedges come behind
+        the tets as in files, with the cell array "cohesive": the number of their interface, which
+        is 0 for tets.  Names and colours are the field arrays "label_id", "label_name" and
+        "label_colour", with a row for each label."""
         _package("vtkmodules")
         from vtkmodules.util import numpy_support
         from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-        from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkUnstructuredGrid
+        from vtkmodules.vtkCommonDataModel import (VTK_TETRA, VTK_WEDGE, vtkCellArray,
+                                                   vtkUnstructuredGrid)
         points = vtkPoints()
         points.SetData(numpy_support.numpy_to_vtk(self.points, deep=True))
+        rows, under, numbers = self._wedge_cells()
+        corners = np.repeat([4, 6], [len(self.tets), len(rows)])
+        # VTK has the normal of a wedge's first triangle point out of it.
+        nodes = np.concatenate([self.tets.ravel(), rows[:, [0, 2, 1, 3, 5, 4]].ravel()])
         cells = vtkCellArray()
         cells.SetData(
             numpy_support.numpy_to_vtkIdTypeArray(
-                np.arange(0, 4 * len(self.tets) + 1, 4, dtype=np.int64), deep=True),
-            numpy_support.numpy_to_vtkIdTypeArray(self.tets.ravel(), deep=True))
+                np.concatenate([[0], np.cumsum(corners)]).astype(np.int64), deep=True),
+            numpy_support.numpy_to_vtkIdTypeArray(nodes, deep=True))
         grid = vtkUnstructuredGrid()
         grid.SetPoints(points)
-        grid.SetCells(VTK_TETRA, cells)
-        labels = numpy_support.numpy_to_vtk(self.labels, deep=True)
-        labels.SetName("label")
-        grid.GetCellData().SetScalars(labels)
-        for name, values in self.values.items():
-            array = numpy_support.numpy_to_vtk(values, deep=True)
+        kinds = np.where(corners == 4, VTK_TETRA, VTK_WEDGE).astype(np.uint8)
+        grid.SetCells(numpy_support.numpy_to_vtk(kinds, deep=True), cells)
+        data = {"label": self.labels} | self.values
+        data = {name: np.concatenate([row, row[under]]) for name, row in data.items()}
+        if len(rows) > 0:
+            data["cohesive"] = np.concatenate([np.zeros(len(self.tets), np.int64), numbers])
+        for name, row in data.items():
+            array = numpy_support.numpy_to_vtk(row, deep=True)
             array.SetName(name)
             grid.GetCellData().AddArray(array)
+        grid.GetCellData().SetActiveScalars("label")
         rows = self._core.names
         if not rows:
             return grid

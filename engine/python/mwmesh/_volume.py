@@ -46,19 +46,27 @@ def _image_unit(image):
     return {"mm": "mm", "meter": "m", "micron": "um"}.get(units()[0], "") if units else ""
 
 
+def _affine_rows(affine):
+    """Returns the first three rows of an affine."""
+    matrix = numbers(affine, "affine", "a matrix of 4 x 4 or 3 x 4", (3, 4), (4, 4))
+    if len(matrix) == 4 and not np.array_equal(matrix[3], [0, 0, 0, 1]):
+        raise UsageError("affine: the last of four rows must be 0, 0, 0, 1")
+    return matrix[:3]
+
+
 def _space(spacing, origin, affine, frame, unit):
-    if affine is not None:
-        if spacing is not None or origin is not None:
-            raise UsageError("affine: spacing and origin follow from it, leave them out")
-        matrix = numbers(affine, "affine", "a matrix of 4 x 4 or 3 x 4", (3, 4), (4, 4))
-        if len(matrix) == 4 and not np.array_equal(matrix[3], [0, 0, 0, 1]):
-            raise UsageError("affine: the last of four rows must be 0, 0, 0, 1")
-        space = _core.space_of_affine(matrix[:3].tolist(), frame or "own")
-    else:
-        space = _core.Space()
-        space.spacing = three(1 if spacing is None else spacing, "spacing")
-        space.origin = three(0 if origin is None else origin, "origin")
-        space.frame = frame or "own"
+    if affine is not None and (spacing is not None or origin is not None):
+        raise UsageError("affine: spacing and origin follow from it, leave them out")
+    if affine is not None and frame == "voxel":
+        spacing = np.linalg.norm(_affine_rows(affine)[:, :3], axis=0)
+    elif affine is not None:
+        space = _core.space_of_affine(_affine_rows(affine).tolist(), frame or "own")
+        space.unit = unit
+        return space
+    space = _core.Space()
+    space.spacing = three(1 if spacing is None else spacing, "spacing")
+    space.origin = three(0 if origin is None else origin, "origin")
+    space.frame = "own" if frame == "voxel" else frame or "own"
     space.unit = unit
     return space
 
@@ -119,11 +127,13 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
             raise UsageError("affine, unit and axes are for arrays: files tell their own")
         return _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap,
                             values, object, trust_paths, cache)
-    for_files = (dataset, scale, crop, overlap, values, object, cache)
-    if any(value is not None for value in for_files) or trust_paths:
-        raise UsageError(
-            "dataset, scale, crop, overlap, values, object, trust_paths and cache are for files: "
-            "slice the array")
+    for_files = {"dataset": dataset, "scale": scale, "crop": crop, "overlap": overlap,
+                 "values": values, "object": object, "trust_paths": trust_paths or None,
+                 "cache": cache}
+    given = [name for name, value in for_files.items() if value is not None]
+    if given:
+        raise UsageError(f"{', '.join(given)}: for files only, and this is an array"
+                         + ("; slice it" if "crop" in given else ""))
     if _is_image(source):
         if spacing is not None or origin is not None:
             raise UsageError("spacing, origin: an image tells where it lies; give affine instead")

@@ -181,7 +181,7 @@ class SameMesh(InFolder):
         turn = np.array([[.6, -.8, 0, 3], [.8, .6, 0, -7.3], [0, 0, 1.1, .4], [0, 0, 0, 1]])
         for affine in (np.diag([.7, .7, 1.1, 1]), np.diag([-.7, .9, 3, 1]), turn):
             nibabel.save(nibabel.Nifti1Image(data, affine), self.path("i.nii"))
-            for frame in (None, "ras", "lps"):
+            for frame in (None, "ras", "lps", "voxel"):
                 made = mwmesh.mesh(nibabel.load(self.path("i.nii")), frame=frame)
                 self.assertEqual(made.digest, mwmesh.mesh(self.path("i.nii"), frame=frame).digest)
         with self.assertRaises(mwmesh.UsageError):
@@ -465,6 +465,40 @@ class Figures(unittest.TestCase):
                 mwmesh.mesh_to_file(labels, folder / "w.bdf", cohesive="*")
             with self.assertRaises(ValueError):
                 mesh.wedges[0] = 0
+
+    @needs("vtkmodules")
+    @needs("meshio")
+    def test_wedges_elsewhere(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        labels = np.ones((8, 8, 12), np.int8)
+        labels[:, :, 4:] = 3
+        labels[:, :, 8:] = 2
+        image = np.arange(labels.size, dtype=np.float64).reshape(labels.shape)
+        np.save(folder / "v.npy", image)
+        mesh = mwmesh.mesh(labels, cohesive="*", sample={"v": folder / "v.npy"})
+        mesh.save(folder / "w.vtu")
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(folder / "w.vtu"))
+        reader.Update()
+        file, grid, other = reader.GetOutput(), mesh.to_vtk(), mesh.to_meshio()
+        points = vtk_to_numpy(file.GetPoints().GetData())
+
+        def cells(array, of_points):
+            nodes, ends = (vtk_to_numpy(a) for a in (array.GetConnectivityArray(),
+                                                     array.GetOffsetsArray()))
+            return sorted(of_points[n].tolist() for n in np.split(nodes, ends[1:-1]) if len(n) == 6)
+
+        self.assertGreater(len(mesh.wedges), 0)
+        self.assertEqual(cells(grid.GetCells(), mesh.points), cells(file.GetCells(), points))
+        np.testing.assert_array_equal(other.cells_dict["wedge"], mesh.wedges)
+        for name in ("label", "v", "cohesive"):
+            made, read = (vtk_to_numpy(g.GetCellData().GetArray(name)) for g in (grid, file))
+            wedges = len(mesh.wedges)
+            self.assertEqual(sorted(made[-wedges:]), sorted(read[-wedges:]), name)
+            np.testing.assert_array_equal(np.concatenate(other.cell_data[name]), made, name)
+        self.assertEqual(vtk_to_numpy(grid.GetCellData().GetScalars())[0], mesh.labels[0])
 
     def test_choices(self):
         mesh = mwmesh.mesh(self.volume, labels=[-1, 2], merge={1: 2}, names={2: "ball"})
@@ -886,10 +920,20 @@ class Errors(InFolder):
         self.check(mwmesh.UsageError, "type", labels.astype(complex))
         self.check(mwmesh.UsageError, "affine", labels, affine=np.eye(4), spacing=1)
         self.check(mwmesh.UsageError, "no label 99", labels, labels=[99])
-        self.check(mwmesh.UsageError, "slice the array", labels, crop=((0, 0, 0), (1, 1, 1)))
+        self.check(mwmesh.UsageError, "crop: for files only, and this is an array; slice it", labels,
+                   crop=((0, 0, 0), (1, 1, 1)))
+        self.check(mwmesh.UsageError, "object, trust_paths: for files", labels, object=1,
+                   trust_paths=True)
+        self.check(mwmesh.ResourceError, "of 1.5MiB is too small", labels, memory=3 << 19)
         self.check(mwmesh.InputError, "shape", labels[:0])
         self.check(mwmesh.InputError, "1.5", np.full((2, 2, 2), 1.5))
         self.check(mwmesh.InputError, "nowhere.npy", self.path("nowhere.npy"))
+
+    def test_sheared_affines_have_a_way_out(self):
+        sheared = np.array([[2, 0.6, 0, 5], [0, 0.8, 0, 6], [0, 0, 3, 7]])
+        self.check(mwmesh.InputError, "give frame voxel", grains(), affine=sheared)
+        self.assertEqual(mwmesh.mesh(grains(), affine=sheared, frame="voxel").digest,
+                         mwmesh.mesh(grains(), axes="xyz", spacing=(2, 1, 3)).digest)
 
     def test_meshes(self):
         mesh = mwmesh.mesh(grains())
